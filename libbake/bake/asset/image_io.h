@@ -1,0 +1,77 @@
+// Images in and out, by OpenImageIO.
+#pragma once
+#include "bake/asset/image.h"
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+/// How a sample is stored in a file.
+enum class SampleType { u8, u16, u32, half, float32, other };
+const char* name(SampleType type) noexcept;
+
+/// What a file says of its picture. Nothing but the header is read to fill it.
+struct ImageInfo {
+    std::string format;                ///< "png", "openexr", "tiff", ...
+    int width = 0, height = 0;         ///< full resolution
+    std::vector<std::string> channels; ///< names in file order
+    SampleType type = SampleType::other;
+    int bits = 0;             ///< bits per sample as stored, 1 to 32
+    bool srgb_tagged = false; ///< the file says its values are sRGB-encoded
+    int alpha_channel = -1;   ///< index in channels, -1 without alpha
+};
+
+/// Limits on what a reader believes of a header before it allocates.
+struct ReadLimits {
+    std::int64_t max_bytes = std::int64_t(16) << 30; ///< decoded size
+};
+
+/// Reads the header. Throws Error{Refusal::unreadable} naming the file and the reason.
+ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {});
+
+/// Reads all channels as data: unsigned integers divided by their largest value, floats as they are; never sRGB-decoded
+/// and never divided by alpha. Data windows are placed in their display window (0 outside).
+/// Throws Error{Refusal::unreadable} for a file that is missing, damaged, cut short or of an unknown format, and
+/// Error{Refusal::unsuitable} for one that is over `limits`.
+Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, const ReadLimits& limits = {});
+
+/// Decodes sRGB colour (IEC 61966-2-1) in place, alpha left alone: for colour textures and skies, never for data.
+void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
+/// The reverse, for pictures that people look at.
+float linear_to_srgb(float linear) noexcept;
+
+/// How samples are stored in a written file.
+enum class Depth { automatic, u8, u16, half, float32 };
+
+struct WriteOptions {
+    Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
+    std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
+    bool compress = true;              ///< lossless; false writes tif and exr uncompressed
+};
+
+/// Depth a file of this name gets. Throws Error{Refusal::usage} for a depth its format cannot hold (half in png, 8 bit in
+/// exr) or an ending other than .png, .exr, .tif, .tiff.
+Depth resolve_depth(const std::string& path, Depth depth);
+
+/// Writes rows from the top down as they come, so that a large picture need never be whole in memory. Integer depths
+/// round [0,1] to the nearest level and clamp; the caller biases signed data first. Atomic: the target appears in finish().
+class ImageWriter {
+public:
+    /// Throws Error{Refusal::unwritable} or Error{Refusal::usage}, as resolve_depth.
+    ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options = {});
+    ~ImageWriter();
+    /// `rows` rows of width * channels floats.
+    void write(const float* values, int rows);
+    void finish();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Writes a whole image atomically. Throws as ImageWriter.
+void write_image(const std::string& path, const Image<float>& image, const WriteOptions& options = {});
+
+} // namespace bake

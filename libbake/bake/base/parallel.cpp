@@ -1,0 +1,39 @@
+#include "bake/base/parallel.h"
+#include "bake/base/progress.h"
+#include <algorithm>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace bake {
+
+struct ThreadLimit::Control {
+    tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+    if (threads > 0)
+        control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+int thread_count() noexcept {
+    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::max(1, static_cast<int>(allowed));
+}
+
+void detail::for_rows(std::int64_t rows, std::int64_t grain, void (*work)(void*, std::int64_t, std::int64_t),
+                      void* context, Progress* progress) {
+    grain = std::max<std::int64_t>(1, grain);
+    const std::int64_t chunks = (rows + grain - 1) / grain;
+    tbb::parallel_for(std::int64_t(0), chunks, [=](std::int64_t chunk) {
+        throw_if_interrupted();
+        const std::int64_t begin = chunk * grain, end = std::min(rows, begin + grain);
+        work(context, begin, end);
+        if (progress) progress->add(end - begin);
+    });
+    throw_if_interrupted();
+}
+
+} // namespace bake

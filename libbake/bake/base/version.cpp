@@ -1,0 +1,5 @@
+#include "bake/base/version.h"
+
+namespace bake {
+const char* version() noexcept { return BAKE_VERSION; }
+} // namespace bake

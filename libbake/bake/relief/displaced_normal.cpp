@@ -1,0 +1,56 @@
+#include "bake/relief/displaced_normal.h"
+
+namespace bake {
+
+std::string_view name(NormalMethod method) noexcept {
+    switch (method) {
+    case NormalMethod::exact: return "exact";
+    case NormalMethod::blinn: return "blinn";
+    case NormalMethod::surface_gradient: return "surface-gradient";
+    case NormalMethod::lecture: return "lecture";
+    }
+    return "";
+}
+
+namespace {
+
+// n x n vanishes, so with b = 0 in p'_u and p'_v this is N + b_u (n x p_v) - b_v (n x p_u).
+template <class T> Vec3<T> cell_normal(const Jet<T>& s, const Height<T>& h, T b) noexcept {
+    const Vec3<T> q_u = s.p_u + h.b_u * s.n + b * s.n_u;
+    const Vec3<T> q_v = s.p_v + h.b_v * s.n + b * s.n_v;
+    return s.sigma * glm::cross(q_u, q_v); // sigma is -1 on mirrored charts, so N' stays outward
+}
+
+// n - grad b, with grad b = sigma (b_u (p_v x n) + b_v (n x p_u)) / J and J = sigma n . (p_u x p_v).
+template <class T> Vec3<T> gradient_normal(const Jet<T>& s, const Height<T>& h) noexcept {
+    const T signed_area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    if (signed_area == T(0)) return Vec3<T>(T(0));
+    const Vec3<T> gradient = (h.b_u * glm::cross(s.p_v, s.n) + h.b_v * glm::cross(s.n, s.p_u)) / signed_area;
+    return s.n - gradient;
+}
+
+// The frame is unit p_u and its perpendicular towards +v: right only where the chart is square and evenly scaled.
+template <class T> Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const LectureScale<T>& scale) noexcept {
+    const Vec3<T> t = unit_or_zero(s.p_u);
+    const Vec3<T> bitangent = s.sigma * glm::cross(s.n, t);
+    return s.n - (h.b_u / scale.u) * t - (h.b_v / scale.v) * bitangent;
+}
+
+} // namespace
+
+template <class T>
+Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
+                         const LectureScale<T>& scale) noexcept {
+    switch (method) {
+    case NormalMethod::exact: return cell_normal(s, h, h.b);
+    case NormalMethod::blinn: return cell_normal(s, h, T(0));
+    case NormalMethod::surface_gradient: return gradient_normal(s, h);
+    case NormalMethod::lecture: return lecture_normal(s, h, scale);
+    }
+    return Vec3<T>(T(0));
+}
+
+template Vec3f displaced_normal(const Jet<float>&, const Height<float>&, NormalMethod, const LectureScale<float>&) noexcept;
+template Vec3d displaced_normal(const Jet<double>&, const Height<double>&, NormalMethod, const LectureScale<double>&) noexcept;
+
+} // namespace bake

@@ -1,0 +1,34 @@
+// What every verb of the command shares. Precompiled: CLI11 is slow to parse.
+#pragma once
+#include "bake/base/error.h"
+#include "bake/base/progress.h"
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace bake {
+
+/// Options that every verb has.
+struct CommonArgs {
+    int threads = 0;    ///< 0: one per core
+    bool quiet = false; ///< no progress, no notes
+    bool json = false;  ///< one JSON object on stdout instead of text
+};
+
+/// A verb adds its options to `sub` and returns what to run after parsing: it returns the exit code.
+using Verb = std::function<int()>(CLI::App& sub, const CommonArgs& common);
+
+Verb bump_table_verb;
+Verb normal_map_verb;
+Verb check_verb;
+Verb render_verb;
+Verb explain_verb;
+
+/// Adds what a verb's --help ends with.
+void add_examples(CLI::App& sub, const std::string& examples);
+/// One line on stderr, unless --quiet: a note that does not stop the run.
+void note(const CommonArgs& common, const std::string& line);
+
+} // namespace bake
