@@ -46,7 +46,8 @@ Vec3f texel_anywhere(const Cube& cube, CubeFace face, int x, int y) noexcept {
     if (!across_s && !across_t) return texel(cube, face, x, y);
     if (across_s != across_t) return texel_across(cube, face, x, y);
     const int x_in = std::clamp(x, 0, n - 1), y_in = std::clamp(y, 0, n - 1);
-    return (texel(cube, face, x_in, y_in) + texel_across(cube, face, x, y_in) + texel_across(cube, face, x_in, y)) / 3.0f;
+    const Vec3f beside = texel_across(cube, face, x, y_in) + texel_across(cube, face, x_in, y);
+    return (texel(cube, face, x_in, y_in) + beside) / 3.0f;
 }
 
 Image<float> read_face(const std::string& file, ColourSpace space) {
@@ -58,8 +59,7 @@ Image<float> read_face(const std::string& file, ColourSpace space) {
     if (source.width() != source.height())
         refuse("is " + std::to_string(source.width()) + "x" + std::to_string(source.height()) +
                "; a face of the sky must be square");
-    if (space == ColourSpace::srgb || (space == ColourSpace::automatic && (info.type == SampleType::u8 || info.srgb_tagged)))
-        srgb_to_linear(source, info.alpha_channel);
+    if (is_srgb(space, info)) srgb_to_linear(source, info.alpha_channel);
     const int n = source.width();
     Image<float> face(n, n, 3);
     for (int y = 0; y < n; ++y)
@@ -75,6 +75,11 @@ Image<float> read_face(const std::string& file, ColourSpace space) {
 }
 
 } // namespace
+
+bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
+    if (space != ColourSpace::automatic) return space == ColourSpace::srgb;
+    return info.type == SampleType::u8 || info.srgb_tagged;
+}
 
 template <class T> CubePoint<T> cube_point(const Vec3<T>& direction) noexcept {
     const Vec3<T> d = defined(direction);

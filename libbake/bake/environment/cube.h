@@ -54,9 +54,11 @@ struct Cube {
 
 /// How the values of a colour picture are stored.
 enum class ColourSpace { automatic, srgb, linear }; ///< automatic: sRGB for 8-bit and sRGB-tagged files
+/// Whether a file read by this rule must be decoded.
+bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept;
 
-/// Reads six files in the order of CubeFace. Throws Error naming the file: unreadable; unsuitable for a face that is not
-/// square, not as large as the first, has fewer than three channels, or holds NaN or Inf.
+/// Reads six files in the order of CubeFace. Throws Error naming the file: unreadable; unsuitable for a face that is
+/// not square, not as large as the first, has fewer than three channels, or holds NaN or Inf.
 Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);
 /// The six names a pattern stands for: `%s` is replaced by px, nx, py, ny, pz, nz. Throws Error{Refusal::usage} when it
 /// does not hold exactly one `%s`.

@@ -18,9 +18,9 @@ template <class T> struct BlinnPhong {
     T shininess = T(32);       ///< 0: the specular term is the same for every direction above the surface
 };
 
-/// The part of a light's radiance that goes to the viewer: diffuse (n.l)+ + specular (n.h)+^shininess, h halfway between
-/// l and v. All three are unit. Zero when the light stands below the surface; a viewer below it (a normal tilted away by
-/// relief) still sees both terms, clamped, never negative.
+/// The part of a light's radiance that goes to the viewer: diffuse (n.l)+ + specular (n.h)+^shininess, h halfway
+/// between l and v. All three are unit. Zero when the light stands below the surface; a viewer below it (a normal
+/// tilted away by relief) still sees both terms, clamped, never negative.
 template <class T>
 Vec3<T> reflected(const BlinnPhong<T>& surface, const Vec3<T>& n, const Vec3<T>& l, const Vec3<T>& v) noexcept;
 

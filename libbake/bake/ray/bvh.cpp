@@ -61,7 +61,8 @@ struct Bvh::Impl {
 
 Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
-    if (!impl_->device) throw Error(Refusal::unsuitable, "Embree cannot start on this processor; it needs SSE2 or NEON");
+    if (!impl_->device)
+        throw Error(Refusal::unsuitable, "Embree cannot start on this processor; it needs SSE2 or NEON");
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
@@ -118,7 +119,7 @@ HitPoint Bvh::point(const Hit& hit) const noexcept {
     HitPoint at;
     at.p = (1 - hit.b1 - hit.b2) * p0 + hit.b1 * p1 + hit.b2 * p2;
     at.normal = Vec3f(unit_or_zero(glm::cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0))));
-    // p is rounded about four times and Embree's plane test about as often, relative to the largest coordinate involved.
+    // p is rounded about four times and Embree's plane test about as often, relative to the largest coordinate.
     at.offset = 0x1p-19f * std::max({largest(p0), largest(p1), largest(p2)});
     return at;
 }
