@@ -1,6 +1,8 @@
 #include "bake/relief/slope_filter.h"
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace bake {
 
@@ -20,7 +22,7 @@ std::string_view name(Filter filter) noexcept {
 namespace {
 
 // The spline system's inverse is the two-sided geometric row (1 / (2 sqrt 3)) z^|k|, z = sqrt 3 - 2; applied to
-// 3 (h[+1] - h[-1]) it gives these taps. 0.268^12 is below a float's last bit; double needs 28.
+// 3 (h[+1] - h[-1]) it gives these taps. double's last bit needs 28 of them; float uses the first 13.
 std::vector<double> spline_taps(int count) {
     const double z = std::sqrt(3.0) - 2, scale = 3 / (2 * std::sqrt(3.0));
     std::vector<double> taps(count);
@@ -28,7 +30,7 @@ std::vector<double> spline_taps(int count) {
     return taps;
 }
 
-constexpr int float_spline_taps = 13, double_spline_taps = 28;
+constexpr int spline_reach = 28;
 
 } // namespace
 
@@ -38,7 +40,7 @@ Stencil stencil(Filter filter) {
     case Filter::scharr: return {{0.5}, 3.0 / 16, 2};
     case Filter::order4: return {{8.0 / 12, -1.0 / 12}, 0, 4};
     case Filter::order6: return {{45.0 / 60, -9.0 / 60, 1.0 / 60}, 0, 6};
-    case Filter::c2: return {spline_taps(double_spline_taps), 0, 3};
+    case Filter::c2: return {spline_taps(spline_reach), 0, 3};
     case Filter::central: return {{0.5}, 0, 2};
     case Filter::automatic: break;
     }
@@ -59,11 +61,37 @@ double Stencil::noise() const noexcept {
     return std::sqrt(sum * (centre * centre + 2 * side * side));
 }
 
+Stencil sharp_stencil() {
+    constexpr int reach = 16;
+    constexpr double beta = 6;
+    std::vector<double> taps(reach);
+    for (int k = 1; k <= reach; ++k) {
+        const double t = double(k) / (reach + 1);
+        const double window = std::cyl_bessel_i(0.0, beta * std::sqrt(1 - t * t)) / std::cyl_bessel_i(0.0, beta);
+        taps[k - 1] = (k % 2 ? 1.0 : -1.0) / k * window;
+    }
+    // A ramp keeps its slope.
+    double slope = 0;
+    for (int k = 1; k <= reach; ++k) slope += 2 * k * taps[k - 1];
+    for (double& tap : taps) tap /= slope;
+    return {taps, 0, 4};
+}
+
+double noise_of_difference(const Stencil& a, const Stencil& b) {
+    double sum = 0;
+    for (int k = 0; k < std::max(a.reach(), b.reach()); ++k) {
+        const double tap_a = k < a.reach() ? a.taps[k] : 0, tap_b = k < b.reach() ? b.taps[k] : 0;
+        const double centre = (1 - 2 * a.side) * tap_a - (1 - 2 * b.side) * tap_b, side = a.side * tap_a - b.side * tap_b;
+        sum += 2 * (centre * centre + 2 * side * side);
+    }
+    return std::sqrt(sum);
+}
+
 template <class T>
-SlopeFilter<T>::SlopeFilter(const Image<T>& image, Filter filter, Wrap wrap_u, Wrap wrap_v)
-    : image_(image), stencil_(stencil(filter)), wrap_u_(wrap_u), reach_(stencil_.reach()),
-      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree) {
-    if (filter == Filter::c2 && sizeof(T) == sizeof(float)) taps_.resize(float_spline_taps);
+SlopeFilter<T>::SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v)
+    : image_(image), stencil_(stencil), wrap_u_(wrap_u), reach_(stencil.reach()),
+      taps_(stencil.taps.begin(), stencil.taps.end()), rows_(image, wrap_v, reach_, stencil.border_degree) {
+    while (std::abs(taps_.back()) < std::numeric_limits<T>::epsilon() / 8) taps_.pop_back();
 }
 
 namespace {
