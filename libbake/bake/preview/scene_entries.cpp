@@ -38,9 +38,10 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
                                       [&] { return read_bump_table(entry.bump_table, entry.bump_scale); });
     if (!entry.normal_map.empty())
-        material->normal_map = cached(
-            cache, (entry.directx ? "directx " : "normal ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
-            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
+        material->normal_map = cached(cache,
+                                      (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) +
+                                          " " + entry.normal_map,
+                                      [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
     return material;
 }
 

@@ -261,7 +261,8 @@ void read_material(const Section& in, SceneEntries& scene) {
     if (read_path(in, "normal", m.normal_map) && !m.bump_table.empty())
         refuse(in, *in.table.get("normal"), "\"bump\" and \"normal\" both say how normals turn; keep one of them");
     using enum NormalEncoding;
-    read_choice<NormalEncoding>(in, "encoding", m.encoding, {{"auto", automatic}, {"unorm", unorm}, {"signed", signed_}});
+    read_choice<NormalEncoding>(in, "encoding", m.encoding,
+                                {{"auto", automatic}, {"unorm", unorm}, {"signed", signed_}});
     read(in, "directx", m.directx);
     scene.materials.push_back(std::move(m));
 }

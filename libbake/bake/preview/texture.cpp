@@ -77,8 +77,8 @@ Texture read_bump_table(const std::string& file, float scale) {
     };
     std::array<int, 2> slopes = {named("b_u"), named("b_v")};
     if (slopes[0] < 0 || slopes[1] < 0) {
-        if (image.channels() < 2) refuse("has one channel, not b_u and b_v; bake a bump table from it if it is a height");
-        if (image.channels() >= 6) refuse("looks like a bumpslopes texture; bake a bump table of two channels, b_u and b_v");
+        if (image.channels() < 2) refuse("has one channel, not b_u and b_v; bake a table if it is a height");
+        if (image.channels() >= 6) refuse("looks like a bumpslopes texture; bake a table of two channels");
         slopes = {0, 1};
     }
     Image<float> table = pick<2>(image, slopes);
