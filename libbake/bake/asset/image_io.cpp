@@ -260,23 +260,26 @@ template <class Level> void quantise(const float* values, Level* levels, std::in
 struct ImageWriter::Impl {
     std::string path;
     OutputFile file;
-    std::unique_ptr<OIIO::ImageOutput> out;
     Depth depth;
-    int width, height, channels;
+    OIIO::ImageSpec spec;
+    std::unique_ptr<OIIO::ImageOutput> out = nullptr;
     int next_row = 0;
-    std::vector<unsigned char> levels; ///< one band of integer samples
+    std::vector<unsigned char> levels = {}; ///< one band of integer samples
 
     [[noreturn]] void fail(const std::string& why) {
         throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, file.temporary()) + "); is the disk full?");
     }
 
     void write_rows(int rows, OIIO::TypeDesc type, const void* values) {
-        if (!out->write_scanlines(next_row, next_row + rows, 0, type, values)) fail(out->geterror());
-        next_row += rows;
+        const int end = next_row + rows;
+        const bool written = spec.tile_width ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
+                                             : out->write_scanlines(next_row, end, 0, type, values);
+        if (!written) fail(out->geterror());
+        next_row = end;
     }
 
     template <class Level> void write_levels(const float* values, int rows, OIIO::TypeDesc type) {
-        const std::int64_t row_size = std::int64_t(width) * channels;
+        const std::int64_t row_size = std::int64_t(spec.width) * spec.nchannels;
         levels.resize(rows * row_size * sizeof(Level));
         Level* to = reinterpret_cast<Level*>(levels.data());
         for_rows(rows, 64, [&](std::int64_t begin, std::int64_t end) {
@@ -289,27 +292,32 @@ struct ImageWriter::Impl {
 ImageWriter::ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options) {
     configure_oiio();
     const Depth depth = resolve_depth(path, options.depth);
-    impl_.reset(new Impl{path, OutputFile(path), nullptr, depth, width, height, channels});
+    impl_.reset(new Impl{path, OutputFile(path), depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))});
     impl_->out = OIIO::ImageOutput::create(path);
     if (!impl_->out) impl_->fail(OIIO::geterror());
 
-    OIIO::ImageSpec spec(width, height, channels, stored_type(depth));
+    OIIO::ImageSpec& spec = impl_->spec;
     spec.channelnames = options.channels.empty() ? default_channels(channels) : options.channels;
     spec.alpha_channel = -1;
     for (int c = 0; c < channels; ++c)
         if (spec.channelnames[c] == "A") spec.alpha_channel = c;
     const std::string format = impl_->out->format_name();
-    if (format == "tiff") spec.attribute("compression", "none");
-    if (format == "openexr") spec.attribute("compression", options.compress ? "zip" : "none");
+    const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
+    if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (options.mips) {
+        if (!impl_->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        spec.tile_width = spec.tile_height = 64;
+        spec.attribute("textureformat", "Plain Texture");
+    }
     if (!impl_->out->open(impl_->file.temporary(), spec)) impl_->fail(impl_->out->geterror());
 }
 
 ImageWriter::~ImageWriter() = default;
 
 void ImageWriter::write(const float* values, int rows) {
-    const std::int64_t row_size = std::int64_t(impl_->width) * impl_->channels;
+    const std::int64_t row_size = std::int64_t(impl_->spec.width) * impl_->spec.nchannels;
     for (int y = 0; y < rows; y += band_rows) {
         throw_if_interrupted();
         const int count = std::min(band_rows, rows - y);
@@ -320,6 +328,14 @@ void ImageWriter::write(const float* values, int rows) {
         default: impl_->write_rows(count, OIIO::TypeDesc::FLOAT, band); break;
         }
     }
+}
+
+void ImageWriter::next_level() {
+    OIIO::ImageSpec& spec = impl_->spec;
+    spec.width = spec.full_width = std::max(1, spec.width / 2);
+    spec.height = spec.full_height = std::max(1, spec.height / 2);
+    impl_->next_row = 0;
+    if (!impl_->out->open(impl_->file.temporary(), spec, OIIO::ImageOutput::AppendMIPLevel)) impl_->fail(impl_->out->geterror());
 }
 
 void ImageWriter::finish() {

@@ -1,6 +1,8 @@
 #include "bake/surface/mesh_surface.h"
 #include "bake/base/parallel.h"
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace bake {
 namespace {
@@ -91,6 +93,40 @@ Facet make_facet(const Mesh& mesh, const Triangle& t, const std::vector<Vec3f>& 
     return f;
 }
 
+/// A triangle's corner at some position. Equal sigma, uv and n mean: the same chart at this vertex.
+struct ChartCorner {
+    float sigma;
+    Vec2f uv;
+    Vec3f n;
+    std::uint32_t triangle, corner;
+};
+
+bool same_chart(const ChartCorner& a, const ChartCorner& b) { return a.sigma == b.sigma && a.uv == b.uv && a.n == b.n; }
+
+/// Gives all corners of one chart at a vertex the mean of their facets' derivatives. Facets count by their area in uv:
+/// that is the mean over the chart around the vertex. Sorting keeps a vertex of a million triangles affordable.
+void average_charts(std::vector<ChartCorner>& corners, const std::vector<Facet>& facets, MeshSurface& s) {
+    const auto key = [](const ChartCorner& c) {
+        return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.triangle, c.corner);
+    };
+    std::sort(corners.begin(), corners.end(), [&](const ChartCorner& a, const ChartCorner& b) { return key(a) < key(b); });
+    for (std::size_t first = 0, last; first < corners.size(); first = last) {
+        Vec3d p_u(0), p_v(0);
+        double area = 0;
+        for (last = first; last < corners.size() && same_chart(corners[first], corners[last]); ++last) {
+            const Facet& facet = facets[corners[last].triangle];
+            const double side = facet.area < 0 ? -1 : 1;
+            p_u += side * facet.p_u_area;
+            p_v += side * facet.p_v_area;
+            area += side * facet.area;
+        }
+        for (std::size_t i = first; i < last; ++i) {
+            s.p_u[corners[i].corner] = Vec3f(p_u / area);
+            s.p_v[corners[i].corner] = Vec3f(p_v / area);
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles) {
@@ -117,32 +153,15 @@ MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
         }
     });
 
-    // One chart at a vertex: same uv, same normal, same orientation. Facets count by their area in uv, which makes the
-    // mean the mean of the derivative over the chart around the vertex.
-    const auto same_chart = [&](std::uint32_t a, std::uint32_t b, float sigma_a, float sigma_b) {
-        return sigma_a == sigma_b && mesh.uvs[mesh.corner_uv[a]] == mesh.uvs[mesh.corner_uv[b]] && s.n[a] == s.n[b];
-    };
     for_rows(std::int64_t(mesh.positions.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<ChartCorner> corners;
         for (auto p = begin; p < end; ++p) {
-            const auto first = around.begin[p], last = around.begin[p + 1];
-            for (auto i = first; i < last; ++i) {
+            corners.clear();
+            for (auto i = around.begin[p]; i < around.begin[p + 1]; ++i) {
                 const std::uint32_t t = around.slots[i] / 3, corner = triangles[t].corner[around.slots[i] % 3];
-                if (facets[t].sigma == 0) continue;
-                Vec3d p_u(0), p_v(0);
-                double area = 0;
-                for (auto j = first; j < last; ++j) {
-                    const std::uint32_t other = around.slots[j] / 3;
-                    if (facets[other].sigma == 0) continue;
-                    const std::uint32_t other_corner = triangles[other].corner[around.slots[j] % 3];
-                    if (!same_chart(corner, other_corner, facets[t].sigma, facets[other].sigma)) continue;
-                    const double side = facets[other].area < 0 ? -1 : 1;
-                    p_u += side * facets[other].p_u_area;
-                    p_v += side * facets[other].p_v_area;
-                    area += side * facets[other].area;
-                }
-                s.p_u[corner] = Vec3f(p_u / area);
-                s.p_v[corner] = Vec3f(p_v / area);
+                if (facets[t].sigma != 0) corners.push_back({facets[t].sigma, mesh.uvs[mesh.corner_uv[corner]], s.n[corner], t, corner});
             }
+            average_charts(corners, facets, s);
         }
     });
     return s;
