@@ -198,6 +198,8 @@ Looks judge(const ImageCheck& check) {
     if (constant) return Looks::constant;
     // Judged in 8-bit levels: a 16-bit file rounds its grey less, not more.
     const double tint = check.info.type == SampleType::u16 ? check.tint / 257 : check.tint;
+    const std::size_t colours = check.channels.size() - (check.info.alpha_channel >= 0);
+    if (colours == 2 || colours > 4) return Looks::data;
     if (check.colour_channels < 3 || tint <= grey_up_to) return Looks::grey;
     const Vec3d n = check.mean_normal;
     const bool upright = std::abs(n.x) < 0.15 && std::abs(n.y) < 0.15 && n.z > 0.1 && check.inward < 0.1;
@@ -213,9 +215,10 @@ const char* name(Looks looks) noexcept {
     case Looks::constant: return "constant";
     case Looks::grey: return "height or mask";
     case Looks::normal_map: return "tangent normal map";
-    case Looks::colour: break;
+    case Looks::colour: return "colour";
+    case Looks::data: break;
     }
-    return "colour";
+    return "data";
 }
 
 ImageCheck check_image(const Image<float>& image, const ImageInfo& info) {

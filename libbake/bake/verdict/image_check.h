@@ -26,7 +26,8 @@ struct Tiling {
 /// A border step up to this ratio is no more visible than the texture itself.
 inline constexpr double tiles_up_to = 1.5;
 
-enum class Looks { constant, grey, normal_map, colour };
+/// data: two channels, or more than four.
+enum class Looks { constant, grey, normal_map, colour, data };
 const char* name(Looks looks) noexcept;
 
 struct ImageCheck {
