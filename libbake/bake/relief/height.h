@@ -27,10 +27,6 @@ HeightTexture read_height(const std::string& path, Grey grey = Grey::mean, const
 /// 1 - value everywhere: for textures whose black is high.
 void invert(HeightTexture& height);
 
-/// Removes the terraces of few-level heights: smooths along the gradient-free runs while every value stays within half
-/// a step of where it was. The method and its measured error are in docs/bump-table.md. Does nothing to float heights.
-void dequantise(HeightTexture& height, Wrap wrap_u, Wrap wrap_v);
-
 /// The height box-filtered by whole factors to at least width x height: what a smaller map can show without aliasing.
 Image<float> box_minify(const Image<float>& values, int width, int height);
 
