@@ -37,7 +37,8 @@ inline Mesh grid_mesh(int columns, int rows, const std::function<void(float, flo
 inline Mesh sphere_mesh(int columns = 64, int rows = 32) {
     return grid_mesh(columns, rows, [](float u, float v, Vec3f& p, Vec3f& n) {
         const float east = 2 * pi_f * u, north = pi_f * (v - 0.5f);
-        p = n = Vec3f(std::cos(north) * std::sin(east), std::sin(north), std::cos(north) * std::cos(east));
+        const float ring = v > 0 && v < 1 ? std::cos(north) : 0; // the poles are points
+        p = n = Vec3f(ring * std::sin(east), std::sin(north), ring * std::cos(east));
     });
 }
 
