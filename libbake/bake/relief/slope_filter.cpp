@@ -62,18 +62,14 @@ double Stencil::noise() const noexcept {
 }
 
 Stencil sharp_stencil() {
-    constexpr int reach = 16;
-    constexpr double beta = 6;
+    // (-1)^(k+1) / k, the sinc's derivative, times K!^2 / ((K-k)! (K+k)!), which makes the response flat at w = 0.
+    constexpr int reach = 24;
     std::vector<double> taps(reach);
+    double share = 1;
     for (int k = 1; k <= reach; ++k) {
-        const double t = double(k) / (reach + 1);
-        const double window = std::cyl_bessel_i(0.0, beta * std::sqrt(1 - t * t)) / std::cyl_bessel_i(0.0, beta);
-        taps[k - 1] = (k % 2 ? 1.0 : -1.0) / k * window;
+        share *= double(reach - k + 1) / double(reach + k);
+        taps[k - 1] = (k % 2 ? share : -share) / k;
     }
-    // A ramp keeps its slope.
-    double slope = 0;
-    for (int k = 1; k <= reach; ++k) slope += 2 * k * taps[k - 1];
-    for (double& tap : taps) tap /= slope;
     return {taps, 0, 4};
 }
 
