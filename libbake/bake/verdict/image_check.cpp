@@ -285,7 +285,9 @@ ImageCheck check_image(const Image<float>& image, const ImageInfo& info) {
         Sums all;
         for (std::size_t i = std::size_t(c); i < sums.size(); i += channels) all.add(sums[i]);
         ChannelCheck channel;
-        channel.name = std::size_t(c) < info.channels.size() ? info.channels[c] : "channel" + std::to_string(c);
+        channel.name = std::size_t(c) < info.channels.size() ? info.channels[c] : std::to_string(c);
+        for (char& letter : channel.name)
+            if (letter < ' ' || letter > '~') letter = '?';
         channel.nan = all.nan;
         channel.inf = all.inf;
         if (all.count > 0) {

@@ -77,6 +77,10 @@ constexpr int few_levels = 100; // below it terraces show at any amplitude worth
 
 std::size_t share_of(double part, int width, int height) { return std::size_t(part * width * height + 0.5); }
 
+bool printable(const std::string& name) {
+    return std::all_of(name.begin(), name.end(), [](char ch) { return ch >= ' ' && ch <= '~'; });
+}
+
 bool is_lossy(const ImageCheck& c) { return c.info.format == "jpeg"; }
 
 } // namespace
@@ -103,6 +107,8 @@ Findings judge(const MeshReport& report) {
 Findings judge(const ImageReport& report) {
     Findings out;
     const ImageCheck& c = report.check;
+    for (const std::string& channel : c.info.channels)
+        if (!printable(channel)) out.warnings.push_back("a channel has a name that cannot be printed: the file is damaged");
     for (const ChannelCheck& channel : c.channels) {
         add_if(out.warnings, channel.nan, "NaN", "in channel " + channel.name);
         add_if(out.warnings, channel.inf, "infinite value", "in channel " + channel.name);
