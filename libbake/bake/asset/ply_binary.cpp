@@ -111,7 +111,7 @@ std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool sw
     });
 }
 
-constexpr std::int64_t grain = 8192;
+constexpr std::size_t grain = 8192; // rows of a block
 
 const char* read_vertices(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
                           const PlyLayout& layout, const std::string& path, Mesh& mesh) {
@@ -119,13 +119,17 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
     mesh.positions.resize(count);
     if (layout.columns[3] >= 0) mesh.normals.resize(count);
     if (layout.columns[6] >= 0) mesh.uvs.resize(count);
+    std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
+        std::size_t& bad = first_bad[first / grain];
         for (std::size_t c = 0; c < layout.columns.size(); ++c) {
             if (layout.columns[c] < 0) continue;
             const auto property = static_cast<std::size_t>(layout.columns[c]);
             PlyColumn out = column_of(mesh, c);
             out.first += first * out.stride;
             read_column(address(property), shape.tail, rows, element.properties[property].type, shape.swap, out);
+            for (std::size_t i = 0; i < rows; ++i)
+                if (!std::isfinite(out.first[i * out.stride])) bad = std::min(bad, first + i);
         }
     };
     if (shape.lists.empty()) { // all there, as the caller has seen
@@ -148,14 +152,10 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
             });
         }
     }
-    for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-        if (layout.columns[c] < 0) continue;
-        const PlyColumn column = column_of(mesh, c);
-        for (std::size_t row = 0; row < count; ++row)
-            if (!std::isfinite(column.first[row * column.stride]))
-                refuse(path, "vertex " + std::to_string(row) + " (of 0 to " + std::to_string(count - 1) +
-                                 ") has a value that is not a finite 32-bit number");
-    }
+    const std::size_t bad = *std::min_element(first_bad.begin(), first_bad.end());
+    if (bad < count)
+        refuse(path, "vertex " + std::to_string(bad) + " (of 0 to " + std::to_string(count - 1) +
+                         ") has a value that is not a finite 32-bit number");
     return p;
 }
 
@@ -224,7 +224,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
     if (layout.texcoord >= 0) body.texcoord.resize(corners);
 
     for_rows(static_cast<std::int64_t>(faces), grain, [&](std::int64_t begin, std::int64_t last) {
-        Block& block = blocks[static_cast<std::size_t>(begin / grain)];
+        Block& block = blocks[static_cast<std::size_t>(begin) / grain];
         const char* row = block.begin;
         std::size_t corner = block.corner;
         for (std::int64_t f = begin; f < last && block.fault.empty(); ++f) {

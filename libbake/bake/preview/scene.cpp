@@ -85,11 +85,19 @@ Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept {
         camera.target = box.min + Vec3f(0, 0, 1);
         return camera;
     }
-    const double half_vertical = 0.5 * fov_deg * (3.14159265358979323846 / 180.0);
-    const double half = std::min(half_vertical, std::atan(std::tan(half_vertical) * aspect));
     camera.target = 0.5f * box.min + 0.5f * box.max;
     const Vec3d from = unit_or_zero(Vec3d(0.45, 0.35, 1.0));
-    camera.position = Vec3f(Vec3d(camera.target) + from * (radius / std::sin(half)));
+    camera.position = camera.target + Vec3f(from * radius);
+    const CameraFrame frame = camera_frame(camera);
+    double distance = 0; // at which the corner that needs most just fits
+    for (int i = 0; i < 8; ++i) {
+        const Vec3d corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+        const Vec3d d = corner - Vec3d(camera.target);
+        const double right = glm::dot(d, Vec3d(frame.right)) / aspect, up = glm::dot(d, Vec3d(frame.up));
+        const double side = std::max(std::abs(right), std::abs(up));
+        distance = std::max(distance, side / frame.half_height - glm::dot(d, Vec3d(frame.forward)));
+    }
+    camera.position = Vec3f(Vec3d(camera.target) + from * (1.05 * distance));
     return camera;
 }
 
