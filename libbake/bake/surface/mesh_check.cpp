@@ -137,9 +137,10 @@ std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& ma
 // Chains of edges that are free, that is, joined to no second face that agrees; those with a true boundary edge count.
 std::size_t boundary_loops(const HalfEdges& he, const EdgeTable& table, std::vector<Index> mate, const std::vector<char>& turned) {
     for (Index h = 0; h < he.size(); ++h) {
-        if (mate[h] == no_index) continue;
-        const bool same_way = he.origin[h] == he.origin[mate[h]];
-        if (same_way != (turned[he.face[h]] != turned[he.face[mate[h]]])) mate[mate[h]] = mate[h] = no_index;
+        const Index other = mate[h];
+        if (other == no_index) continue;
+        const bool same_way = he.origin[h] == he.origin[other];
+        if (same_way != (turned[he.face[h]] != turned[he.face[other]])) mate[h] = mate[other] = no_index;
     }
     // With faces turned to agree, the free edge that ends where h begins: round the fan of h's first vertex.
     const auto before = [&](Index h) { return turned[he.face[h]] ? he.next(h) : he.previous(h); };
