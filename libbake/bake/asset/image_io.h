@@ -45,10 +45,14 @@ float linear_to_srgb(float linear) noexcept;
 /// How samples are stored in a written file.
 enum class Depth { automatic, u8, u16, half, float32 };
 
+/// Lossless ones. automatic: none for tif, zip for exr; png is always deflated.
+enum class Compression { automatic, none, zip };
+
 struct WriteOptions {
     Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
     std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
-    bool compress = true;              ///< lossless; false writes tif and exr uncompressed
+    Compression compression = Compression::automatic;
+    bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };
 
 /// Depth a file of this name gets. Throws Error{Refusal::usage} for a depth its format cannot hold (half in png, 8 bit in
@@ -63,7 +67,10 @@ public:
     ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options = {});
     ~ImageWriter();
     /// `rows` rows of width * channels floats.
+    /// With mips, every call but the last of a level writes a multiple of 64 rows.
     void write(const float* values, int rows);
+    /// Ends a level and begins the next, half as wide and high, rounded down, at least 1.
+    void next_level();
     void finish();
 
 private:

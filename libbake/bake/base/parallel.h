@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 namespace bake {
 
@@ -26,6 +27,10 @@ int thread_count() noexcept;
 namespace detail {
 void for_rows(std::int64_t rows, std::int64_t grain, void (*work)(void*, std::int64_t, std::int64_t), void* context,
               Progress* progress);
+void in_order(std::int64_t bands, void (*compute)(void*, std::int64_t, int), void (*consume)(void*, std::int64_t, int),
+              void* compute_context, void* consume_context);
+
+template <class Work> void* context_of(Work& work) { return const_cast<void*>(static_cast<const void*>(std::addressof(work))); }
 }
 
 /// Calls work(begin, end) on chunks of at most `grain` rows that together cover [0, rows) once, on all threads, in any
@@ -36,7 +41,22 @@ void for_rows(std::int64_t rows, std::int64_t grain, Work&& work, Progress* prog
     const auto call = [](void* context, std::int64_t begin, std::int64_t end) {
         (*static_cast<std::remove_reference_t<Work>*>(context))(begin, end);
     };
-    detail::for_rows(rows, grain, call, const_cast<void*>(static_cast<const void*>(std::addressof(work))), progress);
+    detail::for_rows(rows, grain, call, detail::context_of(work), progress);
+}
+
+/// Slots that in_order works with now: as many buffers as its caller needs.
+int slot_count() noexcept;
+
+/// A pipeline over bands: compute(band, slot) on any thread, several bands at a time; consume(band, slot) one at a time
+/// and in the order of the bands, while later bands are being computed. A band keeps its slot, in [0, slot_count()), to
+/// itself until it is consumed. Exceptions and Ctrl-C come out as from for_rows.
+template <class Compute, class Consume> void in_order(std::int64_t bands, Compute&& compute, Consume&& consume) {
+    using C = std::remove_reference_t<Compute>;
+    using S = std::remove_reference_t<Consume>;
+    detail::in_order(
+        bands, [](void* context, std::int64_t band, int slot) { (*static_cast<C*>(context))(band, slot); },
+        [](void* context, std::int64_t band, int slot) { (*static_cast<S*>(context))(band, slot); },
+        detail::context_of(compute), detail::context_of(consume));
 }
 
 } // namespace bake

@@ -1,0 +1,27 @@
+// A whole file in memory.
+#pragma once
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+namespace bake {
+
+/// The bytes of a file and one '\n' after them, so that a scan for the end of a line needs no other bound.
+/// A copy and not a mapping: what another program does to the file meanwhile cannot reach us.
+struct FileBytes {
+    struct Free {
+        void operator()(char* p) const noexcept { std::free(p); }
+    };
+    std::unique_ptr<char[], Free> data; ///< size + 1
+    std::size_t size = 0;
+
+    const char* begin() const noexcept { return data.get(); }
+    const char* end() const noexcept { return data.get() + size; }
+};
+
+/// Reads the regular file `path`, in parallel. Throws Error{Refusal::unreadable} with the system's reason, and
+/// Error{Refusal::unsuitable} when it is larger than the memory of this machine.
+FileBytes read_file(const std::string& path);
+
+} // namespace bake

@@ -1,0 +1,75 @@
+#include "bake/asset/block_writer.h"
+#include "bake/asset/obj.h"
+#include "bake/asset/text_number.h"
+#include <charconv>
+
+namespace bake {
+namespace {
+
+template <class T> void append_number(std::string& out, T value) {
+    char digits[32]; // a float needs at most 15, a 32-bit index 10
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+void append_floats(std::string& out, const char* keyword, const float* values, int count) {
+    out += keyword;
+    for (int i = 0; i < count; ++i) {
+        out += ' ';
+        append_number(out, values[i]);
+    }
+    out += '\n';
+}
+
+void append_index(std::string& out, std::uint32_t index) { append_number(out, std::uint64_t(index) + 1); }
+
+/// A name that reads back: one line, without blanks at its ends or a backslash at its end.
+std::string name_on_a_line(std::string name) {
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < 0x20) c = '_';
+    if (name.empty()) return name;
+    if (is_blank(name.front())) name.front() = '_';
+    if (is_blank(name.back()) || name.back() == '\\') name.back() = '_';
+    return name;
+}
+
+/// The name of a face when it differs from that of the face before.
+void append_change(std::string& out, const char* keyword, const std::vector<std::string>& names,
+                   const std::vector<std::uint32_t>& face_name, std::size_t f) {
+    if (face_name.empty()) return;
+    const std::uint32_t before = f > 0 ? face_name[f - 1] : no_index;
+    if (face_name[f] == before) return;
+    out += keyword;
+    if (face_name[f] != no_index) out += ' ' + names[face_name[f]];
+    out += '\n';
+}
+
+} // namespace
+
+void write_obj(const std::string& path, const Mesh& mesh) {
+    std::vector<std::string> groups = mesh.groups, materials = mesh.materials;
+    for (std::string& name : groups) name = name_on_a_line(name);
+    for (std::string& name : materials) name = name_on_a_line(name);
+
+    BlockWriter out(path);
+    write_rows(out, mesh.positions.size(), [&](std::string& block, std::size_t i) { append_floats(block, "v", &mesh.positions[i].x, 3); });
+    write_rows(out, mesh.uvs.size(), [&](std::string& block, std::size_t i) { append_floats(block, "vt", &mesh.uvs[i].x, 2); });
+    write_rows(out, mesh.normals.size(), [&](std::string& block, std::size_t i) { append_floats(block, "vn", &mesh.normals[i].x, 3); });
+    write_rows(out, mesh.faces(), [&](std::string& block, std::size_t f) {
+        append_change(block, "g", groups, mesh.face_group, f);
+        append_change(block, "usemtl", materials, mesh.face_material, f);
+        block += 'f';
+        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+            const bool uv = !mesh.corner_uv.empty() && mesh.corner_uv[c] != no_index;
+            const bool normal = !mesh.corner_normal.empty() && mesh.corner_normal[c] != no_index;
+            block += ' ';
+            append_index(block, mesh.corner_position[c]);
+            if (uv || normal) block += '/';
+            if (uv) append_index(block, mesh.corner_uv[c]);
+            if (normal) block += '/', append_index(block, mesh.corner_normal[c]);
+        }
+        block += '\n';
+    });
+    out.commit();
+}
+
+} // namespace bake

@@ -1,0 +1,108 @@
+#include "bake/preview/scene.h"
+#include "bake/base/error.h"
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+namespace bake {
+namespace {
+
+glm::dmat3 linear_part(const Placement& placement) {
+    glm::dmat4 m(1);
+    const Vec3d angle = Vec3d(placement.rotate_deg) * (3.14159265358979323846 / 180.0);
+    m = glm::rotate(m, angle.z, Vec3d(0, 0, 1));
+    m = glm::rotate(m, angle.y, Vec3d(0, 1, 0));
+    m = glm::rotate(m, angle.x, Vec3d(1, 0, 0));
+    return glm::dmat3(glm::scale(m, Vec3d(placement.scale)));
+}
+
+Vec3f to_world(const Instance& instance, const Vec3f& p) noexcept { return instance.linear * p + instance.translate; }
+
+} // namespace
+
+void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement) {
+    if (placement.scale.x == 0 || placement.scale.y == 0 || placement.scale.z == 0)
+        throw Error(Refusal::unsuitable, "a mesh scaled by 0 has no surface; give a scale other than 0");
+    if (material.normal_map) add_tangents(shape);
+    const glm::dmat3 linear = linear_part(placement);
+    Instance instance;
+    instance.shape = &shape;
+    instance.material = &material;
+    instance.linear = glm::mat3(linear);
+    // Only the direction counts; scaled to its largest entry so that tiny and huge scales stay in range.
+    glm::dmat3 normals = glm::transpose(glm::inverse(linear));
+    double largest = 0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(normals[i / 3][i % 3]));
+    instance.normals = glm::mat3(normals / largest);
+    instance.translate = placement.translate;
+    scene.instances.push_back(instance);
+}
+
+void build(Scene& scene) {
+    std::vector<std::vector<Vec3f>> positions(scene.instances.size());
+    std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(scene.instances.size());
+    std::vector<BvhMesh> meshes(scene.instances.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Mesh& mesh = instance.shape->mesh;
+        positions[i].reserve(mesh.positions.size());
+        for (const Vec3f& p : mesh.positions) {
+            const Vec3f world = to_world(instance, p);
+            if (!(glm::dot(world * 1e-18f, world * 1e-18f) <= 1))
+                throw Error(Refusal::unsuitable,
+                            "a placed mesh reaches beyond 1e18; give it a smaller scale or translate");
+            positions[i].push_back(world);
+        }
+        for (const Triangle& t : instance.shape->surface.triangles)
+            triangles[i].push_back({mesh.corner_position[t.corner[0]], mesh.corner_position[t.corner[1]],
+                                    mesh.corner_position[t.corner[2]]});
+        meshes[i] = {positions[i], triangles[i]};
+    }
+    scene.bvh.emplace(meshes);
+}
+
+Bounds bounds(const Scene& scene) noexcept {
+    Bounds box;
+    bool first = true;
+    for (const Instance& instance : scene.instances)
+        for (const Vec3f& p : instance.shape->mesh.positions) {
+            const Vec3f world = to_world(instance, p);
+            box.min = first ? world : glm::min(box.min, world);
+            box.max = first ? world : glm::max(box.max, world);
+            first = false;
+        }
+    return box;
+}
+
+Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept {
+    Camera camera;
+    camera.fov_deg = fov_deg;
+    const double radius = 0.5 * diagonal(box);
+    if (!(radius > 0)) {
+        camera.position = box.min;
+        camera.target = box.min + Vec3f(0, 0, 1);
+        return camera;
+    }
+    camera.target = 0.5f * box.min + 0.5f * box.max;
+    const Vec3d from = unit_or_zero(Vec3d(0.45, 0.35, 1.0));
+    camera.position = camera.target + Vec3f(from * radius);
+    const CameraFrame frame = camera_frame(camera);
+    double distance = 0; // at which the corner that needs most just fits
+    for (int i = 0; i < 8; ++i) {
+        const Vec3d corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+        const Vec3d d = corner - Vec3d(camera.target);
+        const double right = glm::dot(d, Vec3d(frame.right)) / aspect, up = glm::dot(d, Vec3d(frame.up));
+        const double side = std::max(std::abs(right), std::abs(up));
+        distance = std::max(distance, side / frame.half_height - glm::dot(d, Vec3d(frame.forward)));
+    }
+    camera.position = Vec3f(Vec3d(camera.target) + from * (1.05 * distance));
+    return camera;
+}
+
+Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept {
+    return sky.cube.empty() ? sky.background : sky.scale * lookup(sky.cube, world_to_cube(direction));
+}
+
+} // namespace bake

@@ -1,0 +1,109 @@
+#include "bake/preview/scene_entries.h"
+#include "bake/asset/mesh_io.h"
+#include "bake/base/error.h"
+#include "bake/base/progress.h"
+#include <map>
+
+namespace bake {
+namespace {
+
+/// Runs `work`; what it refuses is said with the scene file's line in front.
+template <class Work> auto at_line(const SceneEntries& entries, int line, Work&& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + error.what());
+    }
+}
+
+/// Textures by everything that decides what is in memory, so that materials share them.
+using TextureCache = std::map<std::string, Texture>;
+
+template <class Read> Texture cached(TextureCache& cache, const std::string& key, Read&& read) {
+    throw_if_interrupted();
+    Texture& texture = cache[key];
+    if (!texture) texture = read();
+    return texture;
+}
+
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache) {
+    auto material = std::make_unique<Material>();
+    material->name = entry.name;
+    material->bsdf = entry.bsdf;
+    material->reflect = entry.reflect;
+    if (!entry.albedo.empty())
+        material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,
+                                  [&] { return read_albedo(entry.albedo, entry.albedo_space); });
+    if (!entry.bump_table.empty())
+        material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
+                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale); });
+    if (!entry.normal_map.empty())
+        material->normal_map = cached(cache,
+                                      (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) +
+                                          " " + entry.normal_map,
+                                      [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
+    return material;
+}
+
+void load_mesh(const MeshEntry& entry, std::map<std::pair<std::string, bool>, Shape*>& loaded, Scene& scene) {
+    throw_if_interrupted();
+    Shape*& shape = loaded[{entry.file, entry.flat}];
+    if (!shape) {
+        scene.shapes.push_back(make_shape(read_mesh(entry.file), {.flat = entry.flat}));
+        shape = scene.shapes.back().get();
+    }
+    const Material& material = *scene.materials[entry.material + 1];
+    if ((material.albedo || material.bump_table || material.normal_map) && shape->mesh.corner_uv.empty())
+        throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
+                                             material.name + "\" need; unwrap the mesh, or take off the textures");
+    add_instance(scene, *shape, material, entry.placement);
+}
+
+void place_camera(const SceneEntries& entries, Scene& scene) {
+    const Bounds box = bounds(scene);
+    const float aspect = float(entries.settings.width) / float(entries.settings.height);
+    scene.camera = framing_camera(box, entries.fov_deg, aspect);
+    if (entries.camera_position) scene.camera.position = *entries.camera_position;
+    if (entries.camera_target) scene.camera.target = *entries.camera_target;
+    scene.camera.up = entries.camera_up;
+    if (scene.camera.position == scene.camera.target) scene.camera.target.z += 1;
+}
+
+void add_default_light(Scene& scene) {
+    const CameraFrame frame = camera_frame(scene.camera);
+    Light<float> light;
+    light.from = unit_or_zero(frame.up - 0.7f * frame.right - 0.9f * frame.forward);
+    scene.lights.push_back(light);
+}
+
+} // namespace
+
+Scene load(const SceneEntries& entries) {
+    const bool has_sky = !entries.sky.faces[0].empty();
+    if (entries.meshes.empty() && !has_sky)
+        throw Error(Refusal::unsuitable, entries.file + ": has neither mesh nor sky; add a [[mesh]] with a file");
+    Scene scene;
+    scene.settings = entries.settings;
+    scene.lights = entries.lights;
+    scene.ambient = entries.ambient;
+    scene.sky.background = entries.background;
+    scene.sky.scale = entries.sky.scale;
+    if (has_sky)
+        scene.sky.cube =
+            at_line(entries, entries.sky.line, [&] { return read_cube(entries.sky.faces, entries.sky.space); });
+
+    TextureCache textures;
+    scene.materials.push_back(std::make_unique<Material>()); // the plain grey one, material -1
+    for (const MaterialEntry& entry : entries.materials)
+        scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
+    std::map<std::pair<std::string, bool>, Shape*> shapes;
+    for (const MeshEntry& entry : entries.meshes)
+        at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
+
+    place_camera(entries, scene);
+    if (!entries.any_light && !has_sky) add_default_light(scene);
+    build(scene);
+    return scene;
+}
+
+} // namespace bake

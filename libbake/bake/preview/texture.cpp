@@ -1,0 +1,110 @@
+#include "bake/preview/texture.h"
+#include "bake/base/error.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bake {
+namespace {
+
+void require_finite(const Image<float>& image, const std::string& file) {
+    const float* begin = image.data();
+    const float* bad = std::find_if_not(begin, begin + image.size(), [](float v) { return std::isfinite(v); });
+    if (bad == begin + image.size()) return;
+    const std::size_t texel = static_cast<std::size_t>(bad - begin) / image.channels();
+    throw Error(Refusal::unsuitable, file + ": holds NaN or Inf at column " + std::to_string(texel % image.width()) +
+                                         ", row " + std::to_string(texel / image.width()) + "; give it a finite value");
+}
+
+/// The channels named, in that order, as an image of their own.
+template <std::size_t N> Image<float> pick(const Image<float>& source, const std::array<int, N>& channels) {
+    Image<float> picked(source.width(), source.height(), int(N));
+    for (int y = 0; y < source.height(); ++y)
+        for (int x = 0; x < source.width(); ++x)
+            for (std::size_t c = 0; c < N; ++c) picked.at(x, y, int(c)) = source.at(x, y, channels[c]);
+    return picked;
+}
+
+Texture shared(Image<float>&& image) { return std::make_shared<const Image<float>>(std::move(image)); }
+
+int wrap(int i, int n) noexcept { return i < 0 ? i + n : i >= n ? i - n : i; }
+
+/// Where uv falls among the texel centres of an axis of n texels: two neighbours and the way between them.
+struct Span {
+    int low, high;
+    float between;
+};
+
+Span span_of(double u, int n) noexcept {
+    const double repeated = std::isfinite(u) ? u - std::floor(u) : 0.0;
+    const double at = repeated * n - 0.5;
+    const double low = std::floor(at);
+    return {wrap(int(low), n), wrap(int(low) + 1, n), static_cast<float>(at - low)};
+}
+
+template <class Vec> Vec lookup(const Image<float>& image, const Vec2f& uv) noexcept {
+    const Span x = span_of(uv.x, image.width());
+    const Span y = span_of(1.0 - double(uv.y), image.height()); // row 0 is the top, where v = 1
+    const auto texel = [&](int column, int row) {
+        Vec value;
+        for (int c = 0; c < Vec::length(); ++c) value[c] = image.row(row)[std::size_t(column) * Vec::length() + c];
+        return value;
+    };
+    const Vec upper = (1 - x.between) * texel(x.low, y.low) + x.between * texel(x.high, y.low);
+    const Vec lower = (1 - x.between) * texel(x.low, y.high) + x.between * texel(x.high, y.high);
+    return (1 - y.between) * upper + y.between * lower;
+}
+
+} // namespace
+
+Texture read_albedo(const std::string& file, ColourSpace space) {
+    ImageInfo info;
+    Image<float> image = read_image(file, &info);
+    require_finite(image, file);
+    if (is_srgb(space, info)) srgb_to_linear(image, info.alpha_channel);
+    return shared(image.channels() >= 3 ? pick<3>(image, {0, 1, 2}) : pick<3>(image, {0, 0, 0}));
+}
+
+Texture read_bump_table(const std::string& file, float scale) {
+    ImageInfo info;
+    const Image<float> image = read_image(file, &info);
+    const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
+    if (info.type == SampleType::u8 || info.type == SampleType::u16 || info.type == SampleType::u32)
+        refuse("is stored in unsigned integers, which hold no signed slopes; bake the bump table to .exr");
+    const auto named = [&](const char* name) {
+        const auto at = std::find(info.channels.begin(), info.channels.end(), name);
+        return at == info.channels.end() ? -1 : static_cast<int>(at - info.channels.begin());
+    };
+    std::array<int, 2> slopes = {named("b_u"), named("b_v")};
+    if (slopes[0] < 0 || slopes[1] < 0) {
+        if (image.channels() < 2) refuse("has one channel, not b_u and b_v; bake a table if it is a height");
+        if (image.channels() >= 6) refuse("looks like a bumpslopes texture; bake a table of two channels");
+        slopes = {0, 1};
+    }
+    Image<float> table = pick<2>(image, slopes);
+    for (std::size_t i = 0; i < table.size(); ++i) table.data()[i] *= scale;
+    require_finite(table, file);
+    return shared(std::move(table));
+}
+
+Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx) {
+    const Image<float> image = read_image(file);
+    if (image.channels() < 3)
+        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
+                                             " channel(s); a normal map has red, green and blue");
+    Image<float> normals = pick<3>(image, {0, 1, 2});
+    require_finite(normals, file);
+    float* const begin = normals.data();
+    float* const end = begin + normals.size();
+    const bool below_zero = std::any_of(begin, end, [](float v) { return v < 0; });
+    const bool as_it_is = encoding == NormalEncoding::signed_ || (encoding == NormalEncoding::automatic && below_zero);
+    if (!as_it_is) std::for_each(begin, end, [](float& v) { v = 2 * v - 1; });
+    if (directx)
+        for (float* green = begin + 1; green < end; green += 3) *green = -*green;
+    return shared(std::move(normals));
+}
+
+Vec2f lookup2(const Image<float>& image, const Vec2f& uv) noexcept { return lookup<Vec2f>(image, uv); }
+Vec3f lookup3(const Image<float>& image, const Vec2f& uv) noexcept { return lookup<Vec3f>(image, uv); }
+
+} // namespace bake

@@ -1,0 +1,35 @@
+// Textures of the preview: read once, shared by materials, looked up bilinearly with repeat.
+#pragma once
+#include "bake/environment/cube.h"
+#include <memory>
+
+namespace bake {
+
+/// Shared by all materials that name the same file; null: none.
+using Texture = std::shared_ptr<const Image<float>>;
+
+/// How a normal map's values stand for a vector.
+enum class NormalEncoding {
+    automatic, ///< unorm unless some red, green or blue value is below 0
+    unorm,     ///< n = 2 rgb - 1
+    signed_,   ///< n = rgb
+};
+
+/// Colour (three channels, linear); a grey picture gives three equal ones. All readers throw Error naming the file:
+/// unreadable, or unsuitable for what the comment of each says, and for NaN or Inf.
+Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic);
+/// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`; the channels named
+/// b_u and b_v, else the first two. Unsuitable: integer samples, which hold no sign; one channel; six and more, as in
+/// OIIO's bumpslopes, which are in other units.
+Texture read_bump_table(const std::string& file, float scale = 1);
+/// Tangent-space normals, decoded to vectors (three channels), green up unless `directx`. Unsuitable: under three
+/// channels.
+Texture read_normal_map(const std::string& file, NormalEncoding encoding = NormalEncoding::automatic,
+                        bool directx = false);
+
+/// Value at uv (v up), bilinear between texel centres, repeated in both directions. The image has two or three channels.
+/// A uv that is not finite counts as 0.
+Vec2f lookup2(const Image<float>& image, const Vec2f& uv) noexcept;
+Vec3f lookup3(const Image<float>& image, const Vec2f& uv) noexcept;
+
+} // namespace bake

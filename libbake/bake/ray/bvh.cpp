@@ -1,0 +1,137 @@
+#include "bake/ray/bvh.h"
+#include "bake/base/error.h"
+#include <algorithm>
+#include <cmath>
+#include <embree3/rtcore.h>
+#include <vector>
+
+namespace bake {
+namespace {
+
+constexpr float largest_coordinate = 1e18f; // Embree's own bound is 1.8e18, beyond which it stops the process
+
+bool usable(const Vec3f& v) noexcept {
+    // Written so that NaN fails.
+    return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate &&
+           std::abs(v.z) <= largest_coordinate;
+}
+
+float largest(const Vec3f& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// False for a ray that Embree must not see.
+bool to_embree(const Ray& ray, RTCRay& out) noexcept {
+    if (!usable(ray.origin) || !usable(ray.direction)) return false;
+    if (!(largest(ray.direction) > 1 / largest_coordinate)) return false; // its reciprocal would overflow
+    const float t_min = std::max(0.0f, ray.t_min);
+    if (!(ray.t_max >= t_min)) return false; // empty, or NaN
+    out.org_x = ray.origin.x;
+    out.org_y = ray.origin.y;
+    out.org_z = ray.origin.z;
+    out.dir_x = ray.direction.x;
+    out.dir_y = ray.direction.y;
+    out.dir_z = ray.direction.z;
+    out.tnear = t_min;
+    out.tfar = ray.t_max;
+    out.time = 0;
+    out.mask = 0xffffffffu;
+    out.id = 0;
+    out.flags = 0;
+    return true;
+}
+
+} // namespace
+
+struct Bvh::Impl {
+    struct Buffers {
+        std::vector<Vec3f> positions; // one more than used: Embree loads 16 bytes at a time
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+    };
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::vector<Buffers> meshes;
+
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
+    impl_->device = rtcNewDevice(nullptr);
+    if (!impl_->device)
+        throw Error(Refusal::unsuitable, "Embree cannot start on this processor; it needs SSE2 or NEON");
+    impl_->scene = rtcNewScene(impl_->device);
+    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    impl_->meshes.resize(meshes.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        Impl::Buffers& own = impl_->meshes[i];
+        own.positions.assign(meshes[i].positions.begin(), meshes[i].positions.end());
+        own.positions.push_back(Vec3f(0));
+        own.triangles.assign(meshes[i].triangles.begin(), meshes[i].triangles.end());
+        if (own.triangles.empty()) continue;
+        const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, own.positions.data(), 0,
+                                   sizeof(Vec3f), meshes[i].positions.size());
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, own.triangles.data(), 0,
+                                   sizeof(own.triangles[0]), own.triangles.size());
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(impl_->scene);
+    if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+        throw Error(Refusal::unsuitable, "the scene does not fit in memory; use smaller meshes");
+}
+
+Bvh::~Bvh() = default;
+Bvh::Bvh(Bvh&&) noexcept = default;
+Bvh& Bvh::operator=(Bvh&&) noexcept = default;
+
+Hit Bvh::intersect(const Ray& ray) const noexcept {
+    RTCRayHit query;
+    if (!to_embree(ray, query.ray)) return {};
+    query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(impl_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+bool Bvh::occluded(const Ray& ray) const noexcept {
+    RTCRay query;
+    if (!to_embree(ray, query)) return false;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(impl_->scene, &context, &query);
+    return query.tfar < 0; // Embree's sign for "something was met"
+}
+
+HitPoint Bvh::point(const Hit& hit) const noexcept {
+    const Impl::Buffers& mesh = impl_->meshes[hit.mesh];
+    const std::array<std::uint32_t, 3>& corner = mesh.triangles[hit.triangle];
+    const Vec3f p0 = mesh.positions[corner[0]], p1 = mesh.positions[corner[1]], p2 = mesh.positions[corner[2]];
+    HitPoint at;
+    at.p = (1 - hit.b1 - hit.b2) * p0 + hit.b1 * p1 + hit.b2 * p2;
+    at.normal = Vec3f(unit_or_zero(glm::cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0))));
+    // p is rounded about four times and Embree's plane test about as often, relative to the largest coordinate.
+    at.offset = 0x1p-19f * std::max({largest(p0), largest(p1), largest(p2)});
+    return at;
+}
+
+std::size_t Bvh::triangle_count() const noexcept {
+    std::size_t count = 0;
+    for (const Impl::Buffers& mesh : impl_->meshes) count += mesh.triangles.size();
+    return count;
+}
+
+Vec3f leave(const HitPoint& at, const Vec3f& towards) noexcept {
+    return at.p + (glm::dot(at.normal, towards) < 0 ? -at.offset : at.offset) * at.normal;
+}
+
+} // namespace bake

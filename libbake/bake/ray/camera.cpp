@@ -1,0 +1,33 @@
+#include "bake/ray/camera.h"
+#include <cmath>
+
+namespace bake {
+
+CameraFrame camera_frame(const Camera& camera) noexcept {
+    // In double: a camera far from a small target must not shake.
+    const Vec3d forward = unit_or_zero(Vec3d(camera.target) - Vec3d(camera.position));
+    const auto right_of = [&](const Vec3d& up) {
+        const Vec3d right = glm::cross(forward, unit_or_zero(up));
+        return glm::length(right) > 1e-6 ? unit_or_zero(right) : Vec3d(0);
+    };
+    Vec3d right = right_of(Vec3d(camera.up));
+    if (right == Vec3d(0)) right = right_of(Vec3d(0, 0, 1));
+    if (right == Vec3d(0)) right = right_of(Vec3d(1, 0, 0));
+    CameraFrame frame;
+    frame.position = camera.position;
+    frame.forward = Vec3f(forward);
+    frame.right = Vec3f(right);
+    frame.up = Vec3f(glm::cross(right, forward));
+    frame.half_height = static_cast<float>(std::tan(0.5 * camera.fov_deg * (3.14159265358979323846 / 180.0)));
+    return frame;
+}
+
+Ray primary_ray(const CameraFrame& frame, double x, double y, int width, int height) noexcept {
+    const double step = 2.0 * frame.half_height / height; // one pixel at distance 1
+    const double right = (x - 0.5 * width) * step;
+    const double up = (0.5 * height - y) * step; // row 0 is the top
+    const Vec3d direction = Vec3d(frame.forward) + right * Vec3d(frame.right) + up * Vec3d(frame.up);
+    return {frame.position, Vec3f(unit_or_zero(direction))};
+}
+
+} // namespace bake

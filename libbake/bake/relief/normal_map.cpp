@@ -1,0 +1,252 @@
+#include "bake/relief/normal_map.h"
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include "bake/surface/tangent_space.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace bake {
+
+Vec3f encode_normal(const Vec3f& t, bool directx) noexcept {
+    return Vec3f(0.5f * t.x, directx ? -0.5f * t.y : 0.5f * t.y, 0.5f * t.z) + 0.5f;
+}
+
+Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept {
+    const Vec3f t = 2.0f * rgb - 1.0f;
+    return directx ? Vec3f(t.x, -t.y, t.z) : t;
+}
+
+Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept {
+    const Vec3f bitangent = sign * glm::cross(n, tangent);
+    // The inverse of the frame by cofactors; its determinant has the sign of `sign`.
+    const Vec3f t(glm::dot(normal, glm::cross(bitangent, n)), glm::dot(normal, glm::cross(n, tangent)),
+                  glm::dot(normal, glm::cross(tangent, bitangent)));
+    return unit_or_zero(sign * t);
+}
+
+namespace {
+
+constexpr Vec3f flat_normal(0, 0, 1);
+
+bool matches(const Image<float>& values, int width, int height) {
+    return values.width() == width && values.height() == height;
+}
+
+bool shrinks(const Image<float>& values, int width, int height) {
+    return values.width() >= 2 * width || values.height() >= 2 * height;
+}
+
+} // namespace
+
+HeightField::HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width,
+                         int height_texels)
+    : width_(width), map_height_(height_texels), options_(options),
+      minified_(shrinks(height.values, width, height_texels) ? box_minify(height.values, width, height_texels) : Image<float>()),
+      values_(minified_.empty() ? &height.values : &minified_),
+      slopes_(*values_, resolve_filter(filter, height), options.wrap_u, options.wrap_v),
+      spline_(resolve_filter(filter, height) == Filter::c2) {
+    if (matches(*values_, width, height_texels)) return;
+    if (spline_) {
+        value_sampler_.emplace(*values_, Interpolation::c2, options);
+        return;
+    }
+    Image<float> along_u(values_->width(), values_->height(), 1), along_v(values_->width(), values_->height(), 1);
+    const auto scale_u = float(options.amplitude * values_->width()), scale_v = float(options.amplitude * values_->height());
+    for_rows(values_->height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<float> pairs(2 * std::size_t(values_->width()));
+        for (auto y = int(begin); y < int(end); ++y) {
+            slopes_.row(y, scale_u, scale_v, pairs.data(), scratch);
+            for (int x = 0; x < values_->width(); ++x) {
+                along_u.at(x, y) = pairs[2 * x];
+                along_v.at(x, y) = pairs[2 * x + 1];
+            }
+        }
+    });
+    const HeightOptions as_is{.amplitude = 1, .midlevel = 0, .wrap_u = options.wrap_u, .wrap_v = options.wrap_v};
+    value_sampler_.emplace(*values_, Interpolation::catmull_rom, options);
+    u_sampler_.emplace(along_u, Interpolation::catmull_rom, as_is);
+    v_sampler_.emplace(along_v, Interpolation::catmull_rom, as_is);
+}
+
+void HeightField::row(int y, Height<float>* out, SlopeFilter<float>::Scratch& scratch) const {
+    if (!value_sampler_) {
+        // The pairs are written over the tail of the row of triples, ahead of where they are read.
+        float* const pairs = reinterpret_cast<float*>(out) + width_;
+        slopes_.row(y, float(options_.amplitude * width_), float(options_.amplitude * map_height_), pairs, scratch);
+        const float* values = values_->row(y);
+        for (int x = 0; x < width_; ++x) {
+            const float b_u = pairs[2 * x], b_v = pairs[2 * x + 1];
+            out[x] = {float(options_.amplitude) * (values[x] - float(options_.midlevel)), b_u, b_v};
+        }
+        return;
+    }
+    const float v = 1 - (float(y) + 0.5f) / float(map_height_);
+    for (int x = 0; x < width_; ++x) {
+        const float u = (float(x) + 0.5f) / float(width_);
+        out[x] = value_sampler_->at(u, v);
+        if (spline_) continue;
+        out[x].b_u = u_sampler_->at(u, v).b;
+        out[x].b_v = v_sampler_->at(u, v).b;
+    }
+}
+
+Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options, Progress* progress) {
+    Jet<float> plane{};
+    plane.p_u = Vec3f(float(extent.x), 0, 0);
+    plane.p_v = Vec3f(0, float(extent.y), 0);
+    plane.n = flat_normal;
+    const LectureScale<float> scale{float(extent.x), float(extent.y)};
+    Image<float> map(field.width(), field.height(), 3);
+    for_rows(field.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<Height<float>> heights(field.width());
+        for (auto y = int(begin); y < int(end); ++y) {
+            field.row(y, heights.data(), scratch);
+            float* to = map.row(y);
+            for (int x = 0; x < field.width(); ++x, to += 3) {
+                const Vec3f n = unit_or_zero(displaced_normal(plane, heights[x], options.method, scale));
+                const Vec3f rgb = encode_normal(n, options.directx);
+                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+            }
+        }
+    }, progress);
+    return map;
+}
+
+namespace {
+
+/// Mean length of p_u and p_v over the charts, each triangle by its area in uv: the lecture's one constant per axis.
+LectureScale<float> mean_scale(const MeshSurface& s) {
+    double area_sum = 0, u_sum = 0, v_sum = 0;
+    for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+        if (s.sigma[i] == 0) continue;
+        const auto uv = [&](int k) { return Vec2d(s.mesh->uvs[s.mesh->corner_uv[s.triangles[i].corner[k]]]); };
+        const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+        const double area = std::abs(d1.x * d2.y - d2.x * d1.y);
+        area_sum += area;
+        for (const std::uint32_t corner : s.triangles[i].corner) {
+            u_sum += area / 3 * glm::length(Vec3d(s.p_u[corner]));
+            v_sum += area / 3 * glm::length(Vec3d(s.p_v[corner]));
+        }
+    }
+    if (!(u_sum > 0) || !(v_sum > 0)) return {};
+    return {float(u_sum / area_sum), float(v_sum / area_sum)};
+}
+
+/// One texel: the frame of the triangle under it, and N' in it.
+struct Texel {
+    Vec3f t{0};
+    bool folded = false;
+};
+
+Texel bake_texel(const BakeTarget& target, const TexelHit& hit, const Height<float>& h, const NormalMapOptions& options) noexcept {
+    const MeshSurface& s = target.surface;
+    const Jet<float> jet = jet_at(s, hit.triangle, hit.b1, hit.b2);
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, options.method, target.lecture));
+    const bool folded = normal != Vec3f(0) && glm::dot(normal, jet.n) <= 0;
+    if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
+    const auto [c0, c1, c2] = s.triangles[hit.triangle].corner;
+    const float b0 = 1 - hit.b1 - hit.b2;
+    const Vec3f n = b0 * s.n[c0] + hit.b1 * s.n[c1] + hit.b2 * s.n[c2];
+    const auto tangent = [&](std::uint32_t c) { return Vec3f(target.tangents[c]); };
+    return {to_tangent_space(normal, b0 * tangent(c0) + hit.b1 * tangent(c1) + hit.b2 * tangent(c2), n, target.tangents[c0].w), folded};
+}
+
+} // namespace
+
+BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height) {
+    if (mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs; unwrap the mesh first");
+    BakeTarget target;
+    target.surface = make_mesh_surface(mesh);
+    target.tangents = corner_tangents(mesh, target.surface.triangles, target.surface.n);
+    target.raster = uv_raster(mesh, target.surface.triangles, width, height);
+    target.lecture = mean_scale(target.surface);
+    if (target.raster.covered + target.raster.border == 0)
+        throw Error(Refusal::unsuitable, path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
+    return target;
+}
+
+Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                        NormalMapReport& report, Progress* progress) {
+    const int width = field.width(), height = field.height();
+    Image<float> map(width, height, 3);
+    Image<unsigned char> owned(width, height, 1);
+    std::atomic<std::int64_t> degenerate{0}, folded{0};
+    for_rows(height, 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<Height<float>> heights(width);
+        std::int64_t degenerate_here = 0, folded_here = 0;
+        for (auto y = int(begin); y < int(end); ++y) {
+            field.row(y, heights.data(), scratch);
+            const TexelHit* hits = target.raster.hits.row(y);
+            float* to = map.row(y);
+            for (int x = 0; x < width; ++x, to += 3) {
+                Texel texel{flat_normal};
+                const bool hit = hits[x].triangle != no_index;
+                if (hit) texel = bake_texel(target, hits[x], heights[x], options);
+                const bool own = hit && texel.t != Vec3f(0);
+                if (hit && !own) ++degenerate_here, texel.t = flat_normal;
+                folded_here += texel.folded;
+                owned.at(x, y) = own;
+                const Vec3f rgb = encode_normal(texel.t, options.directx);
+                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+            }
+        }
+        degenerate += degenerate_here;
+        folded += folded_here;
+    }, progress);
+    const UvRaster& raster = target.raster;
+    report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
+    report.degenerate = degenerate;
+    report.folded = folded;
+    report.padded = pad_texels(map, owned, options.padding);
+    report.empty = std::int64_t(width) * height - report.covered - report.border + report.degenerate - report.padded;
+    return map;
+}
+
+std::int64_t pad_texels(Image<float>& image, const Image<unsigned char>& owner, int padding) {
+    if (padding <= 0) return 0;
+    const int width = image.width(), height = image.height(), channels = image.channels();
+    // Per texel, the nearest owned texel of its own row within the padding, as an x; -1 where there is none.
+    Image<std::int32_t> nearest(width, height, 1);
+    for_rows(height, 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y) {
+            const unsigned char* own = owner.row(y);
+            std::int32_t* to = nearest.row(y);
+            for (int x = 0, last = -1; x < width; ++x) {
+                if (own[x]) last = x;
+                to[x] = last >= 0 && x - last <= padding ? last : -1;
+            }
+            for (int x = width - 1, next = -1; x >= 0; --x) {
+                if (own[x]) next = x;
+                if (next >= 0 && next - x <= padding && (to[x] < 0 || next - x < x - to[x])) to[x] = next;
+            }
+        }
+    });
+    std::atomic<std::int64_t> filled{0};
+    for_rows(height, 16, [&](std::int64_t begin, std::int64_t end) {
+        std::int64_t filled_here = 0;
+        for (auto y = int(begin); y < int(end); ++y)
+            for (int x = 0; x < width; ++x) {
+                if (owner.at(x, y)) continue;
+                std::int64_t best = std::int64_t(padding) * padding + 1;
+                int from_x = -1, from_y = -1;
+                for (int j = std::max(0, y - padding); j <= std::min(height - 1, y + padding); ++j) {
+                    const int i = nearest.at(x, j);
+                    if (i < 0) continue;
+                    const std::int64_t dx = i - x, dy = j - y, distance = dx * dx + dy * dy;
+                    if (distance < best) best = distance, from_x = i, from_y = j;
+                }
+                if (from_x < 0) continue;
+                // Owned texels are never written here, so reading them is safe on any thread.
+                std::copy_n(&image.at(from_x, from_y), channels, &image.at(x, y));
+                ++filled_here;
+            }
+        filled += filled_here;
+    });
+    return filled;
+}
+
+} // namespace bake

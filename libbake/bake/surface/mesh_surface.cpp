@@ -1,0 +1,208 @@
+#include "bake/surface/mesh_surface.h"
+#include "bake/base/parallel.h"
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace bake {
+namespace {
+
+constexpr std::int64_t grain = 8192;
+
+/// The corners of all triangles, listed by position: slots[begin[p]..begin[p + 1]) are 3 * triangle + k, ascending.
+struct Around {
+    std::vector<std::uint32_t> begin, slots;
+};
+
+Around around_positions(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+    Around around;
+    around.begin.assign(mesh.positions.size() + 1, 0);
+    for (const Triangle& t : triangles)
+        for (const std::uint32_t corner : t.corner) ++around.begin[mesh.corner_position[corner] + 1];
+    for (std::size_t p = 0; p < mesh.positions.size(); ++p) around.begin[p + 1] += around.begin[p];
+    around.slots.resize(triangles.size() * 3);
+    std::vector<std::uint32_t> next(around.begin.begin(), around.begin.end() - 1);
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+        for (std::uint32_t k = 0; k < 3; ++k)
+            around.slots[next[mesh.corner_position[triangles[i].corner[k]]]++] = 3 * i + k;
+    return around;
+}
+
+Vec3d position(const Mesh& mesh, std::uint32_t corner) { return Vec3d(mesh.positions[mesh.corner_position[corner]]); }
+
+/// The facet normal times the angle at corner k, zero for a triangle without area.
+Vec3d angle_weighted_normal(const Mesh& mesh, const Triangle& t, std::uint32_t k) {
+    const Vec3d p = position(mesh, t.corner[k]);
+    const Vec3d a = unit_or_zero(position(mesh, t.corner[(k + 1) % 3]) - p);
+    const Vec3d b = unit_or_zero(position(mesh, t.corner[(k + 2) % 3]) - p);
+    const Vec3d cross = glm::cross(a, b);
+    return unit_or_zero(cross) * std::atan2(glm::length(cross), glm::dot(a, b));
+}
+
+std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles, const Around& around) {
+    std::vector<Vec3f> n(mesh.corners(), Vec3f(0));
+    const auto given = [&](std::uint32_t corner) {
+        const std::uint32_t i = mesh.corner_normal.empty() ? no_index : mesh.corner_normal[corner];
+        return i == no_index ? Vec3f(0) : unit_or_zero(mesh.normals[i]);
+    };
+    for_rows(std::int64_t(mesh.positions.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto p = begin; p < end; ++p) {
+            Vec3d sum(0);
+            for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s)
+                sum += angle_weighted_normal(mesh, triangles[around.slots[s] / 3], around.slots[s] % 3);
+            const Vec3f mean(unit_or_zero(sum));
+            for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s) {
+                const std::uint32_t corner = triangles[around.slots[s] / 3].corner[around.slots[s] % 3];
+                const Vec3f own = given(corner);
+                n[corner] = own != Vec3f(0) ? own : mean;
+            }
+        }
+    });
+    return n;
+}
+
+bool has_uv(const Mesh& mesh, const Triangle& t) {
+    if (mesh.corner_uv.empty()) return false;
+    for (const std::uint32_t corner : t.corner)
+        if (mesh.corner_uv[corner] == no_index) return false;
+    return true;
+}
+
+/// A triangle's own derivatives, times its signed double area in uv, so that none is ever divided by nothing.
+struct Facet {
+    Vec3d p_u_area{0}, p_v_area{0};
+    double area = 0;  ///< signed, doubled, in uv
+    float sigma = 0;
+};
+
+Facet make_facet(const Mesh& mesh, const Triangle& t, const std::vector<Vec3f>& n) {
+    Facet f;
+    if (!has_uv(mesh, t)) return f;
+    const Vec3d p0 = position(mesh, t.corner[0]);
+    const Vec3d e1 = position(mesh, t.corner[1]) - p0, e2 = position(mesh, t.corner[2]) - p0;
+    const auto uv = [&](int k) { return Vec2d(mesh.uvs[mesh.corner_uv[t.corner[k]]]); };
+    const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+    const double area = d1.x * d2.y - d2.x * d1.y;
+    const Vec3d outward(n[t.corner[0]] + n[t.corner[1]] + n[t.corner[2]]);
+    const double side = area * glm::dot(glm::cross(e1, e2), outward);
+    if (!(side < 0 || side > 0)) return f;
+    f.p_u_area = d2.y * e1 - d1.y * e2;
+    f.p_v_area = d1.x * e2 - d2.x * e1;
+    f.area = area;
+    f.sigma = side > 0 ? 1.0f : -1.0f;
+    return f;
+}
+
+/// A triangle's corner at some position. Equal sigma, uv and n mean: the same chart at this vertex.
+struct ChartCorner {
+    float sigma;
+    Vec2f uv;
+    Vec3f n;
+    std::uint32_t triangle, corner;
+};
+
+bool same_chart(const ChartCorner& a, const ChartCorner& b) { return a.sigma == b.sigma && a.uv == b.uv && a.n == b.n; }
+
+/// Gives all corners of one chart at a vertex the mean of their facets' derivatives. Facets count by their area in uv:
+/// that is the mean over the chart around the vertex. Sorting keeps a vertex of a million triangles affordable.
+void average_charts(std::vector<ChartCorner>& corners, const std::vector<Facet>& facets, MeshSurface& s) {
+    const auto key = [](const ChartCorner& c) {
+        return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.triangle, c.corner);
+    };
+    std::sort(corners.begin(), corners.end(), [&](const ChartCorner& a, const ChartCorner& b) { return key(a) < key(b); });
+    for (std::size_t first = 0, last; first < corners.size(); first = last) {
+        Vec3d p_u(0), p_v(0);
+        double area = 0;
+        for (last = first; last < corners.size() && same_chart(corners[first], corners[last]); ++last) {
+            const Facet& facet = facets[corners[last].triangle];
+            const double side = facet.area < 0 ? -1 : 1;
+            p_u += side * facet.p_u_area;
+            p_v += side * facet.p_v_area;
+            area += side * facet.area;
+        }
+        for (std::size_t i = first; i < last; ++i) {
+            s.p_u[corners[i].corner] = Vec3f(p_u / area);
+            s.p_v[corners[i].corner] = Vec3f(p_v / area);
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+    return corner_normals(mesh, triangles, around_positions(mesh, triangles));
+}
+
+MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
+    MeshSurface s;
+    s.mesh = &mesh;
+    s.flat = options.flat;
+    s.triangles = triangulate(mesh);
+    const Around around = around_positions(mesh, s.triangles);
+    s.n = corner_normals(mesh, s.triangles, around);
+    s.p_u.assign(mesh.corners(), Vec3f(0));
+    s.p_v.assign(mesh.corners(), Vec3f(0));
+
+    const std::vector<Triangle>& triangles = s.triangles;
+    std::vector<Facet> facets(triangles.size());
+    s.sigma.resize(triangles.size());
+    for_rows(std::int64_t(triangles.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = begin; i < end; ++i) {
+            facets[i] = make_facet(mesh, triangles[i], s.n);
+            s.sigma[i] = facets[i].sigma;
+        }
+    });
+
+    for_rows(std::int64_t(mesh.positions.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<ChartCorner> corners;
+        for (auto p = begin; p < end; ++p) {
+            corners.clear();
+            for (auto i = around.begin[p]; i < around.begin[p + 1]; ++i) {
+                const std::uint32_t t = around.slots[i] / 3, corner = triangles[t].corner[around.slots[i] % 3];
+                if (facets[t].sigma != 0) corners.push_back({facets[t].sigma, mesh.uvs[mesh.corner_uv[corner]], s.n[corner], t, corner});
+            }
+            average_charts(corners, facets, s);
+        }
+    });
+    return s;
+}
+
+template <class T> Jet<T> jet_at(const MeshSurface& s, std::uint32_t triangle, T b1, T b2) noexcept {
+    Jet<T> jet{};
+    jet.sigma = T(s.sigma[triangle]);
+    if (jet.sigma == T(0)) return jet;
+    const Mesh& mesh = *s.mesh;
+    const auto [c0, c1, c2] = s.triangles[triangle].corner;
+    const T b0 = T(1) - b1 - b2;
+    const auto mix = [&](const auto& a, const auto& b, const auto& c) { return b0 * Vec3<T>(a) + b1 * Vec3<T>(b) + b2 * Vec3<T>(c); };
+    const auto point = [&](std::uint32_t c) { return Vec3<T>(mesh.positions[mesh.corner_position[c]]); };
+    const auto uv = [&](std::uint32_t c) { return Vec2<T>(mesh.uvs[mesh.corner_uv[c]]); };
+    jet.p = mix(point(c0), point(c1), point(c2));
+
+    // Barycentrics along u and v: (b1_u, b2_u) = (d2.y, -d1.y) / area, (b1_v, b2_v) = (-d2.x, d1.x) / area.
+    const Vec2<T> d1 = uv(c1) - uv(c0), d2 = uv(c2) - uv(c0);
+    const T per_area = T(1) / (d1.x * d2.y - d2.x * d1.y);
+    if (s.flat) {
+        const Vec3<T> e1 = point(c1) - point(c0), e2 = point(c2) - point(c0);
+        jet.p_u = (d2.y * e1 - d1.y * e2) * per_area;
+        jet.p_v = (d1.x * e2 - d2.x * e1) * per_area;
+        jet.n = jet.sigma * unit_or_zero(glm::cross(jet.p_u, jet.p_v));
+        return jet;
+    }
+    const Vec3<T> m = mix(s.n[c0], s.n[c1], s.n[c2]);
+    const T length = glm::length(m);
+    if (!(length > T(0))) return Jet<T>{.sigma = 0};
+    jet.n = m / length;
+    const auto across = [&](const Vec3<T>& v) { return v - glm::dot(v, jet.n) * jet.n; };
+    jet.p_u = across(mix(s.p_u[c0], s.p_u[c1], s.p_u[c2]));
+    jet.p_v = across(mix(s.p_v[c0], s.p_v[c1], s.p_v[c2]));
+    const Vec3<T> n1 = Vec3<T>(s.n[c1]) - Vec3<T>(s.n[c0]), n2 = Vec3<T>(s.n[c2]) - Vec3<T>(s.n[c0]);
+    jet.n_u = across((d2.y * n1 - d1.y * n2) * per_area) / length;
+    jet.n_v = across((d1.x * n2 - d2.x * n1) * per_area) / length;
+    return jet;
+}
+
+template Jet<float> jet_at(const MeshSurface&, std::uint32_t, float, float) noexcept;
+template Jet<double> jet_at(const MeshSurface&, std::uint32_t, double, double) noexcept;
+
+} // namespace bake

@@ -1,0 +1,70 @@
+// What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
+#pragma once
+#include "bake/relief/height.h"
+#include "bake/surface/mesh_audit.h"
+#include "bake/surface/mesh_check.h"
+#include "bake/surface/uv_check.h"
+#include "bake/verdict/image_check.h"
+#include "bake/verdict/pair_check.h"
+
+namespace bake {
+
+/// Warnings are what is wrong; notes are worth knowing and right for many uses.
+struct Findings {
+    std::vector<std::string> warnings, notes;
+};
+
+struct InspectOptions {
+    bool audit = false; ///< meshes: self intersections and orientation too, by CGAL, which is slow
+    MeshCheckOptions mesh;
+    UvCheckOptions uv;
+    Grey height_channel = Grey::mean; ///< pairs: the grey of the height
+};
+
+struct MeshReport {
+    std::string file;
+    MeshCheck check;
+    UvCheck uv;
+    bool audited = false;
+    MeshAudit audit;
+    Findings findings;
+};
+
+struct ImageReport {
+    std::string file;
+    ImageCheck check;
+    StepSlope step; ///< of one quantisation step, at amplitude 1 and extent 1 x height / width
+    Findings findings;
+};
+
+struct PairReport {
+    std::string height_file, normal_file;
+    int height_width = 0, height_height = 0, normal_width = 0, normal_height = 0;
+    PairCheck check;
+    Findings findings;
+};
+
+/// Throw as read_mesh, read_image and read_height.
+MeshReport inspect_mesh(const std::string& path, const InspectOptions& options = {});
+ImageReport inspect_image(const std::string& path, const InspectOptions& options = {});
+PairReport inspect_pair(const std::string& height_path, const std::string& normal_path, const InspectOptions& options = {});
+
+/// The findings alone, from measurements already made.
+Findings judge(const MeshReport& report);
+Findings judge(const ImageReport& report);
+Findings judge(const PairReport& report);
+
+/// True for names that end like a mesh, known to read_mesh or not.
+bool named_like_a_mesh(const std::string& path);
+
+/// Aligned lines, each ending in a newline.
+std::string to_text(const MeshReport& report);
+std::string to_text(const ImageReport& report);
+std::string to_text(const PairReport& report);
+
+/// One JSON object.
+std::string to_json(const MeshReport& report);
+std::string to_json(const ImageReport& report);
+std::string to_json(const PairReport& report);
+
+} // namespace bake

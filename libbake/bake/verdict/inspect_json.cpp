@@ -1,0 +1,136 @@
+#include "bake/verdict/inspect.h"
+#include <nlohmann/json.hpp>
+
+namespace bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// File names need not be UTF-8; what is not is replaced, so that the object always parses.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+void add(Json& json, const Findings& findings) {
+    json["notes"] = findings.notes;
+    json["warnings"] = findings.warnings;
+}
+
+Json topology(const Topology& t) {
+    return {{"edges", t.edges},
+            {"boundary_edges", t.boundary_edges},
+            {"boundary_loops", t.boundary_loops},
+            {"nonmanifold_edges", t.nonmanifold_edges},
+            {"nonmanifold_vertices", t.nonmanifold_vertices},
+            {"components", t.components},
+            {"closed_components", t.closed_components},
+            {"inside_out_components", t.inside_out_components},
+            {"flipped_faces", t.flipped_faces},
+            {"unorientable_edges", t.unorientable_edges}};
+}
+
+Json spread(const Spread& s) { return {{"p5", s.p5}, {"median", s.median}, {"p95", s.p95}}; }
+
+Json uvs(const UvCheck& uv) {
+    return {{"triangles", uv.triangles},
+            {"mirrored_triangles", uv.mirrored_triangles},
+            {"degenerate_triangles", uv.degenerate_triangles},
+            {"covered", uv.covered},
+            {"overlap", uv.overlap},
+            {"min", {uv.min.x, uv.min.y}},
+            {"max", {uv.max.x, uv.max.y}},
+            {"udim_tiles", uv.udim_tiles},
+            {"outside_faces", uv.outside_faces},
+            {"crossing_faces", uv.crossing_faces},
+            {"density", spread(uv.density)},
+            {"stretch", spread(uv.stretch)}};
+}
+
+Json channel(const ChannelCheck& c) {
+    return {{"name", c.name}, {"min", c.min}, {"max", c.max}, {"mean", c.mean}, {"nan", c.nan}, {"inf", c.inf},
+            {"levels", c.levels > most_levels ? Json(nullptr) : Json(c.levels)}, {"least_step", c.least_step}};
+}
+
+} // namespace
+
+std::string to_json(const MeshReport& report) {
+    const MeshCheck& c = report.check;
+    Json json = {{"file", report.file}, {"kind", "mesh"}, {"positions", c.positions}, {"faces", c.faces}, {"corners", c.corners}, {"triangles", c.triangles}};
+    Json sizes = Json::object();
+    for (std::size_t n = 3; n < c.faces_of_size.size(); ++n)
+        if (c.faces_of_size[n] > 0) sizes[std::to_string(n) + (n == largest_listed_face ? "+" : "")] = c.faces_of_size[n];
+    json["faces_of_size"] = sizes;
+    json["materials"] = c.materials;
+    json["groups"] = c.groups;
+    json["min"] = {c.box.min.x, c.box.min.y, c.box.min.z};
+    json["max"] = {c.box.max.x, c.box.max.y, c.box.max.z};
+    json["diagonal"] = c.diagonal;
+    json["area"] = c.area;
+    json["topology"] = topology(c.welded);
+    json["topology_as_indexed"] = topology(c.topology);
+    json["coincident_positions"] = c.coincident_positions;
+    json["unused_positions"] = c.unused_positions;
+    json["repeated_corners"] = c.repeated_corners;
+    json["duplicate_faces"] = c.duplicate_faces;
+    json["zero_area_faces"] = c.zero_area_faces;
+    json["faces_without_uv"] = c.faces_without_uv;
+    json["faces_without_normal"] = c.faces_without_normal;
+    json["bad_normals"] = c.bad_normals;
+    json["opposed_normals"] = c.opposed_normals;
+    json["uv"] = report.uv.triangles > 0 ? uvs(report.uv) : Json(nullptr);
+    if (report.audit.available)
+        json["audit"] = {{"self_intersections", report.audit.self_intersections},
+                         {"closed", report.audit.closed},
+                         {"outward", report.audit.outward},
+                         {"volume", report.audit.volume}};
+    add(json, report.findings);
+    return dump(json);
+}
+
+std::string to_json(const ImageReport& report) {
+    const ImageCheck& c = report.check;
+    Json json = {{"file", report.file}, {"kind", "image"}, {"format", c.info.format}, {"width", c.info.width}, {"height", c.info.height},
+                 {"type", name(c.info.type)}, {"bits", c.info.bits}, {"true_bits", c.true_bits}, {"srgb_tagged", c.info.srgb_tagged}};
+    json["channels"] = Json::array();
+    for (const ChannelCheck& own : c.channels) {
+        Json one = channel(own);
+        one["true_bits"] = own.true_bits;
+        json["channels"].push_back(one);
+    }
+    json["grey"] = channel(c.grey);
+    json["looks_like"] = name(c.looks);
+    json["tint"] = {{"max", c.tint}, {"mean", c.mean_tint}};
+    json["tiling"] = {{"x", c.tiling.x}, {"y", c.tiling.y}, {"tiles_x", c.tiling.x <= tiles_up_to}, {"tiles_y", c.tiling.y <= tiles_up_to}};
+    if (c.looks == Looks::grey)
+        json["step"] = {{"height", c.grey_step},
+                        {"slope_per_texel", report.step.per_texel},
+                        {"slope", report.step.slope},
+                        {"angle_deg", report.step.angle_deg},
+                        {"one_degree_amplitude", report.step.one_degree_amplitude}};
+    if (c.looks == Looks::normal_map)
+        json["normals"] = {{"mean_length", c.normal_length}, {"not_unit", c.not_unit}, {"inward", c.inward},
+                           {"mean", {c.mean_normal.x, c.mean_normal.y, c.mean_normal.z}}};
+    add(json, report.findings);
+    return dump(json);
+}
+
+std::string to_json(const PairReport& report) {
+    const PairCheck& c = report.check;
+    Json json = {{"file", report.height_file},
+                 {"normals", report.normal_file},
+                 {"kind", "pair"},
+                 {"height_size", {report.height_width, report.height_height}},
+                 {"normals_size", {report.normal_width, report.normal_height}},
+                 {"compared_size", {c.width, c.height}},
+                 {"correlation", {{"x", c.corr_x}, {"y", c.corr_y}}},
+                 {"scale", c.scale},
+                 {"scale_x", c.scale_x},
+                 {"scale_y", c.scale_y},
+                 {"inverted", c.inverted},
+                 {"green", c.directx ? "directx" : "opengl"},
+                 {"normal_length", c.normal_length},
+                 {"not_unit", c.not_unit},
+                 {"inward", c.inward}};
+    add(json, report.findings);
+    return dump(json);
+}
+
+} // namespace bake

@@ -1,0 +1,60 @@
+#include "bake/ray/camera.h"
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+
+using namespace bake;
+
+namespace {
+
+bool near(const Vec3f& a, const Vec3f& b, float tolerance = 1e-6f) { return glm::length(a - b) <= tolerance; }
+
+Camera looking(const Vec3f& position, const Vec3f& target, float fov_deg = 90) {
+    Camera camera;
+    camera.position = position;
+    camera.target = target;
+    camera.fov_deg = fov_deg;
+    return camera;
+}
+
+} // namespace
+
+TEST_SUITE("unit") {
+
+TEST_CASE("camera: the picture's centre looks at the target, row 0 is the top, x runs to the viewer's right") {
+    const CameraFrame frame = camera_frame(looking({0, 0, 5}, {0, 0, 0}));
+    CHECK(near(primary_ray(frame, 50, 50, 100, 100).direction, {0, 0, -1}));
+    CHECK(primary_ray(frame, 50, 0, 100, 100).direction.y > 0.5f);
+    CHECK(primary_ray(frame, 100, 50, 100, 100).direction.x > 0.5f);
+    // Towards +Z the right-handed world has +X on the left.
+    CHECK(primary_ray(camera_frame(looking({0, 0, -5}, {0, 0, 0})), 100, 50, 100, 100).direction.x < -0.5f);
+}
+
+TEST_CASE("camera: the field of view is the vertical one, pixels are square, directions are unit") {
+    const CameraFrame frame = camera_frame(looking({1, 2, 3}, {4, -2, 9}, 60));
+    const auto degrees = [&](double x0, double y0, double x1, double y1) {
+        const Vec3f a = primary_ray(frame, x0, y0, 200, 100).direction, b = primary_ray(frame, x1, y1, 200, 100).direction;
+        CHECK(glm::length(a) == doctest::Approx(1).epsilon(1e-6));
+        return std::acos(double(glm::dot(a, b))) * 180 / 3.14159265358979;
+    };
+    CHECK(degrees(100, 0, 100, 100) == doctest::Approx(60).epsilon(1e-4));
+    CHECK(degrees(50, 50, 150, 50) == doctest::Approx(60).epsilon(1e-4));
+}
+
+} // TEST_SUITE
+TEST_SUITE("stability") {
+
+TEST_CASE("camera: looking straight along up still gives a picture") {
+    const CameraFrame frame = camera_frame(looking({0, 5, 0}, {0, 0, 0}));
+    CHECK(near(frame.forward, {0, -1, 0}));
+    CHECK(glm::length(frame.right) == doctest::Approx(1));
+    CHECK(glm::length(frame.up) == doctest::Approx(1));
+}
+
+TEST_CASE("camera: without a direction to look in, rays have none") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(primary_ray(camera_frame(looking({1, 1, 1}, {1, 1, 1})), 3, 4, 10, 10).direction == Vec3f(0));
+    CHECK(primary_ray(camera_frame(looking({nan, 1, 1}, {1, 1, 1})), 3, 4, 10, 10).direction == Vec3f(0));
+}
+
+} // TEST_SUITE

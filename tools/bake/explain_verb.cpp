@@ -1,0 +1,42 @@
+#include "bake/asset/mesh_io.h"
+#include "bake/verdict/explain.h"
+#include "normal_map_options.h"
+#include <cstdio>
+
+namespace bake {
+namespace {
+
+struct ExplainArgs {
+    NormalMapArgs map;
+    std::string uv;
+};
+
+int run(const ExplainArgs& args, const CommonArgs& common) {
+    check_usage(args.map);
+    ExplainInput input{.mesh_path = args.map.mesh, .height_path = args.map.height.path};
+    input.uv = parse_pair("--uv", args.uv, false);
+    const auto inside = [](double c) { return c >= 0 && c <= 1; };
+    if (!inside(input.uv.x) || !inside(input.uv.y))
+        throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
+    const HeightTexture height = load_height(args.map.height);
+    const Mesh mesh = read_mesh(args.map.mesh);
+    input.mesh = &mesh;
+    input.height = &height;
+    input.options = resolve_options(args.map, height, mesh);
+    const std::vector<RouteStep> route = explain(input);
+    std::printf("%s%s", (common.json ? to_json(route) : to_text(route)).c_str(), common.json ? "\n" : "");
+    return 0;
+}
+
+} // namespace
+
+std::function<int()> explain_verb(CLI::App& sub, const CommonArgs& common) {
+    const auto args = std::make_shared<ExplainArgs>();
+    sub.add_option("mesh", args->map.mesh, "UV-mapped mesh (.obj, .ply)")->required();
+    sub.add_option("--uv", args->uv, "Where, in the unit square, v up")->required()->type_name("U,V");
+    add_normal_map_options(sub, args->map);
+    add_examples(sub, "  bake explain torus.obj --height bricks.png --amplitude 1% --uv 0.25,0.5\n");
+    return [args, &common] { return run(*args, common); };
+}
+
+} // namespace bake

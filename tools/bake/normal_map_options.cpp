@@ -1,0 +1,64 @@
+#include "normal_map_options.h"
+#include <cmath>
+
+namespace bake {
+
+void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
+    sub.add_option("--height", args.height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required();
+    sub.add_option("--size", args.size, "Texels of the map [those of the height]")->type_name("N|WxH");
+    std::vector<std::pair<std::string, NormalMethod>> methods;
+    for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
+    add_choice(sub, "--method", args.method, methods, "Terms of the displaced normal that are kept");
+    sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]");
+    sub.add_option("--midlevel", args.midlevel, "Value that lies on the surface")->capture_default_str();
+    sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")->type_name("W,H");
+    add_height_options(sub, args.height);
+    add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}}, "tangent: MikkTSpace");
+    sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
+    sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")->check(CLI::Range(0, 4096))->capture_default_str();
+}
+
+void check_usage(const NormalMapArgs& args) {
+    const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
+    if (!args.mesh.empty() && args.amplitude.empty())
+        throw usage("--amplitude: is required with a mesh; give object units, or 1% of the bounding box's diagonal");
+    if (!args.mesh.empty() && !args.extent.empty())
+        throw usage("--extent: a mesh brings its own lengths; leave it out");
+    if (args.mesh.empty() && !args.amplitude.empty() && parse_amplitude(args.amplitude).percent)
+        throw usage("--amplitude " + args.amplitude + ": there is no bounding box without a mesh; give object units");
+    if (args.mesh.empty() && args.space == Space::object)
+        throw usage("--space object: needs a mesh; without one both spaces are the same");
+    if (!args.size.empty()) parse_size(args.size);
+    if (!args.extent.empty()) parse_pair("--extent", args.extent);
+    if (!args.amplitude.empty()) parse_amplitude(args.amplitude);
+    if (!(args.midlevel * 0 == 0)) throw usage("--midlevel: is not a finite number; write 0.5");
+}
+
+NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture& height, const Mesh& mesh) {
+    NormalMapOptions options;
+    options.width = height.values.width(), options.height = height.values.height();
+    if (!args.size.empty()) std::tie(options.width, options.height) = parse_size(args.size);
+    options.method = args.method;
+    options.filter = args.height.filter;
+    options.space = args.space;
+    options.directx = args.directx;
+    options.padding = args.padding;
+    const Amplitude amplitude = args.amplitude.empty() ? Amplitude{} : parse_amplitude(args.amplitude);
+    options.height_options = {.amplitude = amplitude.value * (amplitude.percent ? diagonal(bounds(mesh)) : 1),
+                              .midlevel = args.midlevel, .wrap_u = args.height.wrap_u(), .wrap_v = args.height.wrap_v()};
+    return options;
+}
+
+Vec3f stored(const Vec3f& rgb, Depth depth) noexcept {
+    const auto one = [depth](float value) {
+        switch (depth) {
+        case Depth::u8: return std::floor(value * 255 + 0.5f) / 255;
+        case Depth::u16: return std::floor(value * 65535 + 0.5f) / 65535;
+        case Depth::half: return as_half(value);
+        default: return value;
+        }
+    };
+    return {one(rgb.x), one(rgb.y), one(rgb.z)};
+}
+
+} // namespace bake

@@ -1,0 +1,145 @@
+#include "options.h"
+#include "bake/relief/dequantise.h"
+#include <chrono>
+#include <cstdarg>
+#include <cstdio>
+#include <glm/trigonometric.hpp>
+
+namespace bake {
+
+void add_height_options(CLI::App& sub, HeightArgs& args) {
+    const std::vector<std::pair<std::string, Wrap>> wraps = {
+        {"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}};
+    std::vector<std::pair<std::string, Filter>> filters = {{"auto", Filter::automatic}};
+    for (const Filter filter : all_filters) filters.emplace_back(name(filter), filter);
+    add_choice(sub, "--filter", args.filter, filters,
+               "Derivative filter; auto: sobel for 256 levels or fewer, else c2");
+    add_choice(sub, "--wrap", args.wrap, wraps, "What lies beyond the picture's border");
+    // Per axis: unset until given.
+    const auto per_axis = [&](const char* flag, std::optional<Wrap>& wrap, const char* help) {
+        sub.add_option_function<std::string>(
+               flag, [&wrap, wraps](const std::string& given) {
+                   for (const auto& [known, value] : wraps)
+                       if (known == given) wrap = value;
+               }, help)
+            ->check(CLI::IsMember(std::vector<std::string>{"repeat", "clamp", "mirror"}))
+            ->type_name("repeat|clamp|mirror");
+    };
+    per_axis("--wrap-u", args.along_u, "The same along u alone");
+    per_axis("--wrap-v", args.along_v, "The same along v alone");
+    add_choice<Grey>(sub, "--channel", args.grey,
+                     {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}},
+                     "Which grey of the picture is the height; mean: of the colour channels");
+    sub.add_flag("--invert", args.invert, "Black is high");
+    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within half a level");
+}
+
+HeightTexture load_height(const HeightArgs& args) {
+    HeightTexture height = read_height(args.path, args.grey);
+    if (args.invert) invert(height);
+    if (args.dequantise) dequantise(height, args.wrap_u(), args.wrap_v());
+    return height;
+}
+
+namespace {
+
+Error usage(const std::string& message) { return Error(Refusal::usage, message); }
+
+/// The whole of `text` as a finite number.
+std::optional<double> number(const std::string& text) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+        value = std::stod(text, &used);
+    } catch (const std::logic_error&) {
+        return {};
+    }
+    if (used != text.size() || !(value * 0 == 0)) return {};
+    return value;
+}
+
+} // namespace
+
+Amplitude parse_amplitude(const std::string& text) {
+    Amplitude amplitude;
+    amplitude.percent = !text.empty() && text.back() == '%';
+    const auto value = number(amplitude.percent ? text.substr(0, text.size() - 1) : text);
+    if (!value) throw usage("--amplitude " + text + ": is not a number; write 0.02, or 1% of the bounding box's diagonal");
+    amplitude.value = amplitude.percent ? *value / 100 : *value;
+    return amplitude;
+}
+
+Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive) {
+    const std::size_t comma = text.find(',');
+    const auto first = number(text.substr(0, comma));
+    const auto second = comma == std::string::npos ? std::nullopt : number(text.substr(comma + 1));
+    if (!first || !second || (positive && !(*first > 0 && *second > 0)))
+        throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") + "numbers, such as 2,1");
+    return {*first, *second};
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    const auto width = number(text.substr(0, cross));
+    const auto height = cross == std::string::npos ? width : number(text.substr(cross + 1));
+    const auto fits = [](const std::optional<double>& n) { return n && *n >= 1 && *n <= 65536 && *n == int(*n); };
+    if (!fits(width) || !fits(height)) throw usage("--size " + text + ": is not a size; write 1024 or 2048x1024, up to 65536");
+    return {int(*width), int(*height)};
+}
+
+std::string text(const char* format, ...) {
+    char buffer[1024];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(buffer, sizeof buffer, format, values);
+    va_end(values);
+    return buffer;
+}
+
+std::string describe_levels(const HeightTexture& height) {
+    const std::string stored = std::string(name(height.info.type)) + " height";
+    return stored + (height.levels <= 256 ? text(", %d levels", height.levels) : ", more than 256 levels");
+}
+
+double step_tilt_deg(double step, double amplitude, double extent, int texels) noexcept {
+    return glm::degrees(std::atan(std::abs(amplitude) * step * texels / (2 * extent)));
+}
+
+std::string to_text(const ErrorBudget& budget) {
+    return text("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
+                budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
+}
+
+nlohmann::json to_json(const ErrorBudget& budget) {
+    return {{"filter_deg", budget.filter_deg}, {"quantisation_deg", budget.quantisation_deg},
+            {"encoding_deg", budget.encoding_deg}, {"method_deg", budget.method_deg},
+            {"total_deg", budget.total_deg}, {"samples", budget.samples}};
+}
+
+namespace {
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+} // namespace
+
+Stopwatch::Stopwatch() : last_(now()) {}
+
+void Stopwatch::lap(const std::string& step) {
+    const double time = now();
+    laps_.emplace_back(step, time - last_);
+    last_ = time;
+}
+
+std::string Stopwatch::to_text() const {
+    std::string line;
+    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + text("%s %.3f s", step.c_str(), seconds);
+    return line;
+}
+
+nlohmann::json Stopwatch::to_json() const {
+    nlohmann::json object;
+    for (const auto& [step, seconds] : laps_) object[step] = seconds;
+    return object;
+}
+
+} // namespace bake
