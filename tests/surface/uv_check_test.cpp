@@ -82,6 +82,7 @@ TEST_CASE("check_uvs: UDIM tiles, a border belonging to the tile inside") {
     CHECK(across.udim_tiles == std::vector<int>{1001, 1002});
     CHECK(across.crossing_faces == 1);
     CHECK(across.outside_faces == 1);
+    CHECK(check(charts({{{-4e-6f, 0}, 1.000008f, 1}})).udim_tiles == std::vector<int>{1001}); // off by rounding
     // u across thousands of tiles takes no time and no memory.
     CHECK(check(charts({{{-1e6f, -1e6f}, 2e6f, 2e6f}})).udim_tiles.size() == 9000);
 }
