@@ -30,6 +30,7 @@ struct TemporaryFolder {
     }
     std::string file(const std::string& name) const { return (path / name).string(); }
     std::string write(const std::string& name, const std::string& bytes) const {
+        std::filesystem::remove(path / name); // a file system may flush to disk when a file is written over
         std::ofstream(path / name, std::ios::binary) << bytes;
         return file(name);
     }
@@ -69,7 +70,8 @@ inline Outcome outcome_of_text(const std::string& name, const std::string& bytes
 inline bool same_mesh(const bake::Mesh& a, const bake::Mesh& b) {
     return a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs && a.face_begin == b.face_begin &&
            a.corner_position == b.corner_position && a.corner_normal == b.corner_normal && a.corner_uv == b.corner_uv &&
-           a.materials == b.materials && a.groups == b.groups && a.face_material == b.face_material && a.face_group == b.face_group;
+           a.materials == b.materials && a.groups == b.groups && a.face_material == b.face_material &&
+           a.face_group == b.face_group;
 }
 
 /// Same values at every corner, whatever the indices.

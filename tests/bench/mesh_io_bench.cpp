@@ -52,12 +52,15 @@ std::uint64_t plain_read(const char* path, std::int64_t size) {
 
 Mesh wavy_grid(std::size_t quads, bool normals) {
     const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(quads))));
-    const auto rounded = [](double v, double decimals) { return static_cast<float>(std::round(v * decimals) / decimals); };
+    const auto rounded = [](double v, double decimals) {
+        return static_cast<float>(std::round(v * decimals) / decimals);
+    };
     Mesh mesh;
     for (std::uint32_t j = 0; j <= n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i) {
             const double x = double(i) / n, z = double(j) / n;
-            mesh.positions.emplace_back(rounded(x, 1e4), rounded(0.05 * std::sin(20 * x) * std::cos(17 * z), 1e4), rounded(z, 1e4));
+            mesh.positions.emplace_back(rounded(x, 1e4), rounded(0.05 * std::sin(20 * x) * std::cos(17 * z), 1e4),
+                                        rounded(z, 1e4));
             mesh.uvs.emplace_back(rounded(x, 1e4), rounded(z, 1e4));
             const Vec3d slope(-std::cos(20 * x) * std::cos(17 * z), 1, 0.85 * std::sin(20 * x) * std::sin(17 * z));
             const Vec3d unit = glm::normalize(slope);
@@ -89,9 +92,10 @@ void measure(const char* path, int repeats) {
     const double mega = static_cast<double>(size) * 1e-6;
     std::printf("%s: %.1f MB, %zu faces, %d threads, median of %d\n", path, mega, faces, thread_count(), repeats);
     std::printf("read_mesh    %8.4f s  %8.0f MB/s\n", median(read), mega / median(read));
-    std::printf("plain read   %8.4f s  %8.0f MB/s  (the limit; ratio %.1f, sum %llx)\n", median(limit), mega / median(limit),
-                median(read) / median(limit), static_cast<unsigned long long>(sum));
-    std::printf("triangulate  %8.4f s  %8.1f ns per triangle\n", median(split), 1e9 * median(split) / static_cast<double>(triangles));
+    std::printf("plain read   %8.4f s  %8.0f MB/s  (the limit; ratio %.1f, sum %llx)\n", median(limit),
+                mega / median(limit), median(read) / median(limit), static_cast<unsigned long long>(sum));
+    std::printf("triangulate  %8.4f s  %8.1f ns per triangle\n", median(split),
+                1e9 * median(split) / static_cast<double>(triangles));
 }
 
 } // namespace
@@ -102,7 +106,8 @@ int main(int argc, char** argv) {
             const bool normals = argc < 5 || std::strcmp(argv[4], "--no-normals") != 0;
             const Mesh mesh = wavy_grid(static_cast<std::size_t>(std::atoll(argv[2])), normals);
             const double seconds = seconds_of([&] { write_mesh(argv[3], mesh); });
-            std::printf("write_mesh   %8.4f s  %8.0f MB/s\n", seconds, 1e-6 * static_cast<double>(std::filesystem::file_size(argv[3])) / seconds);
+            std::printf("write_mesh   %8.4f s  %8.0f MB/s\n", seconds,
+                        1e-6 * static_cast<double>(std::filesystem::file_size(argv[3])) / seconds);
             return 0;
         }
         if (argc == 2 || argc == 3) {

@@ -197,17 +197,27 @@ TEST_CASE("uv_raster: the upper left texel is at u = 0, v = 1") {
 
 TEST_CASE("uv_raster: a centre on a shared edge is the lower face's and no overlap, whichever way the faces run") {
     for (const bool mirrored : {false, true})
-        for (const bool swapped : {false, true}) {
-            Chart chart; // the edge at u = 1/2 runs through the centres of 3 texels' middle column
+        for (const int way : {0, 1, 2, 3}) {
+            const bool swapped = way & 1, turned = way & 2;
+            Chart chart; // the edge at u = 1/2, or v, runs through the centres of the middle column, or row
             const auto left = [&] { chart.add({{0, 0}, {0.5f, 0}, {0.5f, 1}, {0, 1}}); };
             const auto right = [&] { chart.add({{0.5f, 0}, {1, 0}, {1, 1}, {0.5f, 1}}); };
             swapped ? (right(), left()) : (left(), right());
             if (mirrored)
                 for (Vec2f& uv : chart.mesh.uvs) uv.x = 1 - uv.x;
+            if (turned)
+                for (Vec2f& uv : chart.mesh.uvs) std::swap(uv.x, uv.y);
             const UvRaster raster = chart.raster(3, 3);
             CHECK(raster.covered == 9);
             CHECK(raster.overlapped == 0);
-            for (int y = 0; y < 3; ++y) CHECK(chart.triangles[raster.hits.at(1, y).triangle].face == 0);
+            for (int k = 0; k < 3; ++k) {
+                const TexelHit& hit = turned ? raster.hits.at(k, 1) : raster.hits.at(1, k);
+                CHECK(chart.triangles[hit.triangle].face == 0);
+            }
+            // Each centre, those on the edge too, has one owner: a second copy overlaps everywhere.
+            for (const Triangle& t : std::vector(chart.triangles)) chart.triangles.push_back({t.corner, t.face + 2});
+            chart.mesh.face_begin = {0, 4, 8, 8, 8};
+            CHECK(chart.raster(3, 3).overlapped == 9);
         }
 }
 

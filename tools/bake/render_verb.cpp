@@ -1,6 +1,7 @@
 // bake render: a picture of a scene.
 #include "verb.h"
 #include "bake/asset/image_io.h"
+#include "bake/base/output_file.h"
 #include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"
 #include <algorithm>
@@ -62,8 +63,7 @@ int render_to_file(const RenderArgs& args, const CommonArgs& common) {
     RenderSettings& settings = entries.settings;
     apply_size(args.size, settings);
     if (args.spp > 0) settings.spp = args.spp;
-    // Before the work, so that a name that cannot be written is refused at once.
-    ImageWriter writer(args.out, settings.width, settings.height, 3, {.depth = depth});
+    OutputFile(args.out); // refuses at once a name that cannot be written
 
     const Scene scene = load(entries);
     const double load_seconds = seconds_since(start);
@@ -74,8 +74,7 @@ int render_to_file(const RenderArgs& args, const CommonArgs& common) {
     const double render_seconds = seconds_since(render_start);
     progress.finish();
     encode(image, depth, settings.exposure);
-    writer.write(image.data(), image.height());
-    writer.finish();
+    write_image(args.out, image, {.depth = depth});
 
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples were too bright to hold and are black; dim the lights");

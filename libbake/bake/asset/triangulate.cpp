@@ -146,7 +146,8 @@ std::vector<Triangle> triangulate(const Mesh& mesh) {
         for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
             const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
             assert(corners >= 3);
-            Triangle* const out = &triangles[c - 2 * std::size_t(f)]; // the faces before have two triangles less than corners
+            Triangle* const out =
+                &triangles[c - 2 * std::size_t(f)]; // the faces before have two triangles less than corners
             if (corners == 3) {
                 out[0] = {{c, c + 1, c + 2}, f};
             } else if (corners == 4 && splits_second_to_fourth(mesh, c)) {

@@ -114,7 +114,8 @@ template <class I> Shape<I> shape_of(const Corners& c, const Grid& grid) noexcep
     for (int k = 0; k < 3; ++k) {
         const auto &a = c[shape.order[k]], &b = c[shape.order[(k + 1) % 3]];
         Edge<I>& edge = shape.edge[k];
-        edge = {I(a.x), I(a.y), I(b.x) - I(a.x), I(b.y) - I(a.y)};
+        edge.x = I(a.x), edge.y = I(a.y);
+        edge.dx = I(b.x) - I(a.x), edge.dy = I(b.y) - I(a.y);
         edge.reach = ((edge.dx < 0 ? -edge.dx : edge.dx) + (edge.dy < 0 ? -edge.dy : edge.dy)) * I(grid.step / 2);
         edge.owns = edge.dy > 0 || (edge.dy == 0 && edge.dx > 0);
     }
@@ -240,8 +241,10 @@ void fill_centres(Band& band, const Shape<I>& shape, std::uint32_t triangle, std
         band.face = face;
     }
     const std::int64_t half = band.grid.step / 2;
-    const std::int64_t first = -((half - shape.box.y0) >> band.grid.bits), last = (shape.box.y1 - half) >> band.grid.bits;
-    const int begin = int(std::max<std::int64_t>(first, band.begin)), end = int(std::min<std::int64_t>(last, band.end - 1));
+    const std::int64_t first = -((half - shape.box.y0) >> band.grid.bits);
+    const std::int64_t last = (shape.box.y1 - half) >> band.grid.bits;
+    const int begin = int(std::max<std::int64_t>(first, band.begin));
+    const int end = int(std::min<std::int64_t>(last, band.end - 1));
     for (int y = begin; y <= end; ++y) {
         Span owned;
         const Span span = span_of(shape, band.grid, y, false, &owned);
@@ -330,7 +333,7 @@ std::int64_t ones(const std::vector<std::uint64_t>& bits) noexcept {
 Totals raster_band(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const std::uint32_t> mine,
                    const Grid& grid, int begin_row, Image<TexelHit>& hits) {
     Band band(grid, begin_row, hits);
-    for (int y = band.begin; y < band.end; ++y) std::fill_n(hits.row(y), grid.width, TexelHit{});
+    for (int y = band.begin; y < band.end; ++y) std::fill_n(hits.row(y), grid.width, TexelHit{no_index, 0, 0});
     const auto for_shapes = [&](auto&& work) {
         for (const std::uint32_t t : mine) {
             const Corners corners = corners_of(mesh, triangles[t], grid);
