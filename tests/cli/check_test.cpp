@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -88,7 +89,17 @@ TEST_SUITE("cli") {
         CHECK(json["files"][2]["code"] == 3);
     }
 
-    TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
+    TEST_CASE("bake check: pairs may be given again, and files may follow them") {
+    const Folder folder;
+    const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+    const auto json = nlohmann::json::parse(folder.check("--json --pair a.png b.png --pair c.png d.png " + good).out);
+    REQUIRE(json["files"].size() == 3);
+    CHECK(json["files"][0]["kind"] == "mesh");
+    CHECK(json["files"][2]["code"] == 3);
+    CHECK(folder.check("--pair a.png").code == 2);
+}
+
+TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
         const fs::path data =
             fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
         if (!fs::exists(data)) {

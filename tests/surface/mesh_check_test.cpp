@@ -2,6 +2,8 @@
 #include "bake/asset/mesh_io.h"
 #include "bake/surface/mesh_audit.h"
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>

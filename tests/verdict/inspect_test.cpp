@@ -1,5 +1,6 @@
 #include "bake/verdict/inspect.h"
 #include "bake/base/error.h"
+#include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>

@@ -72,6 +72,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply) and images to look at");
     const auto pair = sub.add_option("--pair", args->pairs,
                                      "A height texture and the normal map said to be of it; may be given again")
+                          ->allow_extra_args(false) // a file may follow
                           ->type_name("HEIGHT NORMAL");
     const std::map<std::string, Grey> greys = {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g},
                                                {"b", Grey::b},       {"a", Grey::a}, {"luma", Grey::luma}};
