@@ -97,7 +97,8 @@ TEST_CASE("material: bump table and normal map of one relief shade alike, on mir
 TEST_CASE("material: relief rises towards growing height on ordinary and mirrored charts") {
     // Slope along +u: the normal turns against p_u, wherever p_u points.
     const Material bump = with_bump(texture(2, 2, 2, [](float, float, float* b) { b[0] = 0.3f, b[1] = 0; }));
-    const Material mapped = with_normals(texture(2, 2, 3, [](float, float, float* t) { t[0] = -0.6f, t[1] = 0, t[2] = 0.8f; }));
+    const Material mapped =
+        with_normals(texture(2, 2, 3, [](float, float, float* t) { t[0] = -0.6f, t[1] = 0, t[2] = 0.8f; }));
     for (const bool mirrored : {false, true}) {
         Mesh mesh = plane_mesh();
         if (mirrored)
@@ -178,7 +179,8 @@ TEST_CASE("material: corners without uv shade plainly") {
     mesh.corner_uv[0] = no_index;
     const auto shape = make_shape(std::move(mesh));
     add_tangents(*shape);
-    const Material tilted = with_normals(texture(1, 1, 3, [](float, float, float* t) { t[0] = 0.6f, t[1] = 0, t[2] = 0.8f; }));
+    const Material tilted =
+        with_normals(texture(1, 1, 3, [](float, float, float* t) { t[0] = 0.6f, t[1] = 0, t[2] = 0.8f; }));
     const Material bump = with_bump(texture(1, 1, 2, [](float, float, float* b) { b[0] = 3, b[1] = -2; }));
     for (std::uint32_t t = 0; t < 2; ++t)
         for (const Material* material : {&tilted, &bump})
