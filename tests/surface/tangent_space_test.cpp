@@ -186,8 +186,10 @@ TEST_CASE("tangent_space: quads are their two triangles along the diagonal that 
     std::vector<std::uint32_t> corners;
     int first = 0, second = 0;
     for (std::uint32_t c = 0; c < quads.positions.size(); c += 4) {
-        const double a = glm::length(quads.uvs[c] - quads.uvs[c + 2]), b = glm::length(quads.uvs[c + 1] - quads.uvs[c + 3]);
-        const auto tris = a < b ? std::array<std::uint32_t, 6>{0, 1, 2, 0, 2, 3} : std::array<std::uint32_t, 6>{0, 1, 3, 1, 2, 3};
+        const double a = glm::length(quads.uvs[c] - quads.uvs[c + 2]);
+        const double b = glm::length(quads.uvs[c + 1] - quads.uvs[c + 3]);
+        using Six = std::array<std::uint32_t, 6>;
+        const auto tris = a < b ? Six{0, 1, 2, 0, 2, 3} : Six{0, 1, 3, 1, 2, 3};
         ++(a < b ? first : second);
         for (const std::uint32_t k : tris) corners.push_back(c + k);
     }

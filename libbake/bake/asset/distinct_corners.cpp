@@ -18,9 +18,11 @@ DistinctCorners distinct_corners(const std::vector<std::uint32_t>& position, std
     out.corner.resize(corners);
     for (std::size_t p = 0, from = 0; p < positions; ++p) {
         const std::size_t to = begin[p]; // the sort has moved it to the end of the position's corners
-        const auto first = order.begin() + static_cast<std::ptrdiff_t>(from), last = order.begin() + static_cast<std::ptrdiff_t>(to);
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(from),
+                   last = order.begin() + static_cast<std::ptrdiff_t>(to);
         if (!key.empty())
-            std::sort(first, last, [&key](std::uint32_t a, std::uint32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
+            std::sort(first, last,
+                      [&key](std::uint32_t a, std::uint32_t b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
         // The first corner of each key numbers itself; numbers then follow first appearance.
         const std::size_t numbered = out.first.size();
         for (auto c = first; c != last; ++c)
@@ -31,7 +33,8 @@ DistinctCorners distinct_corners(const std::vector<std::uint32_t>& position, std
             if (c == first || (!key.empty() && key[*c] != key[leader])) {
                 leader = *c;
                 number = static_cast<std::uint32_t>(
-                    std::lower_bound(out.first.begin() + static_cast<std::ptrdiff_t>(numbered), out.first.end(), leader) -
+                    std::lower_bound(out.first.begin() + static_cast<std::ptrdiff_t>(numbered), out.first.end(),
+                                     leader) -
                     out.first.begin());
             }
             out.corner[*c] = number;

@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <new>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -37,17 +39,24 @@ FileBytes read_file(const std::string& path) {
 
     FileBytes bytes;
     bytes.size = static_cast<std::size_t>(status.st_size);
-    const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto memory =
+        static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     if (bytes.size > memory)
         throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) +
                                              " bytes are more than this machine's memory; split the file");
-    bytes.data = std::make_unique_for_overwrite<char[]>(bytes.size + 1);
+    // Huge pages make the first touch of fresh memory several times cheaper.
+    const std::size_t page = std::size_t(2) << 20, rounded = (bytes.size + page) / page * page;
+    bytes.data.reset(
+        static_cast<char*>(bytes.size < page ? std::malloc(bytes.size + 1) : std::aligned_alloc(page, rounded)));
+    if (!bytes.data) throw std::bad_alloc();
+    if (bytes.size >= page) madvise(bytes.data.get(), rounded, MADV_HUGEPAGE);
     bytes.data[bytes.size] = '\n';
 
     const std::int64_t grain = std::int64_t(1) << 20;
     for_rows(static_cast<std::int64_t>(bytes.size), grain, [&](std::int64_t begin, std::int64_t end) {
         while (begin < end) {
-            const ssize_t got = pread(file.number, bytes.data.get() + begin, static_cast<std::size_t>(end - begin), begin);
+            const ssize_t got =
+                pread(file.number, bytes.data.get() + begin, static_cast<std::size_t>(end - begin), begin);
             if (got < 0 && errno == EINTR) continue;
             if (got < 0) refuse(path, errno);
             if (got == 0) throw Error(Refusal::unreadable, path + ": shrank while it was read; try again");

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
+#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -85,6 +88,50 @@ ImageInfo describe(OIIO::ImageInput& in) {
     return info;
 }
 
+// libpng writes lines of its own to stderr, about whole files too; what matters of them comes back through OIIO.
+class MutedStderr {
+public:
+    explicit MutedStderr(bool mute) : saved_(mute ? dup(2) : -1) {
+        const int nowhere = saved_ >= 0 ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
+        if (nowhere < 0) return;
+        dup2(nowhere, 2);
+        close(nowhere);
+    }
+    ~MutedStderr() {
+        if (saved_ < 0) return;
+        dup2(saved_, 2);
+        close(saved_);
+    }
+    MutedStderr(const MutedStderr&) = delete;
+    MutedStderr& operator=(const MutedStderr&) = delete;
+
+private:
+    int saved_;
+};
+
+// First bytes of the file, fewer when it is short.
+std::string file_head(const std::string& path) {
+    std::string head(128, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(file.gcount()));
+    return head;
+}
+
+bool looks_like_png(const std::string& path) {
+    return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
+}
+
+// Bytes the top level of a block-compressed DDS file has after its header; 0 for other kinds. OIIO fills what is missing
+// with black and says nothing.
+std::int64_t dds_bytes(const std::string& head, std::int64_t width, std::int64_t height) {
+    if (head.size() < 128) return 0;
+    const std::string code = head.substr(84, 4);
+    const bool small = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S";
+    const bool large = code == "DXT2" || code == "DXT3" || code == "DXT4" || code == "DXT5" || code == "ATI2" || code == "BC5U" || code == "BC5S";
+    return small || large ? (width + 3) / 4 * ((height + 3) / 4) * (small ? 8 : 16) : 0;
+}
+
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const ReadLimits& limits, ImageInfo& info) {
     namespace fs = std::filesystem;
     configure_oiio();
@@ -97,6 +144,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
+    const MutedStderr muted(looks_like_png(path));
     auto in = OIIO::ImageInput::open(path, &config);
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
@@ -106,6 +154,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
         throw unreadable(path, "has no pixels");
     const auto decoded = [&](std::int64_t sample) { return sample * spec.width * spec.height * spec.nchannels; };
+    if (info.format == "dds" && stored < 128 + dds_bytes(file_head(path), spec.width, spec.height)) throw unreadable(path, "is cut short");
     const std::string size = std::to_string(info.width) + " x " + std::to_string(info.height);
     if (!failed && decoded(1) / largest_ratio(info.format) > stored + 65536 / largest_ratio(info.format))
         throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
@@ -175,6 +224,7 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
     const OIIO::ImageSpec spec = in->spec();
     Image<float> image(spec.width, spec.height, spec.nchannels);
     try {
+        const MutedStderr muted(info.format == "png");
         read_window(*in, path, image);
     } catch (const std::bad_alloc&) {
         throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");

@@ -35,7 +35,8 @@ Mesh read_format(Format format, const std::string& path) {
 }
 
 /// No NaN and no infinity ever reaches a file.
-template <class Vec> void refuse_unless_finite(const std::vector<Vec>& values, const char* what, const std::string& path) {
+template <class Vec>
+void refuse_unless_finite(const std::vector<Vec>& values, const char* what, const std::string& path) {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int k = 0; k < Vec::length(); ++k)
             if (!std::isfinite(values[i][k]))

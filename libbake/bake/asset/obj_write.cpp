@@ -51,9 +51,12 @@ void write_obj(const std::string& path, const Mesh& mesh) {
     for (std::string& name : materials) name = name_on_a_line(name);
 
     BlockWriter out(path);
-    write_rows(out, mesh.positions.size(), [&](std::string& block, std::size_t i) { append_floats(block, "v", &mesh.positions[i].x, 3); });
-    write_rows(out, mesh.uvs.size(), [&](std::string& block, std::size_t i) { append_floats(block, "vt", &mesh.uvs[i].x, 2); });
-    write_rows(out, mesh.normals.size(), [&](std::string& block, std::size_t i) { append_floats(block, "vn", &mesh.normals[i].x, 3); });
+    write_rows(out, mesh.positions.size(),
+               [&](std::string& block, std::size_t i) { append_floats(block, "v", &mesh.positions[i].x, 3); });
+    write_rows(out, mesh.uvs.size(),
+               [&](std::string& block, std::size_t i) { append_floats(block, "vt", &mesh.uvs[i].x, 2); });
+    write_rows(out, mesh.normals.size(),
+               [&](std::string& block, std::size_t i) { append_floats(block, "vn", &mesh.normals[i].x, 3); });
     write_rows(out, mesh.faces(), [&](std::string& block, std::size_t f) {
         append_change(block, "g", groups, mesh.face_group, f);
         append_change(block, "usemtl", materials, mesh.face_material, f);

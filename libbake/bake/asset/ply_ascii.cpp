@@ -16,16 +16,16 @@ struct Rows {
     const char* p = nullptr;  ///< what is left of it
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw Error(Refusal::unreadable,
-                    path + ":" + std::to_string(line_number(file.begin(), at)) + ": " + why + "; export the file again");
+        throw Error(Refusal::unreadable, path + ":" + std::to_string(line_number(file.begin(), at)) + ": " + why +
+                                             "; export the file again");
     }
     /// Moves to the next line that is not blank.
     void start_row(const PlyElement& element, std::uint64_t row) {
         do {
             at = next;
             if (next >= file.end())
-                refuse("the file ends after " + std::to_string(row) + " of " + std::to_string(element.rows) + " rows of " +
-                       shown(element.name));
+                refuse("the file ends after " + std::to_string(row) + " of " + std::to_string(element.rows) +
+                       " rows of " + shown(element.name));
             p = next;
             next = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(file.end() + 1 - p))) + 1;
             skip_blanks(p);
@@ -137,7 +137,8 @@ void read_faces(Rows& rows, const PlyElement& element, const PlyLayout& layout, 
 
 } // namespace
 
-PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout, const std::string& path) {
+PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout,
+                       const std::string& path) {
     PlyBody body;
     Rows rows{file, path, header.body};
     const std::uint64_t vertices = header.elements[static_cast<std::size_t>(layout.vertex)].rows;

@@ -71,9 +71,11 @@ template <class OnList> const char* walk_row(const char* p, const char* end, con
         const std::size_t count_size = size_of(list.count_type);
         if (static_cast<std::size_t>(end - p) < list.skip + count_size) return nullptr;
         p += list.skip;
-        const auto count = with_type(list.count_type, [&]<class T>() { return static_cast<std::int64_t>(load<T>(p, shape.swap)); });
+        const auto count =
+            with_type(list.count_type, [&]<class T>() { return static_cast<std::int64_t>(load<T>(p, shape.swap)); });
         p += count_size;
-        if (count < 0 || static_cast<std::uint64_t>(count) > static_cast<std::size_t>(end - p) / list.item) return nullptr;
+        if (count < 0 || static_cast<std::uint64_t>(count) > static_cast<std::size_t>(end - p) / list.item)
+            return nullptr;
         on_list(i, p, static_cast<std::size_t>(count));
         p += static_cast<std::size_t>(count) * list.item;
     }
@@ -85,22 +87,25 @@ template <class OnList> const char* walk_row(const char* p, const char* end, con
 }
 
 [[noreturn]] void refuse_short(const std::string& path, const PlyElement& element, std::uint64_t row) {
-    refuse(path, "is cut short or damaged in row " + std::to_string(row) + " of " + std::to_string(element.rows) + " of " +
-                     shown(element.name));
+    refuse(path, "is cut short or damaged in row " + std::to_string(row) + " of " + std::to_string(element.rows) +
+                     " of " + shown(element.name));
 }
 
 /// Rows `stride` bytes apart, one value each, into floats.
 void read_column(const char* from, std::size_t stride, std::size_t rows, PlyType type, bool swap, PlyColumn out) {
     with_type(type, [&]<class T>() {
         if (swap)
-            for (std::size_t i = 0; i < rows; ++i) out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, true));
+            for (std::size_t i = 0; i < rows; ++i)
+                out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, true));
         else
-            for (std::size_t i = 0; i < rows; ++i) out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, false));
+            for (std::size_t i = 0; i < rows; ++i)
+                out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, false));
     });
 }
 
 /// `count` integers into indices below `vertices`; the place of the first that is not, or `count`.
-std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool swap, std::uint64_t vertices, std::uint32_t* out) {
+std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool swap, std::uint64_t vertices,
+                         std::uint32_t* out) {
     return with_type(type, [&]<class T>() -> std::size_t {
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::int64_t>(load<T>(p + i * sizeof(T), swap));
@@ -111,7 +116,7 @@ std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool sw
     });
 }
 
-constexpr std::int64_t grain = 8192;
+constexpr std::size_t grain = 8192; // rows of a block
 
 const char* read_vertices(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
                           const PlyLayout& layout, const std::string& path, Mesh& mesh) {
@@ -119,13 +124,17 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
     mesh.positions.resize(count);
     if (layout.columns[3] >= 0) mesh.normals.resize(count);
     if (layout.columns[6] >= 0) mesh.uvs.resize(count);
+    std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
+        std::size_t& bad = first_bad[first / grain];
         for (std::size_t c = 0; c < layout.columns.size(); ++c) {
             if (layout.columns[c] < 0) continue;
             const auto property = static_cast<std::size_t>(layout.columns[c]);
             PlyColumn out = column_of(mesh, c);
             out.first += first * out.stride;
             read_column(address(property), shape.tail, rows, element.properties[property].type, shape.swap, out);
+            for (std::size_t i = 0; i < rows; ++i)
+                if (!std::isfinite(out.first[i * out.stride])) bad = std::min(bad, first + i);
         }
     };
     if (shape.lists.empty()) { // all there, as the caller has seen
@@ -148,14 +157,10 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
             });
         }
     }
-    for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-        if (layout.columns[c] < 0) continue;
-        const PlyColumn column = column_of(mesh, c);
-        for (std::size_t row = 0; row < count; ++row)
-            if (!std::isfinite(column.first[row * column.stride]))
-                refuse(path, "vertex " + std::to_string(row) + " (of 0 to " + std::to_string(count - 1) +
-                                 ") has a value that is not a finite 32-bit number");
-    }
+    const std::size_t bad = *std::min_element(first_bad.begin(), first_bad.end());
+    if (bad < count)
+        refuse(path, "vertex " + std::to_string(bad) + " (of 0 to " + std::to_string(count - 1) +
+                         ") has a value that is not a finite 32-bit number");
     return p;
 }
 
@@ -168,8 +173,9 @@ struct Block {
 };
 
 /// The corners from `corner` on and the row of a face into the body; what is wrong with it, if anything is.
-const char* read_face(const char* p, const char* end, const PlyElement& element, const RowShape& shape, const PlyLayout& layout,
-                      std::uint64_t vertices, std::size_t& corner, PlyBody& body, std::string& fault, bool& no_uv) {
+const char* read_face(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
+                      const PlyLayout& layout, std::uint64_t vertices, std::size_t& corner, PlyBody& body,
+                      std::string& fault, bool& no_uv) {
     Mesh& mesh = body.mesh;
     const std::size_t first = corner;
     const char* uv_items = nullptr;
@@ -215,7 +221,9 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
             if (static_cast<int>(shape.lists[list].property) == layout.indices) size = count;
         });
         if (!p) refuse_short(path, element, f);
-        if (size < 3) refuse(path, "face " + std::to_string(f) + " has " + std::to_string(size) + " corners and needs at least 3");
+        if (size < 3)
+            refuse(path,
+                   "face " + std::to_string(f) + " has " + std::to_string(size) + " corners and needs at least 3");
         corners += size;
         mesh.face_begin[f + 1] = static_cast<std::uint32_t>(corners);
     }
@@ -224,7 +232,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
     if (layout.texcoord >= 0) body.texcoord.resize(corners);
 
     for_rows(static_cast<std::int64_t>(faces), grain, [&](std::int64_t begin, std::int64_t last) {
-        Block& block = blocks[static_cast<std::size_t>(begin / grain)];
+        Block& block = blocks[static_cast<std::size_t>(begin) / grain];
         const char* row = block.begin;
         std::size_t corner = block.corner;
         for (std::int64_t f = begin; f < last && block.fault.empty(); ++f) {
@@ -243,7 +251,8 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
 
 } // namespace
 
-PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout, const std::string& path) {
+PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout,
+                        const std::string& path) {
     PlyBody body;
     const bool file_is_big = header.format == PlyFormat::big_endian;
     const bool swap = file_is_big != (std::endian::native == std::endian::big);

@@ -8,8 +8,8 @@ namespace bake {
 
 /// Properties of the header that a mesh is made of, by their index in their element; -1 where there is none.
 struct PlyLayout {
-    int vertex = -1, face = -1;     ///< elements
-    std::array<int, 8> columns;     ///< of the vertex: x y z nx ny nz u v
+    int vertex = -1, face = -1;      ///< elements
+    std::array<int, 8> columns;      ///< of the vertex: x y z nx ny nz u v
     int indices = -1, texcoord = -1; ///< lists of the face
 };
 
@@ -27,7 +27,9 @@ struct PlyColumn {
 };
 PlyColumn column_of(Mesh& mesh, std::size_t c) noexcept;
 
-PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout, const std::string& path);
-PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout, const std::string& path);
+PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout,
+                        const std::string& path);
+PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout,
+                       const std::string& path);
 
 } // namespace bake

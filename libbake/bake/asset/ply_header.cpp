@@ -14,9 +14,9 @@ std::optional<PlyType> type_named(std::string_view name) noexcept {
         PlyType type;
     };
     static constexpr Named types[] = {
-        {"char", "int8", PlyType::int8},      {"uchar", "uint8", PlyType::uint8},
-        {"short", "int16", PlyType::int16},   {"ushort", "uint16", PlyType::uint16},
-        {"int", "int32", PlyType::int32},     {"uint", "uint32", PlyType::uint32},
+        {"char", "int8", PlyType::int8},        {"uchar", "uint8", PlyType::uint8},
+        {"short", "int16", PlyType::int16},     {"ushort", "uint16", PlyType::uint16},
+        {"int", "int32", PlyType::int32},       {"uint", "uint32", PlyType::uint32},
         {"float", "float32", PlyType::float32}, {"double", "float64", PlyType::float64},
     };
     for (const Named& t : types)
@@ -116,7 +116,9 @@ PlyHeader read_ply_header(const FileBytes& file, const std::string& path) {
     std::size_t line = 0;
     bool format_known = false;
     for (const char* p = file.begin();; ++line) {
-        if (p >= file.end()) refuse(std::max<std::size_t>(1, line), line == 0 ? "an empty file, not a PLY" : "the header has no end_header");
+        if (p >= file.end())
+            refuse(std::max<std::size_t>(1, line),
+                   line == 0 ? "an empty file, not a PLY" : "the header has no end_header");
         const auto words = words_of(p);
         p = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(stop - p))) + 1;
         if (line == 0) {

@@ -31,7 +31,7 @@ struct PlyHeader {
     const char* body = nullptr; ///< first byte behind the header
 };
 
-/// Throws Error{Refusal::unreadable}, naming the line: not a PLY header, or more rows than the bytes behind it can hold.
+/// Throws Error{Refusal::unreadable}: what is no PLY header, naming the line; more rows than the bytes behind can hold.
 PlyHeader read_ply_header(const FileBytes& file, const std::string& path);
 
 /// Index of the property, or -1.

@@ -43,7 +43,8 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     if (!indices.is_list || indices.type == PlyType::float32 || indices.type == PlyType::float64)
         refuse("its vertex_indices are not a list of integers");
     layout.texcoord = find_property(face, "texcoord");
-    if (layout.texcoord >= 0 && !face.properties[static_cast<std::size_t>(layout.texcoord)].is_list) layout.texcoord = -1;
+    if (layout.texcoord >= 0 && !face.properties[static_cast<std::size_t>(layout.texcoord)].is_list)
+        layout.texcoord = -1;
     return layout;
 }
 

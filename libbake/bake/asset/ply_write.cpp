@@ -11,7 +11,8 @@ namespace {
 /// The four bytes of a float or an integer, low byte first on any machine.
 template <class T> void append_bytes(std::string& out, T value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
-    const char bytes[] = {static_cast<char>(bits), static_cast<char>(bits >> 8), static_cast<char>(bits >> 16), static_cast<char>(bits >> 24)};
+    const char bytes[] = {static_cast<char>(bits), static_cast<char>(bits >> 8), static_cast<char>(bits >> 16),
+                          static_cast<char>(bits >> 24)};
     out.append(bytes, 4);
 }
 
@@ -38,12 +39,15 @@ void write_ply(const std::string& path, const Mesh& mesh) {
 
     BlockWriter out(path);
     out.write("ply\nformat binary_little_endian 1.0\n"
-              "element vertex " + std::to_string(vertices.first.size()) + "\n"
+              "element vertex " +
+              std::to_string(vertices.first.size()) +
+              "\n"
               "property float x\nproperty float y\nproperty float z\n" +
               (normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "") +
-              (uvs ? "property float s\nproperty float t\n" : "") +
-              "element face " + std::to_string(mesh.faces()) + "\n"
-              "property list " + (wide ? "uint" : "uchar") + " uint vertex_indices\nend_header\n");
+              (uvs ? "property float s\nproperty float t\n" : "") + "element face " + std::to_string(mesh.faces()) +
+              "\n"
+              "property list " +
+              (wide ? "uint" : "uchar") + " uint vertex_indices\nend_header\n");
     write_rows(out, vertices.first.size(), [&](std::string& block, std::size_t i) {
         const std::uint32_t c = vertices.first[i];
         const Vec3f p = mesh.positions[mesh.corner_position[c]];

@@ -42,7 +42,8 @@ inline bool next_line(LineCursor& cursor) {
     cursor.end = newline;
     cursor.next = newline + 1;
     // A backslash or a carriage return: the last character of no other line that goes on.
-    if (newline != cursor.begin && (newline[-1] == '\\' || newline[-1] == '\r') && detail::continues(cursor.begin, newline))
+    if (newline != cursor.begin && (newline[-1] == '\\' || newline[-1] == '\r') &&
+        detail::continues(cursor.begin, newline))
         detail::join_lines(cursor);
     return true;
 }

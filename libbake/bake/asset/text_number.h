@@ -8,10 +8,11 @@
 
 namespace bake {
 
+// Without branches, so that loops over them become vectors.
 /// What separates numbers within a line.
-inline bool is_blank(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); }
+inline bool is_blank(char c) noexcept { return (c == ' ') | ((c >= '\t') & (c <= '\r') & (c != '\n')); }
 /// What may follow a number.
-inline bool ends_number(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
+inline bool ends_number(char c) noexcept { return (c == ' ') | ((c >= '\t') & (c <= '\r')); }
 inline void skip_blanks(const char*& p) noexcept {
     while (is_blank(*p)) ++p;
 }
@@ -49,16 +50,18 @@ inline bool parse_float(const char*& p, float& value) noexcept {
         e += down || *e == '+';
         const char* const first = e;
         std::int64_t power = 0;
-        for (unsigned d; (d = static_cast<unsigned>(*e) - '0') < 10; ++e) power = power < 10000 ? 10 * power + d : power;
+        for (unsigned d; (d = static_cast<unsigned>(*e) - '0') < 10; ++e)
+            power = power < 10000 ? 10 * power + d : power;
         if (e == first) return detail::parse_any_float(p, value);
         exponent += down ? -power : power;
         s = e;
     }
-    const bool exact = count >= 1 && count <= 19 && digits <= (std::uint64_t(1) << 53) && exponent >= -22 && exponent <= 22;
+    const bool exact =
+        count >= 1 && count <= 19 && digits <= (std::uint64_t(1) << 53) && exponent >= -22 && exponent <= 22;
     if (!exact) return detail::parse_any_float(p, value);
     const double whole_value = static_cast<double>(digits);
-    const double d = exponent < 0 ? whole_value / detail::powers_of_ten[-exponent]
-                                  : whole_value * detail::powers_of_ten[exponent];
+    const double d =
+        exponent < 0 ? whole_value / detail::powers_of_ten[-exponent] : whole_value * detail::powers_of_ten[exponent];
     const bool between = (std::bit_cast<std::uint64_t>(d) & 0x1fffffffu) == 0x10000000u;
     if (between || (!(d >= FLT_MIN && d <= FLT_MAX) && digits != 0)) return detail::parse_any_float(p, value);
     value = static_cast<float>(negative ? -d : d);

@@ -27,14 +27,15 @@ bool splits_second_to_fourth(const Mesh& mesh, std::uint32_t c) noexcept {
     return second < first;
 }
 
-/// The polygon in its Newell plane, counter-clockwise; all points are (0,0) when it has no area.
+/// The polygon in its Newell plane, counter-clockwise; false when it has no area, and so no plane.
 /// Sutherland, Sproull and Schumacker, A characterization of ten hidden-surface algorithms, 1974, name Newell's normal.
-void project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vector<Vec2d>& points) {
+bool project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vector<Vec2d>& points) {
     const Vec3d origin(mesh.positions[mesh.corner_position[begin]]);
     const auto point = [&](std::uint32_t c) { return Vec3d(mesh.positions[mesh.corner_position[c]]) - origin; };
     Vec3d normal(0);
     for (std::uint32_t c = begin; c < end; ++c) normal += glm::cross(point(c), point(c + 1 < end ? c + 1 : begin));
     const Vec3d n = unit_or_zero(normal);
+    if (n == Vec3d(0)) return false;
     // u and v perpendicular to n, u x v = n; for a polygon in a coordinate plane they are axes, and nothing is rounded.
     const Vec3d least = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3d(1, 0, 0)
                         : std::abs(n.y) <= std::abs(n.z)                                 ? Vec3d(0, 1, 0)
@@ -43,6 +44,7 @@ void project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vect
     const Vec3d v = glm::cross(n, u);
     points.clear();
     for (std::uint32_t c = begin; c < end; ++c) points.emplace_back(glm::dot(u, point(c)), glm::dot(v, point(c)));
+    return true;
 }
 
 /// Twice the signed area of the triangle a b c.
@@ -102,7 +104,7 @@ void cut(Polygon& g, std::uint32_t i) {
 
 void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) {
     const std::uint32_t begin = mesh.face_begin[face], end = mesh.face_begin[face + 1], n = end - begin;
-    project(mesh, begin, end, g.points);
+    const bool has_plane = project(mesh, begin, end, g.points);
     g.before.resize(n), g.after.resize(n), g.convex.resize(n);
     g.gone.assign(n, 0);
     g.blockers.clear();
@@ -110,12 +112,12 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
         g.before[i] = i > 0 ? i - 1 : n - 1;
         g.after[i] = i + 1 < n ? i + 1 : 0;
     }
-    for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t i = 0; i < n && has_plane; ++i) {
         g.convex[i] = is_convex(g, i);
         if (!g.convex[i]) g.blockers.push_back(i);
     }
     std::uint32_t i = 0, left = n, refused = 0;
-    while (left > 3 && refused < left) {
+    while (has_plane && left > 3 && refused < left) {
         if (is_duplicate(g, i) || is_ear(g, i)) {
             *out++ = {{begin + g.before[i], begin + i, begin + g.after[i]}, face};
             cut(g, i);
@@ -127,7 +129,7 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
             i = g.after[i];
         }
     }
-    // The last triangle, or a fan where no ear is left, from the lowest corner.
+    // The last triangle, or a fan where no ear is left, from the lowest corner left.
     std::uint32_t first = 0;
     while (g.gone[first]) ++first;
     for (std::uint32_t k = g.after[first]; g.after[k] != first; k = g.after[k])
@@ -144,7 +146,8 @@ std::vector<Triangle> triangulate(const Mesh& mesh) {
         for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
             const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
             assert(corners >= 3);
-            Triangle* const out = &triangles[c - 2 * std::size_t(f)]; // the faces before have two triangles less than corners
+            Triangle* const out =
+                &triangles[c - 2 * std::size_t(f)]; // the faces before have two triangles less than corners
             if (corners == 3) {
                 out[0] = {{c, c + 1, c + 2}, f};
             } else if (corners == 4 && splits_second_to_fourth(mesh, c)) {

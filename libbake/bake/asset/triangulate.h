@@ -14,7 +14,7 @@ struct Triangle {
 /// Splits every face: triangles as they are; quads along the diagonal that is shorter in uv (in space when there are
 /// no uvs or both are equal; the first, corners 0-2, when those are equal too), as MikkTSpace does, so that a normal
 /// map is shaded on the triangles it was baked on; larger polygons by ear clipping in their own plane (concave ones
-/// too), as a fan from corner 0 where no ear is left (self-crossing or flat polygons).
+/// too), as a fan from the lowest corner left where no ear is left (self-crossing or flat polygons).
 /// A face of n corners always gives n - 2 triangles.
 std::vector<Triangle> triangulate(const Mesh& mesh);
 

@@ -170,28 +170,44 @@ template <class T> Image<T> spline_along_v(const Image<T>& values, Wrap wrap) {
     return out;
 }
 
-template <class T> void spline_along_u(Image<T>& values, Wrap wrap) {
+template <class T> Image<T> spline_along_u(const Image<T>& values, Wrap wrap) {
     const auto weights = spline_weights<T>();
     const int n = values.width();
+    Image<T> out(n, values.height(), 1);
     for_rows(values.height(), 16, [&](std::int64_t begin, std::int64_t end) {
         std::vector<T> row(n + 2 * spline_reach);
         for (auto y = int(begin); y < int(end); ++y) {
             extend_row(values.row(y), n, wrap, spline_reach, 3, row.data());
             const T* from = row.data() + spline_reach;
-            T* to = values.row(y);
+            T* to = out.row(y);
             for (int x = 0; x < n; ++x) to[x] = weights[0] * from[x];
             for (int k = 1; k <= spline_reach; ++k)
                 for (int x = 0; x < n; ++x) to[x] += weights[k] * (from[x - k] + from[x + k]);
         }
     });
+    return out;
 }
 
-template <class T> Image<T> padded(const Image<T>& values, Wrap wrap_u, Wrap wrap_v, int degree) {
-    const ExtendedRows<T> rows(values, wrap_v, pad, degree);
-    Image<T> out(values.width() + 2 * pad, values.height() + 2 * pad, 1);
-    for (int y = -pad; y < values.height() + pad; ++y)
-        extend_row(rows(y), values.width(), wrap_u, pad, degree, out.row(y + pad));
+template <class T> Image<T> padded_along_v(const Image<T>& values, Wrap wrap, int degree) {
+    const ExtendedRows<T> rows(values, wrap, pad, degree);
+    Image<T> out(values.width(), values.height() + 2 * pad, 1);
+    for (int y = 0; y < out.height(); ++y) std::copy_n(rows(y - pad), values.width(), out.row(y));
     return out;
+}
+
+template <class T> Image<T> padded_along_u(const Image<T>& values, Wrap wrap, int degree) {
+    Image<T> out(values.width() + 2 * pad, values.height(), 1);
+    for (int y = 0; y < values.height(); ++y) extend_row(values.row(y), values.width(), wrap, pad, degree, out.row(y));
+    return out;
+}
+
+// Coefficients beyond the border are those of the texture that continues there: its repeats, or, clamped, the border's
+// polynomial, which must be in place before the coefficients are found.
+template <class T> Image<T> padded_spline(const Image<T>& values, Wrap wrap_u, Wrap wrap_v) {
+    Image<T> along_v = wrap_v == Wrap::clamp ? spline_along_v(padded_along_v(values, wrap_v, 3), wrap_v)
+                                             : padded_along_v(spline_along_v(values, wrap_v), wrap_v, 3);
+    return wrap_u == Wrap::clamp ? spline_along_u(padded_along_u(along_v, wrap_u, 3), wrap_u)
+                                 : padded_along_u(spline_along_u(along_v, wrap_u), wrap_u, 3);
 }
 
 /// Four weights of the taps at -1, 0, 1, 2 and their derivatives, for a position t in [0,1] between taps 0 and 1.
@@ -235,13 +251,10 @@ template <class T> std::pair<T, T> texel_position(T coordinate, int count, Wrap 
 template <class T>
 HeightSampler<T>::HeightSampler(const Image<T>& values, Interpolation interpolation, const HeightOptions& options)
     : interpolation_(interpolation), options_(options), width_(values.width()), height_(values.height()) {
-    if (interpolation == Interpolation::c2) {
-        Image<T> coefficients = spline_along_v(values, options.wrap_v);
-        spline_along_u(coefficients, options.wrap_u);
-        padded_ = padded(coefficients, options.wrap_u, options.wrap_v, 3);
-    } else {
-        padded_ = padded(values, options.wrap_u, options.wrap_v, interpolation == Interpolation::bilinear ? 1 : 3);
-    }
+    const int degree = interpolation == Interpolation::bilinear ? 1 : 3;
+    padded_ = interpolation == Interpolation::c2
+                  ? padded_spline(values, options.wrap_u, options.wrap_v)
+                  : padded_along_u(padded_along_v(values, options.wrap_v, degree), options.wrap_u, degree);
 }
 
 template <class T> Height<T> HeightSampler<T>::at(T u, T v) const noexcept {

@@ -1,12 +1,12 @@
-// Two views of the same faces: a table of all edges, sorted by their ends, which may have any number of faces each; and
-// OpenMesh's half-edges of the manifold part, whose next-pointers give the boundary loops. Half-edges cannot express a
-// third face on an edge or two fans at a vertex: before they are built, every fan gets a vertex of its own.
+// All counts come from one table of edges, sorted by their ends, in which an edge may have any number of faces. Loops
+// are walked on the half-edges that pair up. OpenMesh's half-edges were tried for that: its add_face refuses a third
+// face on an edge, and aborts the program on a polygon that runs along one of its own edges twice, as keyholed ones do.
+// The tests compare these loops and components with OpenMesh's on the meshes that it holds.
 #include "bake/surface/mesh_check.h"
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
-#include <OpenMesh/Core/Mesh/ArrayKernel.hh>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace bake {
 namespace {
@@ -33,6 +33,7 @@ struct HalfEdges {
     std::vector<Index> origin, face;
     std::vector<Index> face_begin; ///< faces + 1; a face without edges has none
     Index next(Index h) const noexcept { return h + 1 < face_begin[face[h] + 1] ? h + 1 : face_begin[face[h]]; }
+    Index previous(Index h) const noexcept { return h > face_begin[face[h]] ? h - 1 : face_begin[face[h] + 1] - 1; }
     Index target(Index h) const noexcept { return origin[next(h)]; }
     std::size_t size() const noexcept { return origin.size(); }
 };
@@ -133,66 +134,47 @@ std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& ma
     return turned;
 }
 
-// Corners of one fan of faces around a position share a set. `all` joins across edges of any number of faces.
-void join_fans(const HalfEdges& he, const EdgeTable& table, const std::vector<char>& turned, bool all, Sets& fans) {
-    for (std::size_t e = 0; e < table.edges(); ++e) {
-        const Index first = table.by_edge[table.begin[e]];
-        const Index at[2] = {first, he.next(first)};
-        for (Index i = table.begin[e] + 1; i < table.begin[e + 1]; ++i) {
-            const Index h = table.by_edge[i];
-            const bool same_way = he.origin[h] == he.origin[first];
-            const bool agree = same_way == (turned[he.face[h]] != turned[he.face[first]]);
-            if (!all && (table.faces(e) != 2 || !agree)) continue;
-            fans.join(at[0], same_way ? h : he.next(h));
-            fans.join(at[1], same_way ? he.next(h) : h);
-        }
+// Chains of edges that are free, that is, joined to no second face that agrees; those with a true boundary edge count.
+std::size_t boundary_loops(const HalfEdges& he, const EdgeTable& table, std::vector<Index> mate, const std::vector<char>& turned) {
+    for (Index h = 0; h < he.size(); ++h) {
+        const Index other = mate[h];
+        if (other == no_index) continue;
+        const bool same_way = he.origin[h] == he.origin[other];
+        if (same_way != (turned[he.face[h]] != turned[he.face[other]])) mate[h] = mate[other] = no_index;
     }
-}
-
-using OpenMeshTopology = OpenMesh::PolyConnectivity;
-
-// Chains of half-edges without face that hold at least one edge that is a boundary in the table.
-std::size_t boundary_loops(const HalfEdges& he, const EdgeTable& table, const std::vector<char>& turned, Sets& fans) {
-    OpenMeshTopology open;
-    std::vector<OpenMesh::VertexHandle> handle(he.size());
-    for (Index h = 0; h < he.size(); ++h)
-        if (fans.find(h) == h) handle[h] = open.add_vertex();
-    std::vector<OpenMesh::VertexHandle> ring;
-    std::vector<OpenMesh::FaceHandle> faces(turned.size());
-    for (std::size_t f = 0; f < turned.size(); ++f) {
-        ring.clear();
-        for (Index h = he.face_begin[f]; h < he.face_begin[f + 1]; ++h) ring.push_back(handle[fans.find(h)]);
-        if (ring.empty()) continue;
-        if (turned[f]) std::reverse(ring.begin(), ring.end());
-        faces[f] = open.add_face(ring);
-        if (faces[f].is_valid()) continue;
-        // Only where a fan meets itself along a non-manifold edge: the face then stands alone.
-        for (auto& v : ring) v = open.add_vertex();
-        faces[f] = open.add_face(ring);
-    }
-    std::vector<char> on_boundary(open.n_halfedges(), 0), done(open.n_halfedges(), 0);
-    for (std::size_t e = 0; e < table.edges(); ++e) {
-        if (table.faces(e) != 1) continue;
-        const Index h = table.by_edge[table.begin[e]], f = he.face[h];
-        // The k-th edge of the ring given; reversing a ring of n maps k to n - 2 - k. OpenMesh starts a face's chain
-        // at its last edge.
-        const Index n = he.face_begin[f + 1] - he.face_begin[f], k = h - he.face_begin[f];
-        const Index in_ring = turned[f] ? (2 * n - 2 - k) % n : k;
-        auto edge = open.next_halfedge_handle(open.halfedge_handle(faces[f]));
-        for (Index i = 0; i < in_ring; ++i) edge = open.next_halfedge_handle(edge);
-        on_boundary[open.opposite_halfedge_handle(edge).idx()] = 1;
-    }
+    // With faces turned to agree, the free edge that ends where h begins: round the fan of h's first vertex.
+    const auto before = [&](Index h) { return turned[he.face[h]] ? he.next(h) : he.previous(h); };
+    std::vector<char> done(he.size(), 0);
     std::size_t loops = 0;
-    for (std::size_t i = 0; i < on_boundary.size(); ++i) {
-        if (!on_boundary[i] || done[i]) continue;
+    for (std::size_t e = 0; e < table.edges(); ++e) {
+        if (table.faces(e) != 1 || done[table.by_edge[table.begin[e]]]) continue;
         ++loops;
-        for (OpenMesh::HalfedgeHandle h{static_cast<int>(i)}; !done[h.idx()]; h = open.next_halfedge_handle(h)) done[h.idx()] = 1;
+        for (Index h = table.by_edge[table.begin[e]]; !done[h];) {
+            done[h] = 1;
+            h = before(h);
+            while (mate[h] != no_index) h = before(mate[h]);
+        }
     }
     return loops;
 }
 
-void count_nonmanifold_vertices(const HalfEdges& he, const EdgeTable& table, std::size_t vertices, Sets& fans,
-                                Topology& topology) {
+// Corners of one fan of faces around a position share a set.
+Sets find_fans(const HalfEdges& he, const EdgeTable& table) {
+    Sets fans(he.size());
+    for (std::size_t e = 0; e < table.edges(); ++e) {
+        const Index first = table.by_edge[table.begin[e]];
+        for (Index i = table.begin[e] + 1; i < table.begin[e + 1]; ++i) {
+            const Index h = table.by_edge[i];
+            const bool same_way = he.origin[h] == he.origin[first];
+            fans.join(first, same_way ? h : he.next(h));
+            fans.join(he.next(first), same_way ? he.next(h) : h);
+        }
+    }
+    return fans;
+}
+
+void count_nonmanifold_vertices(const HalfEdges& he, const EdgeTable& table, std::size_t vertices, Topology& topology) {
+    Sets fans = find_fans(he, table);
     std::vector<char> fans_at(vertices, 0); // 2: more than one, or on a non-manifold edge
     for (Index h = 0; h < he.size(); ++h)
         if (fans.find(h) == h) fans_at[he.origin[h]] = char(std::min(2, fans_at[he.origin[h]] + 1));
@@ -278,12 +260,10 @@ Topology topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, c
         topology.boundary_edges += table.faces(e) == 1;
         topology.nonmanifold_edges += table.faces(e) > 2;
     }
-    const std::vector<char> turned = turned_faces(he, mates(he, table), topology);
-    Sets fans(he.size());
-    join_fans(he, table, turned, false, fans);
-    if (topology.boundary_edges > 0) topology.boundary_loops = boundary_loops(he, table, turned, fans);
-    join_fans(he, table, turned, true, fans);
-    count_nonmanifold_vertices(he, table, mesh.positions.size(), fans, topology);
+    const std::vector<Index> mate = mates(he, table);
+    const std::vector<char> turned = turned_faces(he, mate, topology);
+    topology.boundary_loops = boundary_loops(he, table, mate, turned);
+    count_nonmanifold_vertices(he, table, mesh.positions.size(), topology);
     count_components(mesh, triangles, he, table, turned, topology);
     return topology;
 }

@@ -9,7 +9,7 @@ namespace bake {
 struct Topology {
     std::size_t edges = 0;
     std::size_t boundary_edges = 0;         ///< edges of one face
-    std::size_t boundary_loops = 0;         ///< closed chains of boundary edges, as half-edges follow each other
+    std::size_t boundary_loops = 0;         ///< closed chains of boundary edges
     std::size_t nonmanifold_edges = 0;      ///< edges of three faces or more
     std::size_t nonmanifold_vertices = 0;   ///< positions on such an edge, or whose faces form more than one fan
     std::size_t components = 0;             ///< sets of faces connected through edges
@@ -48,8 +48,7 @@ struct MeshCheck {
 /// Largest entry of faces_of_size.
 inline constexpr std::size_t largest_listed_face = 8;
 
-/// `triangles` as triangulate(mesh) gives them. An edge may have any number of faces: the counts come from a sorted
-/// table of edges; loops and components from half-edges of the part that is manifold.
+/// `triangles` as triangulate(mesh) gives them. Faces may hang together in any way: no mesh is refused.
 MeshCheck check_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles, const MeshCheckOptions& options = {});
 
 } // namespace bake

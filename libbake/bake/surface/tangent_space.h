@@ -10,9 +10,9 @@ namespace bake {
 
 /// One (T, sign) per corner, T unit and perpendicular to the corner's normal, B = sign * cross(N, T) along +v.
 /// All arrays have one value per corner; face f has corners [face_begin[f], face_begin[f + 1]), three or four of them.
-/// Corners whose position, normal and uv are exactly equal share a vertex. Degenerate triangles (two equal positions, or
-/// no area in uv) borrow the space of a neighbour at the same vertex, and give (1, 0, 0, -1) where there is none, as the
-/// reference does; (1, 0, 0, sign) where dp/du runs along the normal. Finite for any input without NaN.
+/// Corners whose position, normal and uv are exactly equal share a vertex. Degenerate triangles (two equal positions,
+/// or no area in uv) borrow the space of a neighbour at the same vertex, and give (1, 0, 0, -1) where there is none, as
+/// the reference does; (1, 0, 0, sign) where dp/du runs along the normal. Finite for any input without NaN.
 std::vector<Vec4f> corner_tangents(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                                    std::span<const Vec2f> uvs, std::span<const std::uint32_t> face_begin);
 

@@ -82,7 +82,7 @@ void find_tiles(const Mesh& mesh, UvCheck& check) {
             low = {std::min(low.x, uv.x), std::min(low.y, uv.y)};
             high = {std::max(high.x, uv.x), std::max(high.y, uv.y)};
         }
-        if (low.x > high.x) continue;
+        if (!(low.x < high.x && low.y < high.y)) continue; // without area: on a border it is in no tile rather than in both
         // A border on a tile's edge, or off it by rounding, belongs to the tile inside.
         constexpr double slack = 1e-5;
         const auto first = [](double a, double b) { return std::floor(std::min(a + slack, 0.5 * (a + b))); };

@@ -37,41 +37,59 @@ struct Sums {
 
 bool whole_numbers(SampleType type) noexcept { return type == SampleType::u8 || type == SampleType::u16; }
 
-// Distinct values in ascending order, none when there are more than most_levels.
-std::vector<float> distinct_levels(const Image<float>& image, int channel, int largest) {
-    std::vector<char> used(std::size_t(largest) + 1, 0);
-    for (int y = 0; y < image.height(); ++y) {
-        const float* v = image.row(y) + channel;
-        for (int x = 0; x < image.width(); ++x, v += image.channels()) {
-            const float level = *v * float(largest) + 0.5f;
-            if (level >= 0 && level < float(largest) + 1) used[std::size_t(level)] = 1;
+// A channel, or from channel on the mean of several.
+struct Plane {
+    const Image<float>* image;
+    int channel = 0, count = 1;
+};
+
+// Calls visit(value) for every finite value until it returns false.
+template <class Visit> void for_values(const Plane& plane, const Visit& visit) {
+    for (int y = 0; y < plane.image->height(); ++y) {
+        const float* v = plane.image->row(y) + plane.channel;
+        for (int x = 0; x < plane.image->width(); ++x, v += plane.image->channels()) {
+            float value = v[0];
+            if (plane.count > 1) {
+                for (int c = 1; c < plane.count; ++c) value += v[c];
+                value /= float(plane.count);
+            }
+            if (value - value == 0 && !visit(value)) return;
         }
     }
+}
+
+// Distinct values of integer samples in ascending order: whole multiples of 1 / largest.
+std::vector<float> distinct_levels(const Plane& plane, int largest) {
+    std::vector<char> used(std::size_t(largest) + 1, 0);
+    for_values(plane, [&](float v) {
+        const float level = v * float(largest) + 0.5f;
+        if (level >= 0 && level < float(largest) + 1) used[std::size_t(level)] = 1;
+        return true;
+    });
     std::vector<float> values;
     for (int level = 0; level <= largest; ++level)
         if (used[level]) values.push_back(float(level) / float(largest));
     return values;
 }
 
-std::vector<float> distinct_values(const Image<float>& image, int channel) {
+// Distinct values in ascending order, none when there are more than most_levels.
+std::vector<float> distinct_values(const Plane& plane) {
     constexpr std::uint32_t slots = 4 * most_levels;
     std::vector<std::uint32_t> table(slots, 0); // bits of the value + 1: no finite value has all bits set
     std::vector<float> values;
     std::uint32_t last = 0;
-    for (int y = 0; y < image.height(); ++y) {
-        const float* v = image.row(y) + channel;
-        for (int x = 0; x < image.width(); ++x, v += image.channels()) {
-            const std::uint32_t key = std::bit_cast<std::uint32_t>(*v + 0.0f) + 1; // -0 is 0
-            if (key == last || *v - *v != 0) continue;
-            last = key;
-            std::uint32_t slot = key * 2654435761u >> 14;
-            while (table[slot] != 0 && table[slot] != key) slot = (slot + 1) % slots;
-            if (table[slot] == key) continue;
-            if (values.size() == std::size_t(most_levels)) return {};
-            table[slot] = key;
-            values.push_back(*v);
-        }
-    }
+    for_values(plane, [&](float v) {
+        const std::uint32_t key = std::bit_cast<std::uint32_t>(v + 0.0f) + 1; // -0 is 0
+        if (key == last) return true;
+        last = key;
+        std::uint32_t slot = key * 2654435761u >> 14;
+        while (table[slot] != 0 && table[slot] != key) slot = (slot + 1) % slots;
+        if (table[slot] == key) return true;
+        table[slot] = key;
+        values.push_back(v);
+        return values.size() <= std::size_t(most_levels);
+    });
+    if (values.size() > std::size_t(most_levels)) values.clear();
     std::sort(values.begin(), values.end());
     return values;
 }
@@ -97,18 +115,23 @@ int bits_that_hold(const std::vector<float>& values, int stored) {
     return stored > 0 ? stored : 0;
 }
 
-void count_levels(const Image<float>& image, const ImageInfo& info, int channel, ChannelCheck& check) {
+void count_levels(const Plane& plane, const ImageInfo& info, ChannelCheck& check) {
     const bool whole = whole_numbers(info.type);
-    const int stored = whole ? (info.bits > 0 && info.bits < 16 ? info.bits : (info.type == SampleType::u8 ? 8 : 16)) : 0;
     const int sample_bits = info.type == SampleType::u8 ? 8 : 16;
-    const std::vector<float> values = whole ? distinct_levels(image, channel, (1 << sample_bits) - 1) : distinct_values(image, channel);
-    check.levels = values.empty() && check.nan + check.inf < std::size_t(image.width()) * image.height() ? most_levels + 1 : int(values.size());
-    check.true_bits = whole ? std::min(stored, bits_that_hold(values, sample_bits)) : bits_that_hold(values, 0);
-    if (!whole && int(values.size()) < 2) check.true_bits = 0; // one float value says nothing of bits
+    // The mean of n channels lies on levels n times as fine.
+    const int largest = ((1 << sample_bits) - 1) * plane.count;
+    const std::vector<float> values = whole ? distinct_levels(plane, largest) : distinct_values(plane);
+    const std::size_t texels = std::size_t(plane.image->width()) * plane.image->height();
+    const bool too_many = values.size() > std::size_t(most_levels) || (values.empty() && check.nan + check.inf < texels);
+    check.levels = too_many ? most_levels + 1 : int(values.size());
     for (std::size_t i = 1; i < values.size(); ++i) {
         const double step = double(values[i]) - values[i - 1];
         if (i == 1 || step < check.least_step) check.least_step = step;
     }
+    if (plane.count > 1) return;
+    const int stored = whole && info.bits > 0 ? std::min(info.bits, sample_bits) : sample_bits;
+    if (whole) check.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
+    else if (values.size() > 1) check.true_bits = bits_that_hold(values, 0); // one float says nothing of bits
 }
 
 double finite_or_zero(double v) noexcept { return v - v == 0 ? v : 0; }
@@ -151,7 +174,7 @@ Tiling measure_tiling(const Image<float>& image, int channels) {
 }
 
 struct ColourSums {
-    double tint = 0, length = 0;
+    double tint = 0, tint_sum = 0, length = 0;
     Vec3d normal{0};
     std::size_t not_unit = 0, inward = 0;
 };
@@ -164,7 +187,9 @@ void measure_colour(const Image<float>& image, int channels, ImageCheck& check) 
             for (int x = 0; x < image.width(); ++x) {
                 const float* texel = &image.at(x, y);
                 const auto [low, high] = std::minmax_element(texel, texel + channels);
-                s.tint = std::max(s.tint, finite_or_zero(double(*high) - *low));
+                const double tint = 255 * finite_or_zero(double(*high) - *low);
+                s.tint = std::max(s.tint, tint);
+                s.tint_sum += tint;
                 if (channels < 3) continue;
                 const Vec3d n(2 * finite_or_zero(texel[0]) - 1, 2 * finite_or_zero(texel[1]) - 1, 2 * finite_or_zero(texel[2]) - 1);
                 const double length = glm::length(n);
@@ -177,18 +202,44 @@ void measure_colour(const Image<float>& image, int channels, ImageCheck& check) 
     ColourSums all;
     for (const ColourSums& s : sums) {
         all.tint = std::max(all.tint, s.tint);
+        all.tint_sum += s.tint_sum;
         all.length += s.length;
         all.normal += s.normal;
         all.not_unit += s.not_unit;
         all.inward += s.inward;
     }
     const double texels = double(image.width()) * image.height();
-    const bool whole = whole_numbers(check.info.type);
-    check.tint = all.tint * (whole && check.info.type == SampleType::u16 ? 65535 : 255);
+    check.tint = all.tint;
+    check.mean_tint = all.tint_sum / texels;
     check.normal_length = all.length / texels;
     check.mean_normal = all.normal / texels;
     check.not_unit = double(all.not_unit) / texels;
     check.inward = double(all.inward) / texels;
+}
+
+void measure_grey(const Image<float>& image, ImageCheck& check) {
+    check.grey = check.channels.front();
+    if (check.colour_channels > 1) {
+        Sums sums;
+        const Plane plane{&image, 0, check.colour_channels};
+        for_values(plane, [&](float v) { return sums.add(v), true; });
+        check.grey = {};
+        check.grey.nan = std::size_t(image.width()) * image.height() - sums.count;
+        if (sums.count > 0) {
+            check.grey.min = sums.min;
+            check.grey.max = sums.max;
+            check.grey.mean = sums.sum / double(sums.count);
+        }
+        count_levels(plane, check.info, check.grey);
+    }
+    check.grey.name = "grey";
+    const int bits = check.channels.front().true_bits;
+    if (bits > 0) {
+        check.grey_step = 1 / (std::ldexp(1.0, bits) - 1);
+    } else if (const double largest = std::max(std::abs(check.grey.min), std::abs(check.grey.max)); largest > 0) {
+        // The step between floats just below the largest value.
+        check.grey_step = std::ldexp(1.0, int(std::ceil(std::log2(largest))) - (check.info.type == SampleType::half ? 11 : 24));
+    }
 }
 
 // Tangent-space normals lean nowhere on average and point out of the surface; colours rarely do both.
@@ -196,11 +247,9 @@ Looks judge(const ImageCheck& check) {
     const bool constant = std::all_of(check.channels.begin(), check.channels.begin() + check.colour_channels,
                                       [](const ChannelCheck& c) { return c.min == c.max; });
     if (constant) return Looks::constant;
-    // Judged in 8-bit levels: a 16-bit file rounds its grey less, not more.
-    const double tint = check.info.type == SampleType::u16 ? check.tint / 257 : check.tint;
     const std::size_t colours = check.channels.size() - (check.info.alpha_channel >= 0);
     if (colours == 2 || colours > 4) return Looks::data;
-    if (check.colour_channels < 3 || tint <= grey_up_to) return Looks::grey;
+    if (check.colour_channels < 3 || (check.tint <= grey_tint && check.mean_tint <= grey_mean_tint)) return Looks::grey;
     const Vec3d n = check.mean_normal;
     const bool upright = std::abs(n.x) < 0.15 && std::abs(n.y) < 0.15 && n.z > 0.1 && check.inward < 0.1;
     const bool unit = std::abs(check.normal_length - 1) < 0.05;
@@ -236,7 +285,9 @@ ImageCheck check_image(const Image<float>& image, const ImageInfo& info) {
         Sums all;
         for (std::size_t i = std::size_t(c); i < sums.size(); i += channels) all.add(sums[i]);
         ChannelCheck channel;
-        channel.name = std::size_t(c) < info.channels.size() ? info.channels[c] : "channel" + std::to_string(c);
+        channel.name = std::size_t(c) < info.channels.size() ? info.channels[c] : std::to_string(c);
+        for (char& letter : channel.name)
+            if (letter < ' ' || letter > '~') letter = '?';
         channel.nan = all.nan;
         channel.inf = all.inf;
         if (all.count > 0) {
@@ -244,7 +295,7 @@ ImageCheck check_image(const Image<float>& image, const ImageInfo& info) {
             channel.max = all.max;
             channel.mean = all.sum / double(all.count);
         }
-        count_levels(image, info, c, channel);
+        count_levels({&image, c}, info, channel);
         check.true_bits = std::max(check.true_bits, channel.true_bits);
         check.channels.push_back(channel);
     }
@@ -254,8 +305,7 @@ ImageCheck check_image(const Image<float>& image, const ImageInfo& info) {
     measure_colour(image, check.colour_channels, check);
     check.tiling = measure_tiling(image, check.colour_channels);
     check.looks = judge(check);
-    const ChannelCheck& first = check.channels.front();
-    check.grey_step = first.true_bits > 0 && whole_numbers(info.type) ? 1 / (std::ldexp(1.0, first.true_bits) - 1) : first.least_step;
+    measure_grey(image, check);
     return check;
 }
 

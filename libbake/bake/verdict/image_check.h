@@ -24,7 +24,7 @@ struct Tiling {
     double x = 0, y = 0;
 };
 /// A border step up to this ratio is no more visible than the texture itself.
-inline constexpr double tiles_up_to = 1.5;
+inline constexpr double tiles_up_to = 1.6;
 
 /// data: two channels, or more than four.
 enum class Looks { constant, grey, normal_map, colour, data };
@@ -35,7 +35,9 @@ struct ImageCheck {
     std::vector<ChannelCheck> channels;
     int true_bits = 0;        ///< most of any channel
     int colour_channels = 0;  ///< the channels that are not alpha, at most 3 of them
-    double tint = 0;          ///< largest difference between colour channels of one texel, in levels of the file (of 8 bits for floats)
+    ChannelCheck grey;        ///< the mean of the colour channels; true_bits unset
+    double tint = 0;          ///< largest difference between colour channels of one texel, in 8-bit levels
+    double mean_tint = 0;     ///< mean of that difference over the texels
     Tiling tiling;            ///< of the mean of the colour channels
     Looks looks = Looks::colour;
 
@@ -43,11 +45,11 @@ struct ImageCheck {
     /// Unset (0) with fewer than three channels.
     double normal_length = 0, not_unit = 0, inward = 0;
     Vec3d mean_normal{0};
-    double grey_step = 0; ///< smallest height step of the grey value: 1 / (2^true_bits - 1), or the least step of floats
+    double grey_step = 0; ///< height of one quantisation step: 1 / (2^true_bits - 1); of floats the coarsest in use
 };
 
-/// Largest tint that still counts as grey, in levels: what a JPEG or a rounding exporter leaves.
-inline constexpr double grey_up_to = 2;
+/// Tints that still count as grey, in 8-bit levels: what a JPEG or a rounding exporter leaves.
+inline constexpr double grey_tint = 8, grey_mean_tint = 1;
 
 ImageCheck check_image(const Image<float>& image, const ImageInfo& info);
 

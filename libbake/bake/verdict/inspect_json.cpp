@@ -44,6 +44,11 @@ Json uvs(const UvCheck& uv) {
             {"stretch", spread(uv.stretch)}};
 }
 
+Json channel(const ChannelCheck& c) {
+    return {{"name", c.name}, {"min", c.min}, {"max", c.max}, {"mean", c.mean}, {"nan", c.nan}, {"inf", c.inf},
+            {"levels", c.levels > most_levels ? Json(nullptr) : Json(c.levels)}, {"least_step", c.least_step}};
+}
+
 } // namespace
 
 std::string to_json(const MeshReport& report) {
@@ -85,18 +90,14 @@ std::string to_json(const ImageReport& report) {
     Json json = {{"file", report.file}, {"kind", "image"}, {"format", c.info.format}, {"width", c.info.width}, {"height", c.info.height},
                  {"type", name(c.info.type)}, {"bits", c.info.bits}, {"true_bits", c.true_bits}, {"srgb_tagged", c.info.srgb_tagged}};
     json["channels"] = Json::array();
-    for (const ChannelCheck& channel : c.channels)
-        json["channels"].push_back({{"name", channel.name},
-                                    {"min", channel.min},
-                                    {"max", channel.max},
-                                    {"mean", channel.mean},
-                                    {"nan", channel.nan},
-                                    {"inf", channel.inf},
-                                    {"levels", channel.levels > most_levels ? Json(nullptr) : Json(channel.levels)},
-                                    {"true_bits", channel.true_bits},
-                                    {"least_step", channel.least_step}});
+    for (const ChannelCheck& own : c.channels) {
+        Json one = channel(own);
+        one["true_bits"] = own.true_bits;
+        json["channels"].push_back(one);
+    }
+    json["grey"] = channel(c.grey);
     json["looks_like"] = name(c.looks);
-    json["tint_levels"] = c.tint;
+    json["tint"] = {{"max", c.tint}, {"mean", c.mean_tint}};
     json["tiling"] = {{"x", c.tiling.x}, {"y", c.tiling.y}, {"tiles_x", c.tiling.x <= tiles_up_to}, {"tiles_y", c.tiling.y <= tiles_up_to}};
     if (c.looks == Looks::grey)
         json["step"] = {{"height", c.grey_step},

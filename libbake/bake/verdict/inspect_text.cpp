@@ -30,8 +30,9 @@ std::string face_sizes(const MeshCheck& c) {
     std::string text;
     for (std::size_t n = 3; n < c.faces_of_size.size(); ++n) {
         if (c.faces_of_size[n] == 0) continue;
-        const std::string kind = n == 3 ? "triangles" : n == 4 ? "quads" : format("%zu-gons%s", n, n == largest_listed_face ? " or larger" : "");
-        text += (text.empty() ? "" : ", ") + format("%zu %s", c.faces_of_size[n], kind.c_str());
+        const std::string kind = n == 3 ? "triangle" : n == 4 ? "quad" : format("%zu-gon", n);
+        text += (text.empty() ? "" : ", ") + plural(c.faces_of_size[n], kind.c_str(), (kind + "s").c_str());
+        if (n == largest_listed_face) text += " or larger";
     }
     return text;
 }
@@ -48,6 +49,13 @@ std::string tile_list(const std::vector<int>& tiles) {
         i = end;
     }
     return text.empty() ? "none" : text;
+}
+
+std::string range(const ChannelCheck& channel) {
+    std::string text = format("%.5g to %.5g, mean %.5g, ", channel.min, channel.max, channel.mean);
+    text += channel.levels > most_levels ? "over 65536 levels" : plural(std::size_t(channel.levels), "level", "levels");
+    if (channel.nan + channel.inf > 0) text += format(", %zu NaN, %zu Inf", channel.nan, channel.inf);
+    return text;
 }
 
 std::string uv_rows(const MeshReport& report) {
@@ -79,8 +87,6 @@ std::string to_text(const MeshReport& report) {
                                 ", " + plural(t.nonmanifold_edges, "non-manifold edge", "non-manifold edges") + ", " +
                                 plural(t.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"));
     text += row("faces", format("%zu flipped, %zu duplicate, %zu zero-area (up to 1e-12 of diagonal^2, or collinear)", t.flipped_faces, c.duplicate_faces, c.zero_area_faces));
-    if (c.faces_without_normal > 0 || c.faces_without_uv > 0)
-        text += row("missing", format("uvs on %zu faces, normals on %zu", c.faces_without_uv, c.faces_without_normal));
     text += uv_rows(report);
     if (report.audit.available)
         text += row("audit", format("%zu self intersections, %s, volume %.6g", report.audit.self_intersections,
@@ -94,15 +100,13 @@ std::string to_text(const ImageReport& report) {
     for (const ChannelCheck& channel : c.channels) names += (names.empty() ? "" : " ") + channel.name;
     std::string text = report.file + "\n";
     text += row("image", format("%d x %d, %s, %d-bit %s, channels ", c.info.width, c.info.height, c.info.format.c_str(), c.info.bits, name(c.info.type)) + names);
-    for (const ChannelCheck& channel : c.channels) {
-        const std::string levels = channel.levels > most_levels ? "over 65536 levels" : plural(std::size_t(channel.levels), "level", "levels");
-        std::string bad;
-        if (channel.nan + channel.inf > 0) bad = format(", %zu NaN, %zu Inf", channel.nan, channel.inf);
-        text += row("channel " + channel.name, format("%.5g to %.5g, mean %.5g, ", channel.min, channel.max, channel.mean) + levels + bad);
-    }
-    text += row("true depth", c.true_bits > 0 ? plural(std::size_t(c.true_bits), "bit", "bits") : "more than 16 bits");
-    const bool grey = c.looks == Looks::grey || (c.looks == Looks::constant && c.tint <= grey_up_to);
-    text += row("grey", !grey ? format("no (channels differ by up to %.4g levels)", c.tint) : c.tint > 0 ? format("yes (tinted by up to %.4g levels)", c.tint) : "yes");
+    for (const ChannelCheck& channel : c.channels) text += row("channel " + channel.name, range(channel));
+    text += row("true depth", c.true_bits > 0 ? plural(std::size_t(c.true_bits), "bit", "bits") : std::string("as stored, ") + name(c.info.type));
+    const bool grey = c.looks == Looks::grey || (c.looks == Looks::constant && c.tint <= grey_tint);
+    std::string greyness = grey ? "yes" : "no";
+    if (c.tint > 0) greyness += format(", channels differ by up to %.4g of 255 levels", c.tint);
+    if (grey && c.colour_channels > 1) greyness += "; their mean " + range(c.grey);
+    text += row("grey", greyness);
     const auto tiles = [](double ratio) { return format("%s (x%.3g)", ratio <= tiles_up_to ? "yes" : "no", ratio); };
     text += row("tiles", "x " + tiles(c.tiling.x) + ", y " + tiles(c.tiling.y) + ": border step over the mean step inside");
     text += row("looks like", name(c.looks));
