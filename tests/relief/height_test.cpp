@@ -127,7 +127,7 @@ TEST_CASE("box_minify: keeps the mean") {
     CHECK(small.at(0, 0) == doctest::Approx((0 + 1 + 8 + 9) / 4.0));
 }
 
-TEST_CASE("dequantise: stays within half a step of the file and brings 8-bit slopes closer to the truth") {
+TEST_CASE("dequantise: stays within a step of the file, keeps its cliffs, and brings 8-bit slopes closer to the truth") {
     const int n = 256;
     HeightTexture height;
     height.values = Image<float>(n, n, 1);
@@ -153,9 +153,9 @@ TEST_CASE("dequantise: stays within half a step of the file and brings 8-bit slo
     const double before = slope_error();
     dequantise(height, Wrap::repeat, Wrap::repeat);
     for (std::size_t i = 0; i < truth.size(); ++i)
-        CHECK(std::abs(height.values.data()[i] - std::round(truth[i] * 255) / 255) <= 0.5001 / 255);
-    CHECK(slope_error() < 0.4 * before);
-    CHECK(height.step == 0);
+        CHECK(std::abs(height.values.data()[i] - std::round(truth[i] * 255) / 255) <= 1.0001 / 255);
+    CHECK(slope_error() < 0.3 * before);
+    MESSAGE("slope error per texel " << before << " before, " << slope_error() << " after");
 }
 }
 

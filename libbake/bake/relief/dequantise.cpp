@@ -42,11 +42,12 @@ void dequantise(HeightTexture& height, Wrap wrap_u, Wrap wrap_v) {
     Image<float> stored(values.width(), values.height(), 1), room(values.width(), values.height(), 1);
     std::copy_n(values.data(), values.size(), stored.data());
     const auto half_step = float(height.step / 2);
+    constexpr int passes = 8;
     for (int spacing = 32; spacing >= 1; spacing /= 2)
-        for (int pass = 0; pass < 4; ++pass)
+        for (int pass = 0; pass < passes; ++pass)
             smooth_and_clamp(values, stored, room, spacing, half_step, wrap_u, wrap_v);
-    height.levels = 257;
-    height.step = 0;
+    // Clamping leaves corners where a ramp meets its bounds; one last pass may round them by another half step.
+    smooth_and_clamp(values, stored, room, 1, 2 * half_step, wrap_u, wrap_v);
 }
 
 } // namespace bake
