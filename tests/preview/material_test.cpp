@@ -185,6 +185,7 @@ TEST_CASE("material: flat shading takes the facet's normal") {
         const Vec3f n = shading_normal(plain, *shape, at);
         const auto& c = shape->surface.triangles[at.triangle].corner;
         const auto p = [&](int k) { return shape->mesh.positions[shape->mesh.corner_position[c[k]]]; };
+        if (p(0) == p(1) || p(1) == p(2) || p(2) == p(0)) return; // squeezed at a pole: no ray meets it
         CHECK(std::abs(glm::dot(n, p(1) - p(0))) < 1e-6f);
         CHECK(std::abs(glm::dot(n, p(2) - p(0))) < 1e-6f);
         CHECK(glm::dot(n, p(0)) > 0);

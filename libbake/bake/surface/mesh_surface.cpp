@@ -218,7 +218,7 @@ template <class T> Jet<T> jet_at(const MeshSurface& s, std::uint32_t triangle, T
         jet.p_u = (d2.y * e1 - d1.y * e2) * per_area;
         jet.p_v = (d1.x * e2 - d2.x * e1) * per_area;
         jet.n = jet.sigma * unit_or_zero(glm::cross(jet.p_u, jet.p_v));
-        return jet;
+        return jet.n != Vec3<T>(T(0)) ? jet : Jet<T>{.sigma = 0};
     }
     const Vec3<T> m = mix(s.n[c0], s.n[c1], s.n[c2]);
     const T length = glm::length(m);
