@@ -1,8 +1,8 @@
 #include "bake/asset/image_guard.h"
 #include <algorithm>
-#include <cstring>
 #include <fstream>
-#include <limits>
+#include <string_view>
+#include <utility>
 
 namespace bake {
 namespace {
@@ -117,6 +117,12 @@ std::string exr_fault(std::istream& file, const std::string& head, std::int64_t 
     return "";
 }
 
+// OpenImageIO's decoders of these write past their buffers, or abort, on files with a few bytes changed, or cannot tell
+// that a file was cut.
+constexpr std::pair<std::string_view, const char*> unsafe_formats[] = {
+    {"SDPX", "DPX"}, {"XPDS", "DPX"}, {"\x80\x2a\x5f\xd7", "Cineon"}, {"\xd7\x5f\x2a\x80", "Cineon"}, {"FOR4", "IFF"},
+    {"FORM", "IFF"}, {"\x53\x80\xf6\x34", "Softimage"}, {"\x2f\x08\x67\xab", "zfile"}, {"\xab\x67\x08\x2f", "zfile"}};
+
 } // namespace
 
 std::string image_fault(const std::string& path, std::int64_t stored) {
@@ -127,8 +133,8 @@ std::string image_fault(const std::string& path, std::int64_t stored) {
     file.clear();
     if (head.starts_with("DDS ")) return dds_fault(head, stored);
     if (head.starts_with("\x76\x2f\x31\x01")) return exr_fault(file, head, stored);
-    // IFF: the size of the rest of the file. OIIO reads zeros where it ends early.
-    if (head.starts_with("FOR4") || head.starts_with("FORM")) return stored < 8 + std::int64_t(u32(head, 4, true)) ? "is cut short" : "";
+    for (const auto& [magic, format] : unsafe_formats)
+        if (head.starts_with(magic)) return std::string(format) + " is not read: damaged files of that format crash its decoder";
     return "";
 }
 

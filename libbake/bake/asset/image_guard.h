@@ -5,9 +5,10 @@
 
 namespace bake {
 
-/// Why the file cannot be whole, "" when nothing speaks against it. Knows OpenEXR (attributes that are missing, run past
-/// the end or have unprintable channel names; more chunks than bytes), DDS and IFF (fewer bytes than the header asks
-/// for); other formats are told apart from cut ones by their decoders. `stored` is the file's size in bytes.
+/// Why the file is not to be read, "" when nothing speaks against it: OpenEXR whose attributes are missing, run past the
+/// end or name unprintable channels, or that has more chunks than bytes; DDS with fewer bytes than its header asks for;
+/// formats whose decoders are not safe (DPX, Cineon, IFF, Softimage, zfile). Other formats are told apart from cut ones
+/// by their decoders. `stored` is the file's size in bytes.
 std::string image_fault(const std::string& path, std::int64_t stored);
 
 } // namespace bake
