@@ -31,6 +31,8 @@ std::vector<double> spline_taps(int count) {
 }
 
 constexpr int spline_reach = 28;
+constexpr int largest_reach = 32;
+constexpr int block = 1024; ///< texels whose sums stay in the nearest cache
 
 } // namespace
 
@@ -83,48 +85,93 @@ double noise_of_difference(const Stencil& a, const Stencil& b) {
     return std::sqrt(sum);
 }
 
+namespace {
+
+/// Taps down to what T can tell from rounding.
+template <class T> Stencil as_precise_as(Stencil stencil) {
+    while (std::abs(stencil.taps.back()) < std::numeric_limits<T>::epsilon() / 8) stencil.taps.pop_back();
+    return stencil;
+}
+
+} // namespace
+
 template <class T>
 SlopeFilter<T>::SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v)
-    : image_(image), stencil_(stencil), wrap_u_(wrap_u), reach_(stencil.reach()),
-      taps_(stencil.taps.begin(), stencil.taps.end()), rows_(image, wrap_v, reach_, stencil.border_degree) {
-    while (std::abs(taps_.back()) < std::numeric_limits<T>::epsilon() / 8) taps_.pop_back();
-}
+    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u), reach_(stencil_.reach()),
+      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree) {}
 
 namespace {
 
-// out[x] (+)= tap * (ahead[x] - behind[x]), three loops that the compiler turns into vector code.
-template <class T> void accumulate(const T* ahead, const T* behind, T tap, bool first, T* out, int n) noexcept {
-    if (first)
-        for (int x = 0; x < n; ++x) out[x] = tap * (ahead[x] - behind[x]);
-    else
-        for (int x = 0; x < n; ++x) out[x] += tap * (ahead[x] - behind[x]);
+// The loops below are what the compiler turns into vector code: straight rows that do not overlap.
+
+/// One tap, no smoothing, of a row that is not extended: `ends` are the samples beyond it.
+template <class T>
+void central(const T* row, std::pair<T, T> ends, const T* above, const T* below, T scale_u, T scale_v, T* __restrict out,
+             int n) noexcept {
+    const auto pair = [&](int x, T behind, T ahead) {
+        out[2 * x] = scale_u * (ahead - behind);
+        out[2 * x + 1] = scale_v * (above[x] - below[x]);
+    };
+    for (int x = 1; x < n - 1; ++x) pair(x, row[x - 1], row[x + 1]);
+    pair(0, ends.first, n > 1 ? row[1] : ends.second);
+    if (n > 1) pair(n - 1, row[n - 2], ends.second);
 }
 
-template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v, T* out, int n) noexcept {
+/// What one tap smoothed across by (side, 1 - 2 side, side) differentiates along u, and smooths along u.
+template <class T>
+void smooth_and_differ(const T* above, const T* here, const T* below, T side, T* __restrict smooth, T* __restrict difference,
+                       int n) noexcept {
+    const T centre = 1 - 2 * side;
+    for (int x = 0; x < n; ++x) {
+        smooth[x] = centre * here[x] + side * (above[x] + below[x]);
+        difference[x] = above[x] - below[x];
+    }
+}
+
+/// Both rows extended by one sample.
+template <class T>
+void smoothed_central(const T* smooth, const T* difference, T side, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
+    const T centre = scale_v * (1 - 2 * side), beside = scale_v * side;
+    for (int x = 0; x < n; ++x) {
+        out[2 * x] = scale_u * (smooth[x + 2] - smooth[x]);
+        out[2 * x + 1] = centre * difference[x + 1] + beside * (difference[x] + difference[x + 2]);
+    }
+}
+
+/// sum[x] (+)= the sum over N taps of tap[k] (ahead[k][x] - behind[k][x]).
+template <int N, class T>
+void add_taps(const T* const* ahead, const T* const* behind, const T* tap, bool first, T* __restrict sum, int n) noexcept {
+    const auto taps_at = [&](int x) {
+        T s = tap[0] * (ahead[0][x] - behind[0][x]);
+        if constexpr (N > 1) s += tap[1] * (ahead[1][x] - behind[1][x]);
+        if constexpr (N > 2) s += tap[2] * (ahead[2][x] - behind[2][x]);
+        if constexpr (N > 3) s += tap[3] * (ahead[3][x] - behind[3][x]);
+        return s;
+    };
+    if (first)
+        for (int x = 0; x < n; ++x) sum[x] = taps_at(x);
+    else
+        for (int x = 0; x < n; ++x) sum[x] += taps_at(x);
+}
+
+/// Any number of taps, four to a loop.
+template <class T>
+void differentiate(const T* const* ahead, const T* const* behind, const T* taps, int count, T* sum, int n) noexcept {
+    for (int k = 0; k < count; k += 4) {
+        const auto add = [&](auto add_some) { add_some(ahead + k, behind + k, taps + k, k == 0, sum, n); };
+        switch (count - k) {
+        case 1: add(add_taps<1, T>); break;
+        case 2: add(add_taps<2, T>); break;
+        case 3: add(add_taps<3, T>); break;
+        default: add(add_taps<4, T>);
+        }
+    }
+}
+
+template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
     for (int x = 0; x < n; ++x) {
         out[2 * x] = scale_u * u[x];
         out[2 * x + 1] = scale_v * v[x];
-    }
-}
-
-// central along u and v at once: one tap, no smoothing.
-template <class T>
-void central(const T* extended, const T* above, const T* below, T scale_u, T scale_v, T* out, int n) noexcept {
-    for (int x = 0; x < n; ++x) {
-        out[2 * x] = scale_u * (extended[x + 2] - extended[x]);
-        out[2 * x + 1] = scale_v * (above[x] - below[x]);
-    }
-}
-
-// One tap smoothed across by (side, 1 - 2 side, side), from three extended rows.
-template <class T>
-void smoothed_central(const T* above, const T* here, const T* below, T side, T scale_u, T scale_v, T* out, int n) noexcept {
-    const T centre = 1 - 2 * side;
-    for (int x = 0; x < n; ++x) {
-        out[2 * x] = scale_u * (centre * (here[x + 2] - here[x]) +
-                                side * ((above[x + 2] - above[x]) + (below[x + 2] - below[x])));
-        out[2 * x + 1] = scale_v * (centre * (above[x + 1] - below[x + 1]) +
-                                    side * ((above[x] - below[x]) + (above[x + 2] - below[x + 2])));
     }
 }
 
@@ -132,32 +179,39 @@ void smoothed_central(const T* above, const T* here, const T* below, T side, T s
 
 template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
     const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size());
-    const auto extend = [&](const T* row, T* to) { extend_row(row, n, wrap_u_, reach_, stencil_.border_degree, to); };
     if (taps == 1 && stencil_.side == 0) {
-        scratch.a.resize(padded);
-        extend(rows_(y), scratch.a.data());
-        central(scratch.a.data(), rows_(y - 1), rows_(y + 1), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
+        const auto ends = beyond_ends(rows_(y), n, wrap_u_, 1, stencil_.border_degree);
+        central(rows_(y), ends, rows_(y - 1), rows_(y + 1), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
         return;
     }
+    const auto extend = [&](const T* row, T* to) { extend_row(row, n, wrap_u_, reach_, stencil_.border_degree, to); };
     if (taps == 1) {
-        scratch.a.resize(3 * padded);
-        T* const above = scratch.a.data();
-        for (int k = 0; k < 3; ++k) extend(rows_(y - 1 + k), above + k * padded);
-        smoothed_central(above, above + padded, above + 2 * padded, T(stencil_.side), taps_[0] * scale_u,
-                         taps_[0] * scale_v, out, n);
+        scratch.a.resize(2 * std::size_t(padded));
+        T* const smooth = scratch.a.data();
+        T* const difference = smooth + padded;
+        smooth_and_differ(rows_(y - 1), rows_(y), rows_(y + 1), T(stencil_.side), smooth + 1, difference + 1, n);
+        extend(smooth + 1, smooth);
+        extend(difference + 1, difference);
+        smoothed_central(smooth, difference, T(stencil_.side), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
         return;
     }
     scratch.a.resize(padded);
-    scratch.b.resize(2 * n);
+    scratch.b.resize(2 * block);
     T* const row = scratch.a.data();
     T* const slope_u = scratch.b.data();
-    T* const slope_v = slope_u + n;
+    T* const slope_v = slope_u + block;
     extend(rows_(y), row);
-    for (int k = 1; k <= taps; ++k) {
-        accumulate(row + reach_ + k, row + reach_ - k, taps_[k - 1], k == 1, slope_u, n);
-        accumulate(rows_(y - k), rows_(y + k), taps_[k - 1], k == 1, slope_v, n);
+    const T *right[largest_reach], *left[largest_reach], *above[largest_reach], *below[largest_reach];
+    for (int x = 0; x < n; x += block) {
+        const int count = std::min(block, n - x);
+        for (int k = 1; k <= taps; ++k) {
+            right[k - 1] = row + reach_ + k + x, left[k - 1] = row + reach_ - k + x;
+            above[k - 1] = rows_(y - k) + x, below[k - 1] = rows_(y + k) + x;
+        }
+        differentiate(right, left, taps_.data(), taps, slope_u, count);
+        differentiate(above, below, taps_.data(), taps, slope_v, count);
+        interleave(slope_u, slope_v, scale_u, scale_v, out + 2 * std::size_t(x), count);
     }
-    interleave(slope_u, slope_v, scale_u, scale_v, out, n);
 }
 
 template class SlopeFilter<float>;
