@@ -32,7 +32,7 @@ std::vector<double> spline_taps(int count) {
 
 constexpr int spline_reach = 28;
 constexpr int largest_reach = 32;
-constexpr int block = 1024; ///< texels whose sums stay in the nearest cache
+constexpr int block = 512; ///< texels whose sums stay in the nearest cache
 
 } // namespace
 
@@ -104,38 +104,53 @@ namespace {
 
 // The loops below are what the compiler turns into vector code: straight rows that do not overlap.
 
-/// One tap, no smoothing, of a row that is not extended: `ends` are the samples beyond it.
+/// One tap, no smoothing. Reads samples -1 to n of each row.
 template <class T>
-void central(const T* row, std::pair<T, T> ends, const T* above, const T* below, T scale_u, T scale_v, T* __restrict out,
-             int n) noexcept {
-    const auto pair = [&](int x, T behind, T ahead) {
-        out[2 * x] = scale_u * (ahead - behind);
+void central(const T* above, const T* here, const T* below, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
+    for (int x = 0; x < n; ++x) {
+        out[2 * x] = scale_u * (here[x + 1] - here[x - 1]);
         out[2 * x + 1] = scale_v * (above[x] - below[x]);
+    }
+}
+
+/// One tap, smoothed across by (side, 1 - 2 side, side). Both slopes share the differences along the two diagonals.
+/// Reads samples -1 to n of each row.
+template <class T>
+void smoothed_central(const T* above, const T* here, const T* below, T side, T scale_u, T scale_v, T* __restrict out,
+                      int n) noexcept {
+    const T centre_u = scale_u * (1 - 2 * side), side_u = scale_u * side;
+    const T centre_v = scale_v * (1 - 2 * side), side_v = scale_v * side;
+    for (int x = 0; x < n; ++x) {
+        const T rising = above[x + 1] - below[x - 1], falling = above[x - 1] - below[x + 1];
+        out[2 * x] = centre_u * (here[x + 1] - here[x - 1]) + side_u * (rising - falling);
+        out[2 * x + 1] = centre_v * (above[x] - below[x]) + side_v * (rising + falling);
+    }
+}
+
+constexpr int aligned = 4; ///< texels after which a row's stores are aligned again
+
+/// A row and the samples beyond its ends.
+template <class T> struct RowWithEnds {
+    const T* row;
+    std::pair<T, T> ends;
+};
+
+/// kernel(above, here, below, first, count) over the n texels of a row: in place from the first aligned texel on, and
+/// on copies that reach beyond the ends before and after.
+template <class T, class Kernel> void over_row(const RowWithEnds<T> (&rows)[3], int n, const Kernel& kernel) noexcept {
+    const auto on_copy = [&](int first, int count) {
+        T copy[3][aligned + 2];
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < count + 2; ++i) {
+                const int x = first - 1 + i;
+                copy[r][i] = x < 0 ? rows[r].ends.first : x < n ? rows[r].row[x] : rows[r].ends.second;
+            }
+        kernel(copy[0] + 1, copy[1] + 1, copy[2] + 1, first, count);
     };
-    for (int x = 1; x < n - 1; ++x) pair(x, row[x - 1], row[x + 1]);
-    pair(0, ends.first, n > 1 ? row[1] : ends.second);
-    if (n > 1) pair(n - 1, row[n - 2], ends.second);
-}
-
-/// What one tap smoothed across by (side, 1 - 2 side, side) differentiates along u, and smooths along u.
-template <class T>
-void smooth_and_differ(const T* above, const T* here, const T* below, T side, T* __restrict smooth, T* __restrict difference,
-                       int n) noexcept {
-    const T centre = 1 - 2 * side;
-    for (int x = 0; x < n; ++x) {
-        smooth[x] = centre * here[x] + side * (above[x] + below[x]);
-        difference[x] = above[x] - below[x];
-    }
-}
-
-/// Both rows extended by one sample.
-template <class T>
-void smoothed_central(const T* smooth, const T* difference, T side, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
-    const T centre = scale_v * (1 - 2 * side), beside = scale_v * side;
-    for (int x = 0; x < n; ++x) {
-        out[2 * x] = scale_u * (smooth[x + 2] - smooth[x]);
-        out[2 * x + 1] = centre * difference[x + 1] + beside * (difference[x] + difference[x + 2]);
-    }
+    on_copy(0, std::min(aligned, n));
+    if (n <= aligned) return;
+    kernel(rows[0].row + aligned, rows[1].row + aligned, rows[2].row + aligned, aligned, n - 1 - aligned);
+    on_copy(n - 1, 1);
 }
 
 /// sum[x] (+)= the sum over N taps of tap[k] (ahead[k][x] - behind[k][x]).
@@ -178,21 +193,18 @@ template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v,
 } // namespace
 
 template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
-    const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size());
-    if (taps == 1 && stencil_.side == 0) {
-        const auto ends = beyond_ends(rows_(y), n, wrap_u_, 1, stencil_.border_degree);
-        central(rows_(y), ends, rows_(y - 1), rows_(y + 1), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
-        return;
-    }
-    const auto extend = [&](const T* row, T* to) { extend_row(row, n, wrap_u_, reach_, stencil_.border_degree, to); };
+    const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size()), degree = stencil_.border_degree;
     if (taps == 1) {
-        scratch.a.resize(2 * std::size_t(padded));
-        T* const smooth = scratch.a.data();
-        T* const difference = smooth + padded;
-        smooth_and_differ(rows_(y - 1), rows_(y), rows_(y + 1), T(stencil_.side), smooth + 1, difference + 1, n);
-        extend(smooth + 1, smooth);
-        extend(difference + 1, difference);
-        smoothed_central(smooth, difference, T(stencil_.side), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
+        const auto with_ends = [&](const T* row) { return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, degree)}; };
+        const RowWithEnds<T> rows[3] = {with_ends(rows_(y - 1)), with_ends(rows_(y)), with_ends(rows_(y + 1))};
+        const T side = T(stencil_.side), tap_u = taps_[0] * scale_u, tap_v = taps_[0] * scale_v;
+        over_row(rows, n, [=](const T* above, const T* here, const T* below, int first, int count) {
+            T* const to = out + 2 * std::size_t(first);
+            if (side == 0)
+                central(above, here, below, tap_u, tap_v, to, count);
+            else
+                smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
+        });
         return;
     }
     scratch.a.resize(padded);
@@ -200,7 +212,7 @@ template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out,
     T* const row = scratch.a.data();
     T* const slope_u = scratch.b.data();
     T* const slope_v = slope_u + block;
-    extend(rows_(y), row);
+    extend_row(rows_(y), n, wrap_u_, reach_, degree, row);
     const T *right[largest_reach], *left[largest_reach], *above[largest_reach], *below[largest_reach];
     for (int x = 0; x < n; x += block) {
         const int count = std::min(block, n - x);
