@@ -145,6 +145,14 @@ TEST_SUITE("unit") {
         for (int repeat = 0; repeat < 5; ++repeat) CHECK(refusal(text).substr(0, 13) == "t.obj:123465:");
     }
 
+    TEST_CASE("read_mesh: continued lines are not torn where the parallel reader cuts the file") {
+        std::string text = square;
+        for (int i = 0; i < 200000; ++i) text += i % 3 ? "f 1 \\\n2 \\\r\n3\n" : "f 1 2 3 4\n";
+        const Mesh mesh = read_obj_text(text);
+        CHECK(mesh.faces() == 200000);
+        CHECK(mesh.corners() == 666667);
+    }
+
     TEST_CASE(
         "read_mesh: files that are missing, folders, pipes, of unknown format or without faces are refused by kind") {
         const TemporaryFolder folder;

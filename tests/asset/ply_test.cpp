@@ -110,10 +110,10 @@ TEST_SUITE("unit") {
         const std::string header = ascii_square.substr(0, ascii_square.find("end_header")) +
                                    "property list uchar float texcoord\nend_header\n";
         const Mesh mesh =
-            read_text("t.ply", header + ascii_points + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 .5 0 1 1 -0.0 1\n");
+            read_text("t.ply", header + ascii_points + "3 0 1 2 6 0 0 1 0 1 0\n3 0 2 3 6 .5 0 1 -0.0 0 1\n");
         REQUIRE(mesh.corner_uv.size() == 6);
         CHECK(mesh.uvs.size() == 5);
-        CHECK(mesh.corner_uv[2] == mesh.corner_uv[4]); // the same point with the same uv
+        CHECK(mesh.corner_uv[2] == mesh.corner_uv[4]); // the same point with the same uv, -0 being 0
         CHECK(mesh.corner_uv[0] != mesh.corner_uv[3]); // a seam
         CHECK(mesh.uvs[mesh.corner_uv[3]] == Vec2f(0.5f, 0));
         const Mesh half = read_text("t.ply", header + ascii_points + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n");
@@ -123,8 +123,8 @@ TEST_SUITE("unit") {
         binary.replace(binary.find("ascii"), 5, "binary_big_endian");
         Bytes out{true, binary};
         for (const float f : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) out << f;
-        out << std::uint8_t(3) << 0 << 1 << 2 << std::uint8_t(6) << 0.f << 0.f << 1.f << 0.f << 1.f << 1.f;
-        out << std::uint8_t(3) << 0 << 2 << 3 << std::uint8_t(6) << .5f << 0.f << 1.f << 1.f << -0.f << 1.f;
+        out << std::uint8_t(3) << 0 << 1 << 2 << std::uint8_t(6) << 0.f << 0.f << 1.f << 0.f << 1.f << 0.f;
+        out << std::uint8_t(3) << 0 << 2 << 3 << std::uint8_t(6) << .5f << 0.f << 1.f << -0.f << 0.f << 1.f;
         CHECK(same_mesh(read_text("t.ply", out.bytes), mesh));
     }
 
@@ -168,6 +168,9 @@ TEST_SUITE("unit") {
         has(changed(62, -1), "face 1 has an index outside its 4 vertices");
         has(changed(48, std::uint8_t(2)), "face"); // every later row shifts
         has(changed(61, std::uint8_t(255)), "row 1 of 2 of 'face'");
+        Bytes two{false, good.bytes.substr(0, header.size() + 48)};
+        two << std::uint8_t(3) << 0 << 1 << 2 << std::uint8_t(2) << 0 << 2;
+        has(two.bytes, "face 1 has 2 corners");
         has(good.bytes.substr(0, good.bytes.size() - 1), "row 1 of 2 of 'face'");
     }
 

@@ -118,6 +118,10 @@ TEST_SUITE("unit") {
         // A square hole whose corner lies on the middle of the lower side.
         CHECK(cover(polygon({{0, 0}, {2, 0}, {1, 1}, {2, 2}, {3, 1}, {2, 0}, {4, 0}, {4, 4}, {0, 4}})) ==
               doctest::Approx(1));
+        // A hole that reaches into a convex corner and beyond its ear: that corner is none.
+        CHECK(cover(polygon(
+                  {{0, 0}, {4, 0}, {4, 4}, {3.7, 3.7}, {3.6, 1.2}, {0, 0}, {1.2, 3.6}, {3.7, 3.7}, {4, 4}, {0, 4}})) ==
+              doctest::Approx(1));
         // A hole that hangs from a convex corner.
         CHECK(cover(polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 2}, {2, 2}, {2, 1}})) == doctest::Approx(1));
     }

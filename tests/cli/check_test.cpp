@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -37,7 +38,9 @@ struct Folder {
         const char* bake = std::getenv("BAKE");
         REQUIRE(bake);
         const fs::path out = path / "stdout", err = path / "stderr";
-        const int status = std::system(("'" + std::string(bake) + "' check " + args + " >'" + out.string() + "' 2>'" + err.string() + "'").c_str());
+        const int status = std::system(
+            ("'" + std::string(bake) + "' check " + args + " >'" + out.string() + "' 2>'" + err.string() + "'")
+                .c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
     }
 };
@@ -49,76 +52,93 @@ const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\n
 } // namespace
 
 TEST_SUITE("cli") {
-TEST_CASE("bake check: exit codes of good, wrong, unreadable and no input") {
-    const Folder folder;
-    const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
-    const std::string wrong = folder.write("wrong.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\nf 1/1 2/2 3/3 4/4\n");
-    const std::string broken = folder.write("broken.obj", "v 0 0 0\nf 1 2 3\n");
-    CHECK(folder.check(good).code == 0);
-    CHECK(folder.check("--strict " + good).code == 0);
-    CHECK(folder.check(wrong).code == 0);
-    CHECK(folder.check("--strict " + wrong).code == 1);
-    CHECK(folder.check("").code == 2);
-    CHECK(folder.check("--no-such-option " + good).code == 2);
-    CHECK(folder.check("--help").code == 0);
-    const Result bad = folder.check(broken);
-    CHECK(bad.code == 3);
-    CHECK(lines(bad.err) == 1);
-    CHECK(bad.err.find("broken.obj") != std::string::npos);
-    CHECK(folder.check((folder.path / "absent.png").string()).code == 3);
-}
+    TEST_CASE("bake check: exit codes of good, wrong, unreadable and no input") {
+        const Folder folder;
+        const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+        const std::string wrong =
+            folder.write("wrong.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\nf 1/1 2/2 3/3 4/4\n");
+        const std::string broken = folder.write("broken.obj", "v 0 0 0\nf 1 2 3\n");
+        CHECK(folder.check(good).code == 0);
+        CHECK(folder.check("--strict " + good).code == 0);
+        CHECK(folder.check(wrong).code == 0);
+        CHECK(folder.check("--strict " + wrong).code == 1);
+        CHECK(folder.check("").code == 2);
+        CHECK(folder.check("--no-such-option " + good).code == 2);
+        CHECK(folder.check("--help").code == 0);
+        const Result bad = folder.check(broken);
+        CHECK(bad.code == 3);
+        CHECK(lines(bad.err) == 1);
+        CHECK(bad.err.find("broken.obj") != std::string::npos);
+        CHECK(folder.check((folder.path / "absent.png").string()).code == 3);
+    }
 
-TEST_CASE("bake check: a bad file does not keep the others from being looked at") {
+    TEST_CASE("bake check: a bad file does not keep the others from being looked at") {
+        const Folder folder;
+        const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+        const std::string empty = folder.write("empty.obj", "v 0 0 0\n"),
+                          text = folder.write("text.png", "not a picture");
+        const Result r = folder.check(empty + " " + good + " " + text);
+        CHECK(r.code == 4); // of the first bad one
+        CHECK(lines(r.err) == 2);
+        CHECK(r.out.find("good.obj") != std::string::npos);
+        const auto json = nlohmann::json::parse(folder.check("--json " + empty + " " + good + " " + text).out);
+        REQUIRE(json["files"].size() == 3);
+        CHECK(json["files"][0]["code"] == 4);
+        CHECK(json["files"][1]["kind"] == "mesh");
+        CHECK(json["files"][1]["uv"]["triangles"] == 2);
+        CHECK(json["files"][2]["code"] == 3);
+    }
+
+    TEST_CASE("bake check: pairs may be given again, and files may follow them") {
     const Folder folder;
     const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
-    const std::string empty = folder.write("empty.obj", "v 0 0 0\n"), text = folder.write("text.png", "not a picture");
-    const Result r = folder.check(empty + " " + good + " " + text);
-    CHECK(r.code == 4); // of the first bad one
-    CHECK(lines(r.err) == 2);
-    CHECK(r.out.find("good.obj") != std::string::npos);
-    const auto json = nlohmann::json::parse(folder.check("--json " + empty + " " + good + " " + text).out);
+    const auto json = nlohmann::json::parse(folder.check("--json --pair a.png b.png --pair c.png d.png " + good).out);
     REQUIRE(json["files"].size() == 3);
-    CHECK(json["files"][0]["code"] == 4);
-    CHECK(json["files"][1]["kind"] == "mesh");
-    CHECK(json["files"][1]["uv"]["triangles"] == 2);
+    CHECK(json["files"][0]["kind"] == "mesh");
     CHECK(json["files"][2]["code"] == 3);
+    CHECK(folder.check("--pair a.png").code == 2);
 }
 
 TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
-    const fs::path data = fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
-    if (!fs::exists(data)) {
-        MESSAGE("no ../shared/data: skipped");
-        return;
+        const fs::path data =
+            fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
+        if (!fs::exists(data)) {
+            MESSAGE("no ../shared/data: skipped");
+            return;
+        }
+        const Folder folder;
+        const std::string files = (data / "meshes/spot/spot_control_mesh.obj").string() + " " +
+                                  (data / "textures/heights/plain_heightmap.png").string() + " --pair " +
+                                  (data / "textures/pairs/bevy_parallax_cube/cube_depth.png").string() + " " +
+                                  (data / "textures/pairs/bevy_parallax_cube/cube_normal.png").string();
+        const Result one = folder.check("--json --threads 1 " + files);
+        CHECK(one.code == 0);
+        CHECK(nlohmann::json::parse(one.out)["files"].size() == 3);
+        CHECK(folder.check("--json --threads 2 " + files).out == one.out);
+        CHECK(folder.check("--json --threads 7 " + files).out == one.out);
     }
-    const Folder folder;
-    const std::string files = (data / "meshes/spot/spot_control_mesh.obj").string() + " " + (data / "textures/heights/plain_heightmap.png").string() + " --pair " +
-                              (data / "textures/pairs/bevy_parallax_cube/cube_depth.png").string() + " " +
-                              (data / "textures/pairs/bevy_parallax_cube/cube_normal.png").string();
-    const Result one = folder.check("--json --threads 1 " + files);
-    CHECK(one.code == 0);
-    CHECK(nlohmann::json::parse(one.out)["files"].size() == 3);
-    CHECK(folder.check("--json --threads 2 " + files).out == one.out);
-    CHECK(folder.check("--json --threads 7 " + files).out == one.out);
-}
 
-TEST_CASE("bake check: every damaged file is answered at once, refused in one line or looked at whole") {
-    const fs::path bad = fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data/bad";
-    if (!fs::exists(bad)) {
-        MESSAGE("no ../shared/data: skipped");
-        return;
+    TEST_CASE("bake check: every damaged file is answered at once, refused in one line or looked at whole") {
+        const fs::path bad =
+            fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data/bad";
+        if (!fs::exists(bad)) {
+            MESSAGE("no ../shared/data: skipped");
+            return;
+        }
+        const Folder folder;
+        for (const auto& entry : fs::recursive_directory_iterator(bad)) {
+            if (!entry.is_regular_file()) continue;
+            CAPTURE(entry.path().string());
+            const auto start = std::chrono::steady_clock::now();
+            const Result r = folder.check("'" + entry.path().string() + "'");
+            CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+            const bool refused = r.code == 3 || r.code == 4;
+            CHECK((refused || r.code == 0));
+            CHECK(lines(r.err) == (refused ? 1 : 0));
+            if (refused)
+                CHECK(r.err.find(entry.path().filename().string()) != std::string::npos);
+            else
+                CHECK(!r.out.empty());
+        }
     }
-    const Folder folder;
-    for (const auto& entry : fs::recursive_directory_iterator(bad)) {
-        if (!entry.is_regular_file()) continue;
-        CAPTURE(entry.path().string());
-        const auto start = std::chrono::steady_clock::now();
-        const Result r = folder.check("'" + entry.path().string() + "'");
-        CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
-        const bool refused = r.code == 3 || r.code == 4;
-        CHECK((refused || r.code == 0));
-        CHECK(lines(r.err) == (refused ? 1 : 0));
-        if (refused) CHECK(r.err.find(entry.path().filename().string()) != std::string::npos);
-        else CHECK(!r.out.empty());
-    }
-}
 }

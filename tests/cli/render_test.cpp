@@ -147,7 +147,8 @@ TEST_CASE("render: size and samples from the command line win, and --json says w
 TEST_CASE("render: what is too bright for half floats is their largest number, not infinite") {
     const Folder folder;
     write_mesh(folder / "floor.ply", test::plane_mesh());
-    write_text(folder / "bright.toml", "[[light]]\ntype = \"ambient\"\nintensity = 1e9\n[[mesh]]\nfile = \"floor.ply\"\n");
+    write_text(folder / "bright.toml", R"(mesh = [{file = "floor.ply"}]
+                                          light = [{type = "ambient", intensity = 1e9}])");
     REQUIRE(bake_render(folder, "bright.toml -o a.exr --size 8").code == 0);
     const Image<float> image = read_image(folder / "a.exr");
     CHECK(image.at(4, 4) == 65504.0f);

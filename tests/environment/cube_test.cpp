@@ -112,7 +112,8 @@ TEST_CASE("cube: lookup at a texel's centre is the texel") {
     for (const CubeFace face : all_faces)
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 5; ++x) {
-                const Vec3f value = lookup(cube, cube_direction(CubePoint<float>{face, (x + 0.5f) / 5, (y + 0.5f) / 5}));
+                const CubePoint<float> centre{face, (x + 0.5f) / 5, (y + 0.5f) / 5};
+                const Vec3f value = lookup(cube, cube_direction(centre));
                 for (int c = 0; c < 3; ++c)
                     CHECK(value[c] == doctest::Approx(cube.faces[int(face)].at(x, y, c)).epsilon(1e-5));
             }
@@ -179,9 +180,11 @@ TEST_CASE("cube: 8-bit faces are decoded from sRGB, float faces are not, and eit
     }
     const double decoded = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);
     CHECK(read_cube(cube_files(folder / "%s.png")).faces[3].at(1, 1, 2) == doctest::Approx(decoded).epsilon(1e-5));
-    CHECK(read_cube(cube_files(folder / "%s.png"), ColourSpace::linear).faces[0].at(0, 0) == doctest::Approx(128 / 255.0));
-    CHECK(read_cube(cube_files(folder / "%s.exr")).faces[5].at(0, 1, 1) == doctest::Approx(0.5));
-    CHECK(read_cube(cube_files(folder / "%s.exr")).faces[5].channels() == 3);
+    const Cube as_data = read_cube(cube_files(folder / "%s.png"), ColourSpace::linear);
+    CHECK(as_data.faces[0].at(0, 0) == doctest::Approx(128 / 255.0));
+    const Cube floats = read_cube(cube_files(folder / "%s.exr"));
+    CHECK(floats.faces[5].at(0, 1, 1) == doctest::Approx(0.5));
+    CHECK(floats.faces[5].channels() == 3);
 }
 
 } // TEST_SUITE
@@ -229,7 +232,9 @@ TEST_CASE("cube: lookups anywhere stay within the texels' values") {
 TEST_CASE("cube: a faulty face is refused by its name") {
     const Folder folder;
     const auto files = cube_files(folder / "%s.exr");
-    const auto write = [&](int i, const Image<float>& image) { write_image(files[i], image, {.depth = Depth::float32}); };
+    const auto write = [&](int i, const Image<float>& image) {
+        write_image(files[i], image, {.depth = Depth::float32});
+    };
     for (int i = 0; i < 6; ++i) write(i, flat_image(4, 4, 3, 0.5f));
     CHECK(read_cube(files).size() == 4);
 

@@ -7,7 +7,9 @@ using namespace bake;
 
 namespace {
 
-Vec3d at(double degrees) { return {std::sin(degrees * 3.14159265358979323846 / 180), 0, std::cos(degrees * 3.14159265358979323846 / 180)}; }
+constexpr double radians = 3.14159265358979323846 / 180;
+
+Vec3d at(double degrees) { return {std::sin(degrees * radians), 0, std::cos(degrees * radians)}; }
 
 } // namespace
 
@@ -21,8 +23,8 @@ TEST_CASE("bsdf: diffuse n.l and specular (n.h)^shininess, each by its colour") 
     const Vec3d n(0, 0, 1);
     // Light at 50 degrees, viewer at -10: halfway at 20.
     const Vec3d value = reflected(surface, n, at(50), at(-10));
-    const double cosine = std::cos(50 * 3.14159265358979323846 / 180);
-    const double lobe = std::pow(std::cos(20 * 3.14159265358979323846 / 180), 10);
+    const double cosine = std::cos(50 * radians);
+    const double lobe = std::pow(std::cos(20 * radians), 10);
     CHECK(value.x == doctest::Approx(0.5 * cosine).epsilon(1e-12));
     CHECK(value.y == doctest::Approx(0.25 * cosine + 0.1 * lobe).epsilon(1e-12));
     CHECK(value.z == doctest::Approx(0.2 * lobe).epsilon(1e-12));

@@ -34,13 +34,15 @@ TEST_CASE("scene: a placement scales, turns about x, then y, then z, then moves"
 }
 
 TEST_CASE("scene: normals stay perpendicular and outside under uneven and mirrored scales") {
-    for (const Vec3f& scale : {Vec3f(1, 2, 5), Vec3f(-1, 1, 1), Vec3f(-2, 1, -3), Vec3f(-1), Vec3f(1e-12f, 2e-12f, 1e-12f)}) {
+    const Vec3f tiny(1e-12f, 2e-12f, 1e-12f);
+    for (const Vec3f& scale : {Vec3f(1, 2, 5), Vec3f(-1, 1, 1), Vec3f(-2, 1, -3), Vec3f(-1), tiny}) {
         Scene scene;
         scene.shapes.push_back(make_shape(sphere_mesh(16, 8)));
         scene.materials.push_back(std::make_unique<Material>());
         add_instance(scene, *scene.shapes[0], *scene.materials[0], {.rotate_deg = {20, 30, 40}, .scale = scale});
         const Instance& instance = scene.instances[0];
-        const Vec3f n = glm::normalize(Vec3f(0.3f, -0.5f, 0.7f)), across = glm::normalize(glm::cross(n, Vec3f(0, 0, 1)));
+        const Vec3f n = glm::normalize(Vec3f(0.3f, -0.5f, 0.7f));
+        const Vec3f across = glm::normalize(glm::cross(n, Vec3f(0, 0, 1)));
         const Vec3f world_n = unit_or_zero(instance.normals * n);
         const Vec3f world_across = unit_or_zero((instance.linear * across) * 1e6f);
         CHECK(std::abs(glm::dot(world_n, world_across)) < 1e-5f);
@@ -54,8 +56,10 @@ TEST_CASE("scene: the framing camera sees every corner of the box, nearly fillin
         const CameraFrame frame = camera_frame(framing_camera(box, 35, aspect));
         float furthest = 0;
         for (int i = 0; i < 8; ++i) {
-            const Vec3f corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
-            const Vec3f d = corner - frame.position;
+            const Vec3f& x = i & 1 ? box.max : box.min;
+            const Vec3f& y = i & 2 ? box.max : box.min;
+            const Vec3f& z = i & 4 ? box.max : box.min;
+            const Vec3f d = Vec3f(x.x, y.y, z.z) - frame.position;
             const float depth = glm::dot(d, frame.forward) * frame.half_height;
             REQUIRE(depth > 0);
             furthest = std::max({furthest, std::abs(glm::dot(d, frame.right)) / (depth * aspect),

@@ -26,7 +26,8 @@ Image<float> texels(int channels, std::initializer_list<float> values) {
     return image;
 }
 
-std::string written(const std::string& file, const Image<float>& image, Depth depth, std::vector<std::string> names = {}) {
+std::string written(const std::string& file, const Image<float>& image, Depth depth,
+                    std::vector<std::string> names = {}) {
     write_image(file, image, {.depth = depth, .channels = std::move(names)});
     return file;
 }
@@ -66,7 +67,8 @@ TEST_CASE("texture: lookup is exact at texel centres, linear between them, v up,
     check(0, 0.75f, 0.5f, 0); // half way to the texel on the other side
     check(-3.75f, 10.25f, 0, 2);
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const float bad : {nan, std::numeric_limits<float>::infinity()}) CHECK(std::isfinite(lookup2(image, {bad, 0}).x));
+    for (const float bad : {nan, std::numeric_limits<float>::infinity()})
+        CHECK(std::isfinite(lookup2(image, {bad, 0}).x));
 }
 
 TEST_CASE("texture: an 8-bit colour is decoded from sRGB, a float one is not, grey becomes three channels") {
@@ -81,8 +83,10 @@ TEST_CASE("texture: an 8-bit colour is decoded from sRGB, a float one is not, gr
 
 TEST_CASE("texture: a normal map is unorm, or signed when it has values below 0, unless told") {
     const Folder folder;
-    const std::string unorm = written(folder / "unorm.exr", texels(3, {0.5f, 0.75f, 1, 0.25f, 0.5f, 1}), Depth::float32);
-    const std::string with_sign = written(folder / "signed.exr", texels(3, {0, -0.5f, 1, 0.25f, 0.5f, 1}), Depth::float32);
+    const std::string unorm =
+        written(folder / "unorm.exr", texels(3, {0.5f, 0.75f, 1, 0.25f, 0.5f, 1}), Depth::float32);
+    const std::string with_sign =
+        written(folder / "signed.exr", texels(3, {0, -0.5f, 1, 0.25f, 0.5f, 1}), Depth::float32);
     const Vec2f first(0.25f, 0.5f);
     CHECK(near(lookup3(*read_normal_map(unorm), first), {0, 0.5f, 1}));
     CHECK(near(lookup3(*read_normal_map(with_sign), first), {0, -0.5f, 1}));

@@ -91,7 +91,8 @@ TEST_CASE("tracer: a lit sphere's pixel is the closed form, for directional and 
             const Vec3d to_point = Vec3d(-2, 1, 3) - p;
             const double r = glm::length(to_point);
             add(to_point, Vec3d(4, 5, 6) / (0.1 + 0.2 * r + 0.3 * r * r));
-            worst = std::max(worst, glm::length(Vec3d(seen_at(scene, x + 0.5, y + 0.5, 32)) - expected) / glm::length(expected));
+            const Vec3d seen(seen_at(scene, x + 0.5, y + 0.5, 32));
+            worst = std::max(worst, glm::length(seen - expected) / glm::length(expected));
         }
     // Facets stand up to (pi/256)^2/2 inside the sphere: 7.5e-5, times the highlight's slope of some 20.
     CHECK(worst < 2e-3);
@@ -139,7 +140,10 @@ TEST_CASE("tracer: a camera inside the sky sees each face as its picture, never 
         scene.camera.fov_deg = 90; // exactly one face
         const Image<float> seen = render(scene, settings);
         for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) CHECK(near({seen.at(x, y, 0), seen.at(x, y, 1), seen.at(x, y, 2)}, {x + 1, y + 1, f + 1}, 1e-3f));
+            for (int x = 0; x < n; ++x) {
+                const Vec3f pixel(seen.at(x, y, 0), seen.at(x, y, 1), seen.at(x, y, 2));
+                CHECK(near(pixel, {x + 1, y + 1, f + 1}, 1e-3f));
+            }
     }
 }
 
@@ -166,7 +170,7 @@ TEST_CASE("tracer: mirrors show meshes while bounces are left") {
     }
 }
 
-TEST_CASE("tracer: an occluder shadows directional and point lights, but not ambient light, nor from behind the light") {
+TEST_CASE("tracer: an occluder shadows directional and point lights, not ambient light, nor from behind a light") {
     // A plane facing +Z, a small ball over its centre.
     const auto seen = [](const Light<float>& light, bool shadows) {
         Scene scene = one_mesh(plane_mesh(), Material{});
@@ -351,7 +355,8 @@ TEST_CASE("tracer: zero-area triangles, no normals, a camera without direction, 
     mesh.uvs[3] = mesh.uvs[4];
     Material material = shiny();
     material.reflect = Vec3f(0.5f);
-    material.normal_map = texture(2, 2, 3, [](float u, float, float* t) { t[0] = u < 0.5f ? -1 : 1, t[1] = 0, t[2] = -0.2f; });
+    material.normal_map =
+        texture(2, 2, 3, [](float u, float, float* t) { t[0] = u < 0.5f ? -1 : 1, t[1] = 0, t[2] = -0.2f; });
     Scene scene = one_mesh(std::move(mesh), std::move(material));
     scene.lights.push_back(directional({1, 1, 1}));
     scene.lights.push_back({.kind = LightKind::point, .position = {0, 0, 0}});

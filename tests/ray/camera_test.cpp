@@ -33,7 +33,8 @@ TEST_CASE("camera: the picture's centre looks at the target, row 0 is the top, x
 TEST_CASE("camera: the field of view is the vertical one, pixels are square, directions are unit") {
     const CameraFrame frame = camera_frame(looking({1, 2, 3}, {4, -2, 9}, 60));
     const auto degrees = [&](double x0, double y0, double x1, double y1) {
-        const Vec3f a = primary_ray(frame, x0, y0, 200, 100).direction, b = primary_ray(frame, x1, y1, 200, 100).direction;
+        const Vec3f a = primary_ray(frame, x0, y0, 200, 100).direction;
+        const Vec3f b = primary_ray(frame, x1, y1, 200, 100).direction;
         CHECK(glm::length(a) == doctest::Approx(1).epsilon(1e-6));
         return std::acos(double(glm::dot(a, b))) * 180 / 3.14159265358979;
     };

@@ -118,20 +118,48 @@ TEST_CASE("mesh_surface: flat shading uses the facet's own normal and tangents")
 
 TEST_SUITE("stability") {
 
-TEST_CASE("mesh_surface: triangles without area in uv or space give a zero jet, and spoil no neighbour") {
+TEST_CASE("mesh_surface: a triangle without area in uv gives a zero jet, and spoils no neighbour") {
     Mesh mesh = square();
-    mesh.positions.push_back({2, 2, 0});
-    mesh.uvs.push_back({0.5f, 0.5f});
-    const std::uint32_t flat_in_space[] = {1, 2, 4}; // two corners at one place
+    mesh.positions.push_back({2, 2, 1});
+    mesh.uvs.push_back({1, 1});
     mesh.face_begin.push_back(9);
-    for (const std::uint32_t p : flat_in_space) {
+    for (const std::uint32_t p : {1u, 2u, 4u}) { // two corners at one place of the chart
         mesh.corner_position.push_back(p);
         mesh.corner_uv.push_back(p);
     }
     const MeshSurface surface = make_mesh_surface(mesh);
     CHECK(surface.sigma[2] == 0);
     CHECK(jet_at<double>(surface, 2, 0.3, 0.3).n == Vec3d(0));
-    CHECK(glm::length(jet_at<double>(surface, 0, 0.3, 0.3).p_u - Vec3d(2, 0, 0)) < 1e-6);
+    CHECK(glm::length(jet_at<double>(surface, 0, 0.3, 0.0).p_u - Vec3d(2, 0, 0)) < 0.2);
+}
+
+TEST_CASE("mesh_surface: the derivatives next to a pole are the sphere's, whether its quads are squeezed there or not") {
+    // One lune of a lat-long sphere: at ring 1, p_u is the mean over the squeezed triangles too.
+    Mesh mesh;
+    const int columns = 3, rows = 4;
+    const double step = 0.02;
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i) {
+            const Jet<double> s = oracle::sphere(1, step * i, step * j - pi / 2);
+            mesh.positions.emplace_back(s.p);
+            mesh.normals.emplace_back(s.n);
+            mesh.uvs.emplace_back(step * i, step * j);
+        }
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            const auto at = [&](int a, int b) { return std::uint32_t((j + b) * (columns + 1) + i + a); };
+            for (const std::uint32_t corner : {at(0, 0), at(1, 0), at(1, 1), at(0, 1)}) mesh.corner_position.push_back(corner);
+            mesh.face_begin.push_back(std::uint32_t(mesh.corner_position.size()));
+        }
+    mesh.corner_normal = mesh.corner_uv = mesh.corner_position;
+    const MeshSurface surface = make_mesh_surface(mesh);
+    for (std::size_t corner = 0; corner < mesh.corners(); ++corner) {
+        const std::uint32_t p = mesh.corner_position[corner];
+        if (p / (columns + 1) != 1 || p % (columns + 1) == 0 || p % (columns + 1) == columns) continue;
+        const Jet<double> want = oracle::sphere(1, step * (p % (columns + 1)), step - pi / 2);
+        CHECK(glm::length(Vec3d(surface.p_u[corner]) - want.p_u) < 0.02 * glm::length(want.p_u));
+        CHECK(glm::length(Vec3d(surface.p_v[corner]) - want.p_v) < 0.02 * glm::length(want.p_v));
+    }
 }
 
 TEST_CASE("mesh_surface: mirrored halves that share a vertex and a uv keep their own derivatives") {

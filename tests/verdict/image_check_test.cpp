@@ -31,106 +31,127 @@ constexpr double pi = 3.14159265358979;
 } // namespace
 
 TEST_SUITE("unit") {
-TEST_CASE("check_image: range, NaN and Inf of each channel by itself") {
-    Image<float> image = picture(70, 130, 2, [](int x, int y, int c) { return c == 0 ? x : -y; });
-    image.at(3, 100, 0) = std::numeric_limits<float>::quiet_NaN();
-    image.at(4, 100, 0) = std::numeric_limits<float>::infinity();
-    image.at(5, 100, 0) = -std::numeric_limits<float>::infinity();
-    const ImageCheck c = check_image(image, info_of(SampleType::float32, 32, {"a", "b"}));
-    CHECK(c.channels[0].nan == 1);
-    CHECK(c.channels[0].inf == 2);
-    CHECK(c.channels[0].max == 69);
-    CHECK(c.channels[0].levels == 70);
-    CHECK(c.channels[1].nan + c.channels[1].inf == 0);
-    CHECK(c.channels[1].min == -129);
-    CHECK(c.channels[1].mean == doctest::Approx(-64.5));
-    CHECK(c.looks == Looks::data);
-}
+    TEST_CASE("check_image: range, NaN and Inf of each channel by itself") {
+        Image<float> image = picture(70, 130, 2, [](int x, int y, int c) { return c == 0 ? x : -y; });
+        image.at(3, 100, 0) = std::numeric_limits<float>::quiet_NaN();
+        image.at(4, 100, 0) = std::numeric_limits<float>::infinity();
+        image.at(5, 100, 0) = -std::numeric_limits<float>::infinity();
+        const ImageCheck c = check_image(image, info_of(SampleType::float32, 32, {"a", "b"}));
+        CHECK(c.channels[0].nan == 1);
+        CHECK(c.channels[0].inf == 2);
+        CHECK(c.channels[0].max == 69);
+        CHECK(c.channels[0].levels == 70);
+        CHECK(c.channels[1].nan + c.channels[1].inf == 0);
+        CHECK(c.channels[1].min == -129);
+        CHECK(c.channels[1].mean == doctest::Approx(-64.5));
+        CHECK(c.looks == Looks::data);
+    }
 
-TEST_CASE("check_image: true depth is the fewest bits that hold every level") {
-    const auto bits = [](SampleType type, int stored, auto level, double largest) {
-        const Image<float> image = picture(64, 64, 1, [&](int x, int y, int) { return level(y * 64 + x) / largest; });
-        return check_image(image, info_of(type, stored, grey1)).true_bits;
-    };
-    CHECK(bits(SampleType::u16, 16, [](int i) { return i % 4096 * 16.0 + i % 7; }, 65535) == 16);
-    CHECK(bits(SampleType::u16, 16, [](int i) { return i % 256 * 257.0; }, 65535) == 8);         // 8 bits, stretched
-    CHECK(bits(SampleType::u16, 16, [](int i) { return i % 256 * 256.0; }, 65535) == 8);         // 8 bits, shifted
-    CHECK(bits(SampleType::u16, 16, [](int i) { return std::round(i % 1024 * 65535.0 / 1023); }, 65535) == 10);
-    CHECK(bits(SampleType::u8, 8, [](int i) { return i % 256; }, 255) == 8);
-    CHECK(bits(SampleType::u8, 8, [](int i) { return i % 2 * 255; }, 255) == 1);
-    CHECK(bits(SampleType::float32, 32, [](int i) { return i % 256; }, 255) == 8); // floats made of bytes
-    CHECK(bits(SampleType::float32, 32, [](int i) { return std::sin(i * 0.1) * 0.5 + 0.5; }, 1) == 0);
-}
+    TEST_CASE("check_image: true depth is the fewest bits that hold every level") {
+        const auto bits = [](SampleType type, int stored, auto level, double largest) {
+            const Image<float> image =
+                picture(64, 64, 1, [&](int x, int y, int) { return level(y * 64 + x) / largest; });
+            return check_image(image, info_of(type, stored, grey1)).true_bits;
+        };
+        CHECK(bits(
+                  SampleType::u16, 16, [](int i) { return i % 4096 * 16.0 + i % 7; }, 65535) == 16);
+        CHECK(bits(
+                  SampleType::u16, 16, [](int i) { return i % 256 * 257.0; }, 65535) == 8); // 8 bits, stretched
+        CHECK(bits(
+                  SampleType::u16, 16, [](int i) { return i % 256 * 256.0; }, 65535) == 8); // 8 bits, shifted
+        CHECK(bits(
+                  SampleType::u16, 16, [](int i) { return std::round(i % 1024 * 65535.0 / 1023); }, 65535) == 10);
+        CHECK(bits(
+                  SampleType::u8, 8, [](int i) { return i % 256; }, 255) == 8);
+        CHECK(bits(
+                  SampleType::u8, 8, [](int i) { return i % 2 * 255; }, 255) == 1);
+        CHECK(bits(
+                  SampleType::float32, 32, [](int i) { return i % 256; }, 255) == 8); // floats made of bytes
+        CHECK(bits(
+                  SampleType::float32, 32, [](int i) { return std::sin(i * 0.1) * 0.5 + 0.5; }, 1) == 0);
+    }
 
-TEST_CASE("check_image: levels are counted up to those of 16 bits") {
-    const auto levels = [](int count, SampleType type, int bits) {
-        const Image<float> image = picture(512, 256, 1, [&](int x, int y, int) { return (y * 512 + x) % count / 131071.0; });
-        return check_image(image, info_of(type, bits, grey1)).channels[0].levels;
-    };
-    CHECK(levels(65536, SampleType::float32, 32) == 65536);
-    CHECK(levels(65537, SampleType::float32, 32) == most_levels + 1);
-}
+    TEST_CASE("check_image: levels are counted up to those of 16 bits") {
+        const auto levels = [](int count, SampleType type, int bits) {
+            const Image<float> image =
+                picture(512, 256, 1, [&](int x, int y, int) { return (y * 512 + x) % count / 131071.0; });
+            return check_image(image, info_of(type, bits, grey1)).channels[0].levels;
+        };
+        CHECK(levels(65536, SampleType::float32, 32) == 65536);
+        CHECK(levels(65537, SampleType::float32, 32) == most_levels + 1);
+    }
 
-TEST_CASE("check_image: a slight tint is still grey, a colour is not, and alpha does not count") {
-    const auto look = [](auto tint) {
-        return check_image(picture(32, 32, 3, [&](int x, int y, int c) { return (x * 4 + y + tint(x, y, c)) / 255.0; }), info_of(SampleType::u8, 8, rgb));
-    };
-    CHECK(look([](int, int, int) { return 0; }).tint == 0);
-    const ImageCheck tinted = look([](int x, int, int c) { return c == 1 && x % 3 == 0; });
-    CHECK(tinted.tint == doctest::Approx(1));
-    CHECK(tinted.looks == Looks::grey);
-    CHECK(look([](int, int, int c) { return c * 20; }).looks == Looks::colour);
-    // A height in R = G = B with a varied alpha.
-    const ImageCheck packed = check_image(picture(32, 32, 4, [](int x, int y, int c) { return (c == 3 ? y : x) / 31.0; }),
-                                          info_of(SampleType::u8, 8, {"R", "G", "B", "A"}, 3));
-    CHECK(packed.looks == Looks::grey);
-    CHECK(packed.tint == 0);
-}
+    TEST_CASE("check_image: a slight tint is still grey, a colour is not, and alpha does not count") {
+        const auto look = [](auto tint) {
+            return check_image(
+                picture(32, 32, 3, [&](int x, int y, int c) { return (x * 4 + y + tint(x, y, c)) / 255.0; }),
+                info_of(SampleType::u8, 8, rgb));
+        };
+        CHECK(look([](int, int, int) { return 0; }).tint == 0);
+        const ImageCheck tinted = look([](int x, int, int c) { return c == 1 && x % 3 == 0; });
+        CHECK(tinted.tint == doctest::Approx(1));
+        CHECK(tinted.looks == Looks::grey);
+        CHECK(look([](int, int, int c) { return c * 20; }).looks == Looks::colour);
+        // A height in R = G = B with a varied alpha.
+        const ImageCheck packed =
+            check_image(picture(32, 32, 4, [](int x, int y, int c) { return (c == 3 ? y : x) / 31.0; }),
+                        info_of(SampleType::u8, 8, {"R", "G", "B", "A"}, 3));
+        CHECK(packed.looks == Looks::grey);
+        CHECK(packed.tint == 0);
+    }
 
-TEST_CASE("check_image: the grey value has the levels of the sum of the channels") {
-    // R one level above G and B on every other texel: 10 + 10 levels of the mean, 11 of red.
-    const ImageCheck c = check_image(picture(40, 10, 3, [](int x, int y, int c_) { return (100 + y + (c_ == 0 && x % 2)) / 255.0; }), info_of(SampleType::u8, 8, rgb));
-    CHECK(c.channels[0].levels == 11);
-    CHECK(c.grey.levels == 20);
-    CHECK(c.grey_step == doctest::Approx(1 / 255.0));
-}
+    TEST_CASE("check_image: the grey value has the levels of the sum of the channels") {
+        // R one level above G and B on every other texel: 10 + 10 levels of the mean, 11 of red.
+        const ImageCheck c =
+            check_image(picture(40, 10, 3, [](int x, int y, int c_) { return (100 + y + (c_ == 0 && x % 2)) / 255.0; }),
+                        info_of(SampleType::u8, 8, rgb));
+        CHECK(c.channels[0].levels == 11);
+        CHECK(c.grey.levels == 20);
+        CHECK(c.grey_step == doctest::Approx(1 / 255.0));
+    }
 
-TEST_CASE("check_image: tiling per axis") {
-    const ImageCheck wave = check_image(picture(64, 48, 1, [](int x, int y, int) { return 0.5 + 0.2 * std::sin(2 * pi * x / 64) + 0.3 * y / 48; }),
-                                        info_of(SampleType::float32, 32, grey1));
-    CHECK(wave.tiling.x < tiles_up_to);
-    CHECK(wave.tiling.y == doctest::Approx(47).epsilon(0.01));
-    const ImageCheck flat = check_image(picture(8, 8, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
-    CHECK(flat.tiling.x == 0);
-    CHECK(flat.looks == Looks::constant);
-    const ImageCheck texel = check_image(picture(1, 1, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
-    CHECK(texel.tiling.y == 0);
-}
+    TEST_CASE("check_image: tiling per axis") {
+        const ImageCheck wave = check_image(
+            picture(64, 48, 1, [](int x, int y, int) { return 0.5 + 0.2 * std::sin(2 * pi * x / 64) + 0.3 * y / 48; }),
+            info_of(SampleType::float32, 32, grey1));
+        CHECK(wave.tiling.x < tiles_up_to);
+        CHECK(wave.tiling.y == doctest::Approx(47).epsilon(0.01));
+        const ImageCheck flat =
+            check_image(picture(8, 8, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
+        CHECK(flat.tiling.x == 0);
+        CHECK(flat.looks == Looks::constant);
+        const ImageCheck texel =
+            check_image(picture(1, 1, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
+        CHECK(texel.tiling.y == 0);
+    }
 
-TEST_CASE("check_image: normal maps are told from colours, unit length or not") {
-    const auto normals = [](double length) {
-        return check_image(picture(64, 64, 3, [&](int x, int y, int c) {
-            const double sx = std::sin(0.4 * x), sy = std::cos(0.3 * y), z = 1 / std::sqrt(sx * sx + sy * sy + 1);
-            const double n[3] = {sx * z, sy * z, z};
-            return std::round((n[c] * length * 0.5 + 0.5) * 255) / 255;
-        }), info_of(SampleType::u8, 8, rgb));
-    };
-    const ImageCheck unit = normals(1);
-    CHECK(unit.looks == Looks::normal_map);
-    CHECK(unit.not_unit < 0.01);
-    CHECK(unit.inward == 0);
-    const ImageCheck shorter = normals(0.6);
-    CHECK(shorter.looks == Looks::normal_map);
-    CHECK(shorter.not_unit == 1);
-    CHECK(shorter.normal_length == doctest::Approx(0.6).epsilon(0.01));
-}
+    TEST_CASE("check_image: normal maps are told from colours, unit length or not") {
+        const auto normals = [](double length) {
+            return check_image(picture(64, 64, 3,
+                                       [&](int x, int y, int c) {
+                                           const double sx = std::sin(0.4 * x), sy = std::cos(0.3 * y),
+                                                        z = 1 / std::sqrt(sx * sx + sy * sy + 1);
+                                           const double n[3] = {sx * z, sy * z, z};
+                                           return std::round((n[c] * length * 0.5 + 0.5) * 255) / 255;
+                                       }),
+                               info_of(SampleType::u8, 8, rgb));
+        };
+        const ImageCheck unit = normals(1);
+        CHECK(unit.looks == Looks::normal_map);
+        CHECK(unit.not_unit < 0.01);
+        CHECK(unit.inward == 0);
+        const ImageCheck shorter = normals(0.6);
+        CHECK(shorter.looks == Looks::normal_map);
+        CHECK(shorter.not_unit == 1);
+        CHECK(shorter.normal_length == doctest::Approx(0.6).epsilon(0.01));
+    }
 
-TEST_CASE("step_slope: the smallest step is 21.9 degrees at 4096 texels, 8 bits and a height of 5 % of the width") {
-    CHECK(step_slope(1 / 255.0, 4096, 0.05).angle_deg == doctest::Approx(21.9).epsilon(0.002));
-    CHECK(step_slope(1 / 65535.0, 4096, 0.05).angle_deg == doctest::Approx(0.09).epsilon(0.02));
-    const StepSlope s = step_slope(1 / 255.0, 512);
-    CHECK(s.slope == doctest::Approx(512 / 510.0));
-    CHECK(step_slope(1 / 255.0, 512, s.one_degree_amplitude).angle_deg == doctest::Approx(1));
-    CHECK(step_slope(0, 512).one_degree_amplitude == 0);
-}
+    TEST_CASE("step_slope: the smallest step is 21.9 degrees at 4096 texels, 8 bits and a height of 5 % of the width") {
+        CHECK(step_slope(1 / 255.0, 4096, 0.05).angle_deg == doctest::Approx(21.9).epsilon(0.002));
+        CHECK(step_slope(1 / 65535.0, 4096, 0.05).angle_deg == doctest::Approx(0.09).epsilon(0.02));
+        const StepSlope s = step_slope(1 / 255.0, 512);
+        CHECK(s.slope == doctest::Approx(512 / 510.0));
+        CHECK(step_slope(1 / 255.0, 512, s.one_degree_amplitude).angle_deg == doctest::Approx(1));
+        CHECK(step_slope(0, 512).one_degree_amplitude == 0);
+    }
 }

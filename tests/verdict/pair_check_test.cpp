@@ -9,15 +9,22 @@ namespace {
 constexpr double pi = 3.14159265358979;
 
 struct Wave {
-    double at(double u, double v) const { return 0.5 + 0.2 * std::sin(2 * pi * (2 * u + v)) + 0.15 * std::cos(2 * pi * (3 * v - u)); }
-    double u(double u_, double v) const { return 0.8 * pi * std::cos(2 * pi * (2 * u_ + v)) + 0.3 * pi * std::sin(2 * pi * (3 * v - u_)); }
-    double v(double u_, double v_) const { return 0.4 * pi * std::cos(2 * pi * (2 * u_ + v_)) - 0.9 * pi * std::sin(2 * pi * (3 * v_ - u_)); }
+    double at(double u, double v) const {
+        return 0.5 + 0.2 * std::sin(2 * pi * (2 * u + v)) + 0.15 * std::cos(2 * pi * (3 * v - u));
+    }
+    double u(double u_, double v) const {
+        return 0.8 * pi * std::cos(2 * pi * (2 * u_ + v)) + 0.3 * pi * std::sin(2 * pi * (3 * v - u_));
+    }
+    double v(double u_, double v_) const {
+        return 0.4 * pi * std::cos(2 * pi * (2 * u_ + v_)) - 0.9 * pi * std::sin(2 * pi * (3 * v_ - u_));
+    }
 };
 
 Image<float> wave_height(int size, double sign = 1) {
     Image<float> image(size, size, 1);
     for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) image.at(x, y) = float(0.5 + sign * (Wave{}.at((x + 0.5) / size, 1 - (y + 0.5) / size) - 0.5));
+        for (int x = 0; x < size; ++x)
+            image.at(x, y) = float(0.5 + sign * (Wave{}.at((x + 0.5) / size, 1 - (y + 0.5) / size) - 0.5));
     return image;
 }
 
@@ -27,7 +34,8 @@ Image<float> wave_normals(int size, double scale, bool directx = false, double l
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const double u = (x + 0.5) / size, v = 1 - (y + 0.5) / size;
-            const double s = -scale * Wave{}.u(u, v) / size, t = -scale * Wave{}.v(u, v) / size, z = length / std::sqrt(s * s + t * t + 1);
+            const double s = -scale * Wave{}.u(u, v) / size, t = -scale * Wave{}.v(u, v) / size,
+                         z = length / std::sqrt(s * s + t * t + 1);
             image.at(x, y, 0) = float(0.5 + 0.5 * s * z);
             image.at(x, y, 1) = float(0.5 + (directx ? -0.5 : 0.5) * t * z);
             image.at(x, y, 2) = float(0.5 + 0.5 * z);
@@ -38,57 +46,58 @@ Image<float> wave_normals(int size, double scale, bool directx = false, double l
 } // namespace
 
 TEST_SUITE("unit") {
-TEST_CASE("check_pair: agreement, scale, and each convention by itself") {
-    const PairCheck good = check_pair(wave_height(128), wave_normals(128, 10));
-    CHECK(good.corr_x > 0.999);
-    CHECK(good.corr_y > 0.999);
-    CHECK(good.scale == doctest::Approx(10).epsilon(0.01)); // central differences see 1 % less of 42 texels' wave
-    CHECK_FALSE(good.inverted);
-    CHECK_FALSE(good.directx);
-    CHECK(good.normal_length == doctest::Approx(1));
-    CHECK(good.not_unit == 0);
+    TEST_CASE("check_pair: agreement, scale, and each convention by itself") {
+        const PairCheck good = check_pair(wave_height(128), wave_normals(128, 10));
+        CHECK(good.corr_x > 0.999);
+        CHECK(good.corr_y > 0.999);
+        CHECK(good.scale == doctest::Approx(10).epsilon(0.01)); // central differences see 1 % less of 42 texels' wave
+        CHECK_FALSE(good.inverted);
+        CHECK_FALSE(good.directx);
+        CHECK(good.normal_length == doctest::Approx(1));
+        CHECK(good.not_unit == 0);
 
-    const PairCheck directx = check_pair(wave_height(128), wave_normals(128, 10, true));
-    CHECK(directx.directx);
-    CHECK_FALSE(directx.inverted);
-    const PairCheck inverted = check_pair(wave_height(128, -1), wave_normals(128, 10));
-    CHECK(inverted.inverted);
-    CHECK_FALSE(inverted.directx);
-    const PairCheck both = check_pair(wave_height(128, -1), wave_normals(128, 10, true));
-    CHECK(both.inverted);
-    CHECK(both.directx);
-}
+        const PairCheck directx = check_pair(wave_height(128), wave_normals(128, 10, true));
+        CHECK(directx.directx);
+        CHECK_FALSE(directx.inverted);
+        const PairCheck inverted = check_pair(wave_height(128, -1), wave_normals(128, 10));
+        CHECK(inverted.inverted);
+        CHECK_FALSE(inverted.directx);
+        const PairCheck both = check_pair(wave_height(128, -1), wave_normals(128, 10, true));
+        CHECK(both.inverted);
+        CHECK(both.directx);
+    }
 
-TEST_CASE("check_pair: normals that are too short keep their slopes, and are reported") {
-    const PairCheck c = check_pair(wave_height(96), wave_normals(96, 10, false, 0.61));
-    CHECK(c.normal_length == doctest::Approx(0.61));
-    CHECK(c.not_unit == 1);
-    CHECK(c.scale == doctest::Approx(10).epsilon(0.01));
-}
+    TEST_CASE("check_pair: normals that are too short keep their slopes, and are reported") {
+        const PairCheck c = check_pair(wave_height(96), wave_normals(96, 10, false, 0.61));
+        CHECK(c.normal_length == doctest::Approx(0.61));
+        CHECK(c.not_unit == 1);
+        CHECK(c.scale == doctest::Approx(10).epsilon(0.01));
+    }
 
-TEST_CASE("check_pair: the larger one is box-filtered to the smaller, whole factors and not") {
-    const PairCheck finer_normals = check_pair(wave_height(96), wave_normals(192, 20));
-    CHECK(finer_normals.width == 96);
-    CHECK(finer_normals.corr_x > 0.999);
-    CHECK(finer_normals.scale == doctest::Approx(10).epsilon(0.02)); // the texel is twice as wide
-    const PairCheck finer_height = check_pair(wave_height(160), wave_normals(96, 10));
-    CHECK(finer_height.corr_y > 0.999);
-    CHECK(finer_height.scale == doctest::Approx(10).epsilon(0.02));
-}
+    TEST_CASE("check_pair: the larger one is box-filtered to the smaller, whole factors and not") {
+        const PairCheck finer_normals = check_pair(wave_height(96), wave_normals(192, 20));
+        CHECK(finer_normals.width == 96);
+        CHECK(finer_normals.corr_x > 0.999);
+        CHECK(finer_normals.scale == doctest::Approx(10).epsilon(0.02)); // the texel is twice as wide
+        const PairCheck finer_height = check_pair(wave_height(160), wave_normals(96, 10));
+        CHECK(finer_height.corr_y > 0.999);
+        CHECK(finer_height.scale == doctest::Approx(10).epsilon(0.02));
+    }
 
-TEST_CASE("check_pair: something else does not agree, flat is flat, one texel does no harm") {
-    Image<float> other(128, 128, 1);
-    for (int y = 0; y < 128; ++y)
-        for (int x = 0; x < 128; ++x) other.at(x, y) = float(0.5 + 0.5 * std::sin(2 * pi * 5 * x / 128) * std::sin(2 * pi * 7 * y / 128));
-    const PairCheck c = check_pair(other, wave_normals(128, 10));
-    CHECK(std::abs(c.corr_x) < pair_tells);
-    Image<float> flat(64, 64, 1);
-    std::fill_n(flat.data(), flat.size(), 0.25f);
-    CHECK(check_pair(flat, wave_normals(64, 10)).flat);
-    Image<float> one(1, 1, 1), blue(1, 1, 3);
-    one.at(0, 0) = 1;
-    std::fill_n(blue.data(), 3, 0.0f);
-    CHECK(check_pair(one, blue).flat);
-    CHECK(check_pair(one, blue).inward == 1);
-}
+    TEST_CASE("check_pair: something else does not agree, flat is flat, one texel does no harm") {
+        Image<float> other(128, 128, 1);
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 128; ++x)
+                other.at(x, y) = float(0.5 + 0.5 * std::sin(2 * pi * 5 * x / 128) * std::sin(2 * pi * 7 * y / 128));
+        const PairCheck c = check_pair(other, wave_normals(128, 10));
+        CHECK(std::abs(c.corr_x) < pair_tells);
+        Image<float> flat(64, 64, 1);
+        std::fill_n(flat.data(), flat.size(), 0.25f);
+        CHECK(check_pair(flat, wave_normals(64, 10)).flat);
+        Image<float> one(1, 1, 1), blue(1, 1, 3);
+        one.at(0, 0) = 1;
+        std::fill_n(blue.data(), 3, 0.0f);
+        CHECK(check_pair(one, blue).flat);
+        CHECK(check_pair(one, blue).inward == 1);
+    }
 }

@@ -1,3 +1,4 @@
+#include "bake/relief/bake_budget.h"
 #include "options.h"
 #include "verb.h"
 #include <cmath>
@@ -102,32 +103,6 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
     writer.finish();
 }
 
-ErrorBudget table_budget(const BumpTableOptions& options, const HeightTexture& height, Filter filter, const Vec2d& extent,
-                         Depth depth, float range) {
-    Jet<double> plane{};
-    plane.p_u = {extent.x, 0, 0};
-    plane.p_v = {0, extent.y, 0};
-    plane.n = {0, 0, 1};
-    const Vec2d texels(height.values.width(), height.values.height());
-    BumpTableOptions unit = options;
-    unit.amplitude = 1;
-    const Vec2d to_units = slope_scale(unit, int(texels.x), int(texels.y)) / texels; // from slopes per unit of uv
-    const auto stored = [=](double slope, double per_uv) {
-        const double value = slope * per_uv;
-        if (depth == Depth::half) return as_half(float(value)) / per_uv;
-        if (depth == Depth::u16) return std::round(value / range * 32767) / 32767 * range / per_uv;
-        return float(value) / per_uv;
-    };
-    BudgetInput input{.values = &height.values, .step = height.step, .filter = filter, .method = NormalMethod::exact};
-    input.options = {.amplitude = options.amplitude, .wrap_u = options.wrap_u, .wrap_v = options.wrap_v};
-    input.jet = [plane](double, double) { return plane; };
-    input.encoding_angle = [=](const Jet<double>& jet, const Height<double>& h, const Vec3d& n) {
-        const Height<double> kept{h.b, stored(h.b_u, to_units.x), stored(h.b_v, to_units.y)};
-        return angle_between(n, displaced_normal(jet, kept, NormalMethod::exact));
-    };
-    return error_budget(input);
-}
-
 std::string_view name(SlopeUnits units) {
     switch (units) {
     case SlopeUnits::lecture: return "lecture (two-sided difference)";
@@ -169,7 +144,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("bake and write");
 
     const Vec2d extent = resolve_extent(args.options.extent_u, args.options.extent_v, width, rows);
-    const ErrorBudget budget = table_budget(args.options, height, table.filter(), extent, depth, bias.range);
+    const ErrorBudget budget = table_budget(height, args.options, depth, bias.range);
     watch.lap("budget");
     const double tilt = step_tilt_deg(height.step, args.options.amplitude, extent.x, width);
     if (common.json) {

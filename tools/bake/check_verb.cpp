@@ -49,11 +49,14 @@ template <class Inspect> void add_result(Results& results, const std::string& fi
 int run(const CheckArgs& args, const CommonArgs& common) {
     Results results;
     for (const std::string& file : args.files) {
-        if (named_like_a_mesh(file)) add_result(results, file, common.json, [&] { return inspect_mesh(file, args.options); });
-        else add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
+        if (named_like_a_mesh(file))
+            add_result(results, file, common.json, [&] { return inspect_mesh(file, args.options); });
+        else
+            add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
     }
     for (const auto& [height, normals] : args.pairs)
-        add_result(results, height, common.json, [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
+        add_result(results, height, common.json,
+                   [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
     if (common.json) {
         const nlohmann::ordered_json all = {{"files", results.files}};
         std::printf("%s\n", all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
@@ -67,16 +70,22 @@ int run(const CheckArgs& args, const CommonArgs& common) {
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
     const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply) and images to look at");
-    const auto pair = sub.add_option("--pair", args->pairs, "A height texture and the normal map said to be of it; may be given again")
+    const auto pair = sub.add_option("--pair", args->pairs,
+                                     "A height texture and the normal map said to be of it; may be given again")
+                          ->allow_extra_args(false) // a file may follow
                           ->type_name("HEIGHT NORMAL");
-    const std::map<std::string, Grey> greys = {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}};
-    sub.add_option("--height-channel", args->options.height_channel, "Grey of the pair's height: mean, r, g, b, a or luma; mean unless given")
+    const std::map<std::string, Grey> greys = {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g},
+                                               {"b", Grey::b},       {"a", Grey::a}, {"luma", Grey::luma}};
+    sub.add_option("--height-channel", args->options.height_channel,
+                   "Grey of the pair's height: mean, r, g, b, a or luma; mean unless given")
         ->transform(CLI::CheckedTransformer(greys, CLI::ignore_case).description(""))
         ->type_name("CHANNEL");
-    sub.add_option("--overlap-size", args->options.uv.overlap_size, "Samples along a UV tile that overlaps are measured with; 0: not measured")
+    sub.add_option("--overlap-size", args->options.uv.overlap_size,
+                   "Samples along a UV tile that overlaps are measured with; 0: not measured")
         ->check(CLI::Range(0, 8192))
         ->capture_default_str();
-    sub.add_flag("--audit", args->options.audit, "Meshes: self intersections, orientation and volume too, exactly (slow)");
+    sub.add_flag("--audit", args->options.audit,
+                 "Meshes: self intersections, orientation and volume too, exactly (slow)");
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
     add_examples(sub, "  bake check head.obj head_height.png\n"
                       "  bake check --strict --json *.obj\n"
@@ -84,7 +93,8 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                       "  bake check --pair brick_height.png brick_normal.png\n"
                       "  bake check --pair rock_albedo_height.png rock_normal.png --height-channel a");
     return [args, &common, files, pair] {
-        if (files->empty() && pair->empty()) throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
+        if (files->empty() && pair->empty())
+            throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
         return run(*args, common);
     };
 }

@@ -1,5 +1,4 @@
 #include "normal_map_options.h"
-#include <cmath>
 
 namespace bake {
 
@@ -47,18 +46,6 @@ NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture&
     options.height_options = {.amplitude = amplitude.value * (amplitude.percent ? diagonal(bounds(mesh)) : 1),
                               .midlevel = args.midlevel, .wrap_u = args.height.wrap_u(), .wrap_v = args.height.wrap_v()};
     return options;
-}
-
-Vec3f stored(const Vec3f& rgb, Depth depth) noexcept {
-    const auto one = [depth](float value) {
-        switch (depth) {
-        case Depth::u8: return std::floor(value * 255 + 0.5f) / 255;
-        case Depth::u16: return std::floor(value * 65535 + 0.5f) / 65535;
-        case Depth::half: return as_half(value);
-        default: return value;
-        }
-    };
-    return {one(rgb.x), one(rgb.y), one(rgb.z)};
 }
 
 } // namespace bake

@@ -22,7 +22,5 @@ void add_normal_map_options(CLI::App& sub, NormalMapArgs& args);
 void check_usage(const NormalMapArgs& args);
 /// The library's options: size from the height unless given, a per cent of the mesh's diagonal turned into units.
 NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture& height, const Mesh& mesh);
-/// An encoded normal as a file of that depth gives it back.
-Vec3f stored(const Vec3f& rgb, Depth depth) noexcept;
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "normal_map_options.h"
 #include "bake/asset/mesh_io.h"
+#include "bake/relief/bake_budget.h"
 #include <cstdio>
 
 namespace bake {
@@ -13,41 +14,13 @@ struct Result {
     Filter filter = Filter::central;
 };
 
-BudgetInput budget_input(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options, Depth depth) {
-    BudgetInput input;
-    input.values = &field.values();
-    // Averaging whole blocks of texels averages their quantisation too.
-    const double texels_per_texel = double(height.values.size()) / double(field.values().size());
-    input.step = height.step / std::sqrt(texels_per_texel);
-    input.options = options.height_options;
-    input.filter = resolve_filter(options.filter, height);
-    input.method = options.method;
-    input.encoding_angle = [space = options.space, depth](const Jet<double>& jet, const Height<double>&, const Vec3d& n) {
-        Vec3d t = n;
-        if (space == Space::tangent) {
-            const Vec3d tangent = unit_or_zero(jet.p_u);
-            const Vec3d bitangent = jet.sigma * glm::cross(jet.n, tangent);
-            t = {glm::dot(n, tangent), glm::dot(n, bitangent), glm::dot(n, jet.n)};
-        }
-        return angle_between(t, Vec3d(decode_normal(stored(encode_normal(Vec3f(t), false), depth), false)));
-    };
-    return input;
-}
-
 Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, const Vec2d& extent, Depth depth, Progress& progress) {
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
     Result result;
     progress.start("bake", options.height);
     result.map = normal_map(field, extent, options, &progress);
-    BudgetInput input = budget_input(height, field, options, depth);
-    Jet<double> plane{};
-    plane.p_u = {extent.x, 0, 0};
-    plane.p_v = {0, extent.y, 0};
-    plane.n = {0, 0, 1};
-    input.lecture = {extent.x, extent.y};
-    input.jet = [plane](double, double) { return plane; };
-    result.budget = error_budget(input);
-    result.tilt_deg = step_tilt_deg(input.step, options.height_options.amplitude, extent.x, field.values().width());
+    result.budget = plane_budget(height, field, options, extent, depth);
+    result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, extent.x, height.values.width());
     return result;
 }
 
@@ -56,17 +29,8 @@ Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const No
     Result result;
     progress.start("bake", options.height);
     result.map = normal_map(field, target, options, result.report, &progress);
-    BudgetInput input = budget_input(height, field, options, depth);
-    input.lecture = {target.lecture.u, target.lecture.v};
-    input.jet = [&](double u, double v) -> std::optional<Jet<double>> {
-        const Image<TexelHit>& hits = target.raster.hits;
-        const int x = std::clamp(int(u * hits.width()), 0, hits.width() - 1), y = std::clamp(int((1 - v) * hits.height()), 0, hits.height() - 1);
-        const TexelHit& hit = hits.at(x, y);
-        if (hit.triangle == no_index) return {};
-        return jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2);
-    };
-    result.budget = error_budget(input);
-    result.tilt_deg = step_tilt_deg(input.step, options.height_options.amplitude, target.lecture.u, field.values().width());
+    result.budget = mesh_budget(height, field, options, target, depth);
+    result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, target.lecture.u, height.values.width());
     return result;
 }
 

@@ -77,7 +77,7 @@ int render_to_file(const RenderArgs& args, const CommonArgs& common) {
     write_image(args.out, image, {.depth = depth});
 
     if (stats.bad_samples > 0)
-        note(common, std::to_string(stats.bad_samples) + " samples were too bright to hold and are black; dim the lights");
+        note(common, std::to_string(stats.bad_samples) + " samples too bright to hold are black; dim the lights");
     const double rate = render_seconds > 0 ? double(stats.rays) / render_seconds : 0;
     const std::size_t triangles = scene.bvh->triangle_count();
     if (common.json) {
@@ -106,7 +106,7 @@ int render_to_file(const RenderArgs& args, const CommonArgs& common) {
 std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<RenderArgs>();
     sub.add_option("scene", args->scene, "Scene file (TOML): meshes, materials, lights, camera, sky")->required();
-    sub.add_option("-o,--out", args->out, "Picture: .png is exposed and sRGB-encoded, .exr and .tif hold linear radiance")
+    sub.add_option("-o,--out", args->out, "Picture: .png exposed and sRGB-encoded; .exr, .tif linear radiance")
         ->required();
     sub.add_option("--size", args->size, "Pixels, N or WxH, instead of the scene's");
     sub.add_option("--spp", args->spp, "Samples per pixel, instead of the scene's")->check(CLI::Range(1, 65536));
@@ -116,7 +116,8 @@ std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
     add_examples(sub, "  bake render scene.toml -o picture.png\n"
                       "  bake render scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
                       "A scene of one line is enough, lit and framed by itself:\n"
-                      "  printf '[[mesh]]\\nfile = \"bunny.obj\"\\n' > bunny.toml && bake render bunny.toml -o bunny.png\n");
+                      "  echo 'mesh = [{file = \"bunny.obj\"}]' > bunny.toml\n"
+                      "  bake render bunny.toml -o bunny.png\n");
     return [args, &common] { return render_to_file(*args, common); };
 }
 

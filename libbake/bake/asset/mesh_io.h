@@ -6,7 +6,7 @@ namespace bake {
 
 /// Reads a mesh by its ending, .obj or .ply: whole, or not at all.
 /// OBJ: v (x y z, further numbers ignored), vt, vn, f with any number of corners and positive or negative indices,
-/// g and o (groups; the later of the two holds), usemtl, both up to the end of the line and none where they stand alone;
+/// g and o (groups; the later of the two holds), usemtl, both up to the end of the line, none where they are alone;
 /// l, p, s, mtllib, t and unknown keywords are skipped. Lines may end in a backslash.
 /// PLY: ascii, binary little and big endian; vertex x y z, nx ny nz, and u v / s t / texture_u texture_v, face lists
 /// vertex_indices or vertex_index (any integer type) and texcoord (per-corner uvs, which go before those of vertices);
@@ -20,8 +20,8 @@ Mesh read_mesh(const std::string& path);
 
 /// Writes .obj (all of the mesh; numbers that read back to the same floats) or .ply (binary little endian; one vertex
 /// per distinct corner, with zeros where a corner has no uv or normal; groups and materials are not kept), atomically.
-/// Throws Error{Refusal::unwritable}, also when a value of the mesh is not finite, and Error{Refusal::usage} for another
-/// ending.
+/// Throws Error{Refusal::unwritable}, also when a value of the mesh is not finite, and Error{Refusal::usage} for
+/// another ending.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
 } // namespace bake

@@ -57,8 +57,8 @@ struct Polygon {
     std::vector<Vec2d> points;
     std::vector<std::uint32_t> before, after; ///< neighbours of each corner that is left
     std::vector<std::uint32_t> blockers;      ///< corners that are not convex: only these can lie in an ear
-    std::vector<char> convex;
-    std::vector<char> gone;
+    std::vector<std::uint32_t> suspects;      ///< corners that may have become spikes
+    std::vector<char> convex, gone;
 };
 
 bool is_convex(const Polygon& g, std::uint32_t i) noexcept {
@@ -88,9 +88,11 @@ bool is_ear(const Polygon& g, std::uint32_t i) noexcept {
     return true;
 }
 
-/// Whether corner i lies on a neighbour: it can go without a change of shape.
-bool is_duplicate(const Polygon& g, std::uint32_t i) noexcept {
-    return g.points[i] == g.points[g.before[i]] || g.points[i] == g.points[g.after[i]];
+/// Whether corner i is the tip of a spike of no width, or lies on a neighbour: it can go without a change of shape.
+/// A corner in the middle of a straight side stays, for a triangle across it would leave it hanging.
+bool is_spike(const Polygon& g, std::uint32_t i) noexcept {
+    const Vec2d a = g.points[g.before[i]], b = g.points[i], c = g.points[g.after[i]];
+    return area(a, b, c) == 0 && glm::dot(a - b, c - b) >= 0;
 }
 
 void cut(Polygon& g, std::uint32_t i) {
@@ -116,12 +118,31 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
         g.convex[i] = is_convex(g, i);
         if (!g.convex[i]) g.blockers.push_back(i);
     }
-    std::uint32_t i = 0, left = n, refused = 0;
-    while (has_plane && left > 3 && refused < left) {
-        if (is_duplicate(g, i) || is_ear(g, i)) {
-            *out++ = {{begin + g.before[i], begin + i, begin + g.after[i]}, face};
-            cut(g, i);
-            --left;
+    std::uint32_t left = n;
+    const auto cut_off = [&](std::uint32_t i) {
+        *out++ = {{begin + g.before[i], begin + i, begin + g.after[i]}, face};
+        cut(g, i);
+        --left;
+    };
+    // A spike goes as soon as there is one: between its sides the rest of the polygon has no inside to find.
+    const auto cut_spikes = [&] {
+        while (!g.suspects.empty()) {
+            const std::uint32_t i = g.suspects.back();
+            g.suspects.pop_back();
+            if (left <= 3 || g.gone[i] || !is_spike(g, i)) continue;
+            g.suspects.insert(g.suspects.end(), {g.before[i], g.after[i]});
+            cut_off(i);
+        }
+    };
+    g.suspects.clear();
+    for (std::uint32_t i = n; i > 0 && has_plane; --i) g.suspects.push_back(i - 1);
+    cut_spikes();
+    for (std::uint32_t i = 0, refused = 0; has_plane && left > 3 && refused < left;) {
+        while (g.gone[i]) i = g.after[i];
+        if (is_ear(g, i)) {
+            g.suspects.insert(g.suspects.end(), {g.before[i], g.after[i]});
+            cut_off(i);
+            cut_spikes();
             refused = 0;
             i = g.after[g.after[i]]; // every other corner first: rounder triangles than those of a fan
         } else {

@@ -16,7 +16,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     std::error_code ignored;
     if (path_.empty() || target.filename().empty() || fs::is_directory(target, ignored))
         throw Error(Refusal::unwritable, path_ + ": is a folder; name a file in it");
-    const fs::path name = "." + target.stem().string() + ".tmp" + std::to_string(getpid()) + target.extension().string();
+    std::string name = ".";
+    name += target.stem().string() + ".tmp" + std::to_string(getpid()) + target.extension().string();
     temporary_ = (target.parent_path() / name).string();
     const int file = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0)

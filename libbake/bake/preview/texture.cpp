@@ -1,5 +1,6 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
+#include "bake/relief/normal_map.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,11 +97,18 @@ Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool d
     require_finite(normals, file);
     float* const begin = normals.data();
     float* const end = begin + normals.size();
-    const bool below_zero = std::any_of(begin, end, [](float v) { return v < 0; });
-    const bool as_it_is = encoding == NormalEncoding::signed_ || (encoding == NormalEncoding::automatic && below_zero);
-    if (!as_it_is) std::for_each(begin, end, [](float& v) { v = 2 * v - 1; });
-    if (directx)
-        for (float* green = begin + 1; green < end; green += 3) *green = -*green;
+    if (encoding == NormalEncoding::automatic) {
+        const bool below_zero = std::any_of(begin, end, [](float v) { return v < 0; });
+        encoding = below_zero ? NormalEncoding::signed_ : NormalEncoding::unorm;
+    }
+    for (float* t = begin; t < end; t += 3) {
+        if (encoding == NormalEncoding::unorm) {
+            const Vec3f decoded = decode_normal({t[0], t[1], t[2]}, directx);
+            t[0] = decoded.x, t[1] = decoded.y, t[2] = decoded.z;
+        } else if (directx) {
+            t[1] = -t[1];
+        }
+    }
     return shared(std::move(normals));
 }
 

@@ -27,7 +27,7 @@ Texture read_bump_table(const std::string& file, float scale = 1);
 Texture read_normal_map(const std::string& file, NormalEncoding encoding = NormalEncoding::automatic,
                         bool directx = false);
 
-/// Value at uv (v up), bilinear between texel centres, repeated in both directions. The image has two or three channels.
+/// Value at uv (v up), bilinear between texel centres, repeated in both directions; of two or three channels.
 /// A uv that is not finite counts as 0.
 Vec2f lookup2(const Image<float>& image, const Vec2f& uv) noexcept;
 Vec3f lookup3(const Image<float>& image, const Vec2f& uv) noexcept;

@@ -1,7 +1,7 @@
 // The error a bake states of itself: estimated from the map it bakes, before anyone measures it.
 //
 // All figures are root mean square angles of the normal in degrees, over a lattice of texels of the map itself:
-// - filter: the filter's slopes against those of a filter of order 48 at the same texels (sharp_stencil), less the
+// - filter: the filter's slopes against those of a filter of order 128 at the same texels (sharp_stencil), less the
 //   share of that difference which quantisation noise explains. It sees the map's own spectrum;
 // - quantisation: white noise of step / sqrt 12 through the filter's weights (ORACLES.md section 3), turned into angle by
 //   the local metric and slope;

@@ -65,7 +65,7 @@ double Stencil::noise() const noexcept {
 
 Stencil sharp_stencil() {
     // (-1)^(k+1) / k, the sinc's derivative, times K!^2 / ((K-k)! (K+k)!), which makes the response flat at w = 0.
-    constexpr int reach = 24;
+    constexpr int reach = 64;
     std::vector<double> taps(reach);
     double share = 1;
     for (int k = 1; k <= reach; ++k) {

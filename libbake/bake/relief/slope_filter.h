@@ -37,7 +37,7 @@ struct Stencil {
 };
 /// automatic is not a stencil (assert).
 Stencil stencil(Filter filter);
-/// The central difference of order 48: right to 1e-3 up to two thirds of the highest frequency. What other filters are measured against on heights without a closed form.
+/// The central difference of order 128: right to 1e-3 up to four fifths of the highest frequency. What other filters are measured against on heights without a closed form.
 Stencil sharp_stencil();
 /// Noise (as Stencil::noise) of the difference of two filters' slopes.
 double noise_of_difference(const Stencil& a, const Stencil& b);

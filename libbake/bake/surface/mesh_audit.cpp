@@ -68,8 +68,12 @@ bool intersect(const Soup& soup, const Corners& a, const Corners& b) {
     const Kernel::Triangle_3 first(p(0), p(1), p(2)), second(q(0), q(1), q(2));
     switch (shared) {
     case 0: return CGAL::do_intersect(first, second);
-    case 1: return CGAL::do_intersect(first, Kernel::Segment_3(q(1), q(2))) || CGAL::do_intersect(second, Kernel::Segment_3(p(1), p(2)));
-    case 2: return CGAL::coplanar(p(0), p(1), p(2), q(2)) && CGAL::coplanar_orientation(p(0), p(1), p(2), q(2)) == CGAL::POSITIVE;
+    case 1:
+        return CGAL::do_intersect(first, Kernel::Segment_3(q(1), q(2))) ||
+               CGAL::do_intersect(second, Kernel::Segment_3(p(1), p(2)));
+    case 2:
+        return CGAL::coplanar(p(0), p(1), p(2), q(2)) &&
+               CGAL::coplanar_orientation(p(0), p(1), p(2), q(2)) == CGAL::POSITIVE;
     default: return true; // the same triangle twice
     }
 }
@@ -105,7 +109,8 @@ MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     if (!result.closed) return result;
     result.volume = CGAL::to_double(pmp::volume(surface));
     // Nesting of shells is defined only while none cuts another.
-    result.outward = pmp::is_outward_oriented(surface) && (result.self_intersections > 0 || pmp::does_bound_a_volume(surface));
+    result.outward =
+        pmp::is_outward_oriented(surface) && (result.self_intersections > 0 || pmp::does_bound_a_volume(surface));
     return result;
 }
 

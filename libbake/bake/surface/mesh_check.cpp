@@ -128,14 +128,17 @@ std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& ma
         }
         const bool majority_odd = odd * 2 > patch.size();
         for (const Index f : patch) turned[f] = orientable && (turned[f] != 0) != majority_odd;
-        if (orientable) topology.flipped_faces += majority_odd ? patch.size() - odd : odd;
-        else topology.unorientable_edges += disagreeing / 2; // each was met from both sides
+        if (orientable)
+            topology.flipped_faces += majority_odd ? patch.size() - odd : odd;
+        else
+            topology.unorientable_edges += disagreeing / 2; // each was met from both sides
     }
     return turned;
 }
 
 // Chains of edges that are free, that is, joined to no second face that agrees; those with a true boundary edge count.
-std::size_t boundary_loops(const HalfEdges& he, const EdgeTable& table, std::vector<Index> mate, const std::vector<char>& turned) {
+std::size_t boundary_loops(const HalfEdges& he, const EdgeTable& table, std::vector<Index> mate,
+                           const std::vector<char>& turned) {
     for (Index h = 0; h < he.size(); ++h) {
         const Index other = mate[h];
         if (other == no_index) continue;
@@ -290,7 +293,8 @@ std::size_t count_duplicates(const Mesh& mesh, const std::vector<Index>& vertex)
     // A ring read from its lowest position towards the lower neighbour: the same for every turn and either side.
     const auto ring = [&](Index f) {
         std::vector<Index> r;
-        for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) r.push_back(vertex[mesh.corner_position[c]]);
+        for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+            r.push_back(vertex[mesh.corner_position[c]]);
         std::rotate(r.begin(), std::min_element(r.begin(), r.end()), r.end());
         if (r.back() < r[1]) std::reverse(r.begin() + 1, r.end());
         return r;
@@ -322,7 +326,8 @@ std::size_t count_duplicates(const Mesh& mesh, const std::vector<Index>& vertex)
 }
 
 bool repeats_a_corner(const Mesh& mesh, std::size_t f) {
-    std::vector<Index> ring(mesh.corner_position.begin() + mesh.face_begin[f], mesh.corner_position.begin() + mesh.face_begin[f + 1]);
+    std::vector<Index> ring(mesh.corner_position.begin() + mesh.face_begin[f],
+                            mesh.corner_position.begin() + mesh.face_begin[f + 1]);
     std::sort(ring.begin(), ring.end());
     return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }

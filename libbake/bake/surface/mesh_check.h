@@ -33,7 +33,7 @@ struct MeshCheck {
 
     Topology topology;                     ///< as the file's indices have it
     std::size_t coincident_positions = 0;  ///< positions bit-equal to one before them: the file is not welded there
-    Topology welded;                       ///< with bit-equal positions taken as one; equals topology when there are none
+    Topology welded;                       ///< with bit-equal positions taken as one
 
     std::size_t unused_positions = 0;
     std::size_t repeated_corners = 0;    ///< faces that use one position twice

@@ -1,6 +1,7 @@
 #include "bake/surface/mesh_surface.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -61,31 +62,34 @@ std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>&
     return n;
 }
 
-bool has_uv(const Mesh& mesh, const Triangle& t) {
+using Corners = std::array<std::uint32_t, 3>;
+
+bool has_uv(const Mesh& mesh, const Corners& corners) {
     if (mesh.corner_uv.empty()) return false;
-    for (const std::uint32_t corner : t.corner)
+    for (const std::uint32_t corner : corners)
         if (mesh.corner_uv[corner] == no_index) return false;
     return true;
 }
 
-/// A triangle's own derivatives, times its signed double area in uv, so that none is ever divided by nothing.
+/// The derivatives of the plane through three corners, times its signed double area in uv, so that none is ever divided by nothing.
 struct Facet {
     Vec3d p_u_area{0}, p_v_area{0};
     double area = 0;  ///< signed, doubled, in uv
     float sigma = 0;
 };
 
-Facet make_facet(const Mesh& mesh, const Triangle& t, const std::vector<Vec3f>& n) {
+Facet make_facet(const Mesh& mesh, const Corners& corners, const std::vector<Vec3f>& n) {
     Facet f;
-    if (!has_uv(mesh, t)) return f;
-    const Vec3d p0 = position(mesh, t.corner[0]);
-    const Vec3d e1 = position(mesh, t.corner[1]) - p0, e2 = position(mesh, t.corner[2]) - p0;
-    const auto uv = [&](int k) { return Vec2d(mesh.uvs[mesh.corner_uv[t.corner[k]]]); };
+    if (!has_uv(mesh, corners)) return f;
+    const Vec3d p0 = position(mesh, corners[0]);
+    const Vec3d e1 = position(mesh, corners[1]) - p0, e2 = position(mesh, corners[2]) - p0;
+    const auto uv = [&](int k) { return Vec2d(mesh.uvs[mesh.corner_uv[corners[k]]]); };
     const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
     const double area = d1.x * d2.y - d2.x * d1.y;
-    const Vec3d outward(n[t.corner[0]] + n[t.corner[1]] + n[t.corner[2]]);
-    const double side = area * glm::dot(glm::cross(e1, e2), outward);
-    if (!(side < 0 || side > 0)) return f;
+    if (area == 0) return f;
+    // A triangle squeezed flat at a pole still says how p changes along u and v there; its side is its winding's.
+    const Vec3d outward(n[corners[0]] + n[corners[1]] + n[corners[2]]);
+    const double side = glm::dot(glm::cross(e1, e2), outward) < 0 ? -area : area;
     f.p_u_area = d2.y * e1 - d1.y * e2;
     f.p_v_area = d1.x * e2 - d2.x * e1;
     f.area = area;
@@ -93,28 +97,59 @@ Facet make_facet(const Mesh& mesh, const Triangle& t, const std::vector<Vec3f>& 
     return f;
 }
 
-/// A triangle's corner at some position. Equal sigma, uv and n mean: the same chart at this vertex.
+/// Of every corner, the plane through it and its two neighbours along the face: unlike the triangles around a vertex,
+/// these do not depend on which diagonal splits a quad. Where they lie on a line in uv, a triangle of the face.
+std::vector<Facet> make_corner_facets(const Mesh& mesh, const MeshSurface& s) {
+    std::vector<Facet> facets(mesh.corners());
+    for_rows(std::int64_t(mesh.faces()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto f = begin; f < end; ++f) {
+            const std::uint32_t first = mesh.face_begin[f], count = mesh.face_begin[f + 1] - first;
+            for (std::uint32_t k = 0; k < count; ++k)
+                facets[first + k] = make_facet(mesh, {first + (k + count - 1) % count, first + k, first + (k + 1) % count}, s.n);
+        }
+    });
+    for (const Triangle& t : s.triangles)
+        for (const std::uint32_t corner : t.corner)
+            if (facets[corner].sigma == 0) facets[corner] = make_facet(mesh, t.corner, s.n);
+    return facets;
+}
+
+/// The corners around every position: corners[begin[p]..begin[p + 1]), ascending.
+struct CornersAround {
+    std::vector<std::uint32_t> begin, corners;
+};
+
+CornersAround corners_around(const Mesh& mesh) {
+    CornersAround around;
+    around.begin.assign(mesh.positions.size() + 1, 0);
+    for (const std::uint32_t p : mesh.corner_position) ++around.begin[p + 1];
+    for (std::size_t p = 0; p < mesh.positions.size(); ++p) around.begin[p + 1] += around.begin[p];
+    around.corners.resize(mesh.corners());
+    std::vector<std::uint32_t> next(around.begin.begin(), around.begin.end() - 1);
+    for (std::uint32_t corner = 0; corner < mesh.corners(); ++corner) around.corners[next[mesh.corner_position[corner]]++] = corner;
+    return around;
+}
+
+/// A corner at some position. Equal sigma, uv and n mean: the same chart at this vertex.
 struct ChartCorner {
     float sigma;
     Vec2f uv;
     Vec3f n;
-    std::uint32_t triangle, corner;
+    std::uint32_t corner;
 };
 
 bool same_chart(const ChartCorner& a, const ChartCorner& b) { return a.sigma == b.sigma && a.uv == b.uv && a.n == b.n; }
 
 /// Gives all corners of one chart at a vertex the mean of their facets' derivatives. Facets count by their area in uv:
-/// that is the mean over the chart around the vertex. Sorting keeps a vertex of a million triangles affordable.
+/// that is the mean over the chart around the vertex. Sorting keeps a vertex of a million faces affordable.
 void average_charts(std::vector<ChartCorner>& corners, const std::vector<Facet>& facets, MeshSurface& s) {
-    const auto key = [](const ChartCorner& c) {
-        return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.triangle, c.corner);
-    };
+    const auto key = [](const ChartCorner& c) { return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.corner); };
     std::sort(corners.begin(), corners.end(), [&](const ChartCorner& a, const ChartCorner& b) { return key(a) < key(b); });
     for (std::size_t first = 0, last; first < corners.size(); first = last) {
         Vec3d p_u(0), p_v(0);
         double area = 0;
         for (last = first; last < corners.size() && same_chart(corners[first], corners[last]); ++last) {
-            const Facet& facet = facets[corners[last].triangle];
+            const Facet& facet = facets[corners[last].corner];
             const double side = facet.area < 0 ? -1 : 1;
             p_u += side * facet.p_u_area;
             p_v += side * facet.p_v_area;
@@ -138,28 +173,24 @@ MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
     s.mesh = &mesh;
     s.flat = options.flat;
     s.triangles = triangulate(mesh);
-    const Around around = around_positions(mesh, s.triangles);
-    s.n = corner_normals(mesh, s.triangles, around);
+    s.n = corner_normals(mesh, s.triangles);
     s.p_u.assign(mesh.corners(), Vec3f(0));
     s.p_v.assign(mesh.corners(), Vec3f(0));
 
-    const std::vector<Triangle>& triangles = s.triangles;
-    std::vector<Facet> facets(triangles.size());
-    s.sigma.resize(triangles.size());
-    for_rows(std::int64_t(triangles.size()), grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto i = begin; i < end; ++i) {
-            facets[i] = make_facet(mesh, triangles[i], s.n);
-            s.sigma[i] = facets[i].sigma;
-        }
+    s.sigma.resize(s.triangles.size());
+    for_rows(std::int64_t(s.triangles.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = begin; i < end; ++i) s.sigma[i] = make_facet(mesh, s.triangles[i].corner, s.n).sigma;
     });
-
+    const std::vector<Facet> facets = make_corner_facets(mesh, s);
+    const CornersAround by_position = corners_around(mesh);
     for_rows(std::int64_t(mesh.positions.size()), grain, [&](std::int64_t begin, std::int64_t end) {
         std::vector<ChartCorner> corners;
         for (auto p = begin; p < end; ++p) {
             corners.clear();
-            for (auto i = around.begin[p]; i < around.begin[p + 1]; ++i) {
-                const std::uint32_t t = around.slots[i] / 3, corner = triangles[t].corner[around.slots[i] % 3];
-                if (facets[t].sigma != 0) corners.push_back({facets[t].sigma, mesh.uvs[mesh.corner_uv[corner]], s.n[corner], t, corner});
+            for (auto i = by_position.begin[p]; i < by_position.begin[p + 1]; ++i) {
+                const std::uint32_t corner = by_position.corners[i];
+                if (facets[corner].sigma != 0)
+                    corners.push_back({facets[corner].sigma, mesh.uvs[mesh.corner_uv[corner]], s.n[corner], corner});
             }
             average_charts(corners, facets, s);
         }
@@ -187,7 +218,7 @@ template <class T> Jet<T> jet_at(const MeshSurface& s, std::uint32_t triangle, T
         jet.p_u = (d2.y * e1 - d1.y * e2) * per_area;
         jet.p_v = (d1.x * e2 - d2.x * e1) * per_area;
         jet.n = jet.sigma * unit_or_zero(glm::cross(jet.p_u, jet.p_v));
-        return jet;
+        return jet.n != Vec3<T>(T(0)) ? jet : Jet<T>{.sigma = 0};
     }
     const Vec3<T> m = mix(s.n[c0], s.n[c1], s.n[c2]);
     const T length = glm::length(m);

@@ -9,14 +9,14 @@ struct SurfaceOptions {
     bool flat = false; ///< facet normals and facet tangents; else smooth ones
 };
 
-/// Per corner: unit normal n, and p_u, p_v, averaged over the triangles around the vertex that share its uv chart
-/// (position, uv and normal alike, same orientation in uv). The mesh must outlive the surface.
+/// Per corner: unit normal n, and p_u, p_v, averaged over the face corners at the vertex that share its uv chart
+/// (position, uv and normal alike, same orientation in uv), each by its area in uv. The mesh must outlive the surface.
 struct MeshSurface {
     const Mesh* mesh = nullptr;
     std::vector<Triangle> triangles; ///< as triangulate(mesh) gives them
     std::vector<Vec3f> n;            ///< corners; unit; the file's own, else angle-weighted per position; zero where none exists
     std::vector<Vec3f> p_u, p_v;     ///< corners; zero where the chart has no area or the mesh no uv
-    std::vector<float> sigma;        ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv or space
+    std::vector<float> sigma;        ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv
     bool flat = false;
 };
 

@@ -26,7 +26,8 @@ Spread spread(std::vector<Weighted>& samples) {
 }
 
 bool has_uv(const Mesh& mesh, const Triangle& t) noexcept {
-    return std::all_of(t.corner.begin(), t.corner.end(), [&](std::uint32_t c) { return mesh.corner_uv[c] != no_index; });
+    return std::all_of(t.corner.begin(), t.corner.end(),
+                       [&](std::uint32_t c) { return mesh.corner_uv[c] != no_index; });
 }
 
 // Larger over smaller singular value of the linear map that takes the uv triangle to the triangle in space.
@@ -82,17 +83,22 @@ void find_tiles(const Mesh& mesh, UvCheck& check) {
             low = {std::min(low.x, uv.x), std::min(low.y, uv.y)};
             high = {std::max(high.x, uv.x), std::max(high.y, uv.y)};
         }
-        if (!(low.x < high.x && low.y < high.y)) continue; // without area: on a border it is in no tile rather than in both
+        if (!(low.x < high.x && low.y < high.y))
+            continue; // without area: on a border it is in no tile rather than in both
         // A border on a tile's edge, or off it by rounding, belongs to the tile inside.
         constexpr double slack = 1e-5;
         const auto first = [](double a, double b) { return std::floor(std::min(a + slack, 0.5 * (a + b))); };
-        const auto last = [](double a, double b) { return std::max(std::floor(std::min(a + slack, 0.5 * (a + b))), std::ceil(b - slack) - 1); };
-        const double u0 = first(low.x, high.x), v0 = first(low.y, high.y), u1 = last(low.x, high.x), v1 = last(low.y, high.y);
+        const auto last = [](double a, double b) {
+            return std::max(std::floor(std::min(a + slack, 0.5 * (a + b))), std::ceil(b - slack) - 1);
+        };
+        const double u0 = first(low.x, high.x), v0 = first(low.y, high.y), u1 = last(low.x, high.x),
+                     v1 = last(low.y, high.y);
         check.crossing_faces += u0 != u1 || v0 != v1;
         check.outside_faces += u0 < 0 || v0 < 0 || u1 >= udim_columns || v1 >= udim_rows;
         const auto column_end = int(std::min(u1, udim_columns - 1.0)), row_end = int(std::min(v1, udim_rows - 1.0));
         for (int v = int(std::clamp(v0, 0.0, 1.0 * udim_rows)); v <= row_end; ++v)
-            for (int u = int(std::clamp(u0, 0.0, 1.0 * udim_columns)); u <= column_end; ++u) used[v * udim_columns + u] = 1;
+            for (int u = int(std::clamp(u0, 0.0, 1.0 * udim_columns)); u <= column_end; ++u)
+                used[v * udim_columns + u] = 1;
     }
     for (int tile = 0; tile < udim_columns * udim_rows; ++tile)
         if (used[tile]) check.udim_tiles.push_back(1001 + tile);
@@ -109,7 +115,9 @@ void measure_overlap(const Mesh& mesh, const std::vector<Triangle>& triangles, i
     charts.corner_uv = mesh.corner_uv;
     charts.uvs.reserve(mesh.uvs.size());
     for (const Vec2f& uv : mesh.uvs) charts.uvs.push_back(Vec2f((Vec2d(uv) - check.min) / extent));
-    const auto samples = [size](double tiles) { return std::clamp(int(std::ceil(size * std::min(tiles, 2.0))), 16, 2 * size); };
+    const auto samples = [size](double tiles) {
+        return std::clamp(int(std::ceil(size * std::min(tiles, 2.0))), 16, 2 * size);
+    };
     const int width = samples(extent.x), height = samples(extent.y);
     const UvRaster raster = uv_raster(charts, triangles, width, height);
     check.covered = extent.x * extent.y * double(raster.covered) / (double(width) * height);

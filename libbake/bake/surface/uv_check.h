@@ -26,7 +26,7 @@ struct UvCheck {
     std::size_t outside_faces = 0;        ///< faces that lie, wholly or in part, where no UDIM tile is
     std::size_t crossing_faces = 0;       ///< faces that lie in more than one tile
     Spread density;                       ///< sqrt(uv area / area); the median as it is, p5 and p95 over the median
-    Spread stretch;                       ///< larger over smaller singular value of the map from uv to surface, from 1 on
+    Spread stretch;                       ///< larger over smaller singular value of the map uv to surface, from 1 on
 };
 
 UvCheck check_uvs(const Mesh& mesh, const std::vector<Triangle>& triangles, const UvCheckOptions& options = {});

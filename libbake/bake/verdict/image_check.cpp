@@ -107,7 +107,9 @@ int bits_that_hold(const std::vector<float>& values, int stored) {
             if (stored == 0) return std::abs(nearest - v) <= v * 0x1p-12; // half a step of a half float
             return std::abs(std::round(nearest * file_levels) - v * file_levels) < 0.25;
         };
-        const auto shifted = [&](float v) { return std::fmod(std::round(v * file_levels), std::ldexp(1.0, stored - n)) == 0; };
+        const auto shifted = [&](float v) {
+            return std::fmod(std::round(v * file_levels), std::ldexp(1.0, stored - n)) == 0;
+        };
         if (levels + 1 < double(values.size())) continue;
         if (std::all_of(values.begin(), values.end(), holds)) return n;
         if (stored > 0 && std::all_of(values.begin(), values.end(), shifted)) return n;
@@ -122,7 +124,8 @@ void count_levels(const Plane& plane, const ImageInfo& info, ChannelCheck& check
     const int largest = ((1 << sample_bits) - 1) * plane.count;
     const std::vector<float> values = whole ? distinct_levels(plane, largest) : distinct_values(plane);
     const std::size_t texels = std::size_t(plane.image->width()) * plane.image->height();
-    const bool too_many = values.size() > std::size_t(most_levels) || (values.empty() && check.nan + check.inf < texels);
+    const bool too_many =
+        values.size() > std::size_t(most_levels) || (values.empty() && check.nan + check.inf < texels);
     check.levels = too_many ? most_levels + 1 : int(values.size());
     for (std::size_t i = 1; i < values.size(); ++i) {
         const double step = double(values[i]) - values[i - 1];
@@ -130,8 +133,10 @@ void count_levels(const Plane& plane, const ImageInfo& info, ChannelCheck& check
     }
     if (plane.count > 1) return;
     const int stored = whole && info.bits > 0 ? std::min(info.bits, sample_bits) : sample_bits;
-    if (whole) check.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
-    else if (values.size() > 1) check.true_bits = bits_that_hold(values, 0); // one float says nothing of bits
+    if (whole)
+        check.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
+    else if (values.size() > 1)
+        check.true_bits = bits_that_hold(values, 0); // one float says nothing of bits
 }
 
 double finite_or_zero(double v) noexcept { return v - v == 0 ? v : 0; }
@@ -191,7 +196,8 @@ void measure_colour(const Image<float>& image, int channels, ImageCheck& check) 
                 s.tint = std::max(s.tint, tint);
                 s.tint_sum += tint;
                 if (channels < 3) continue;
-                const Vec3d n(2 * finite_or_zero(texel[0]) - 1, 2 * finite_or_zero(texel[1]) - 1, 2 * finite_or_zero(texel[2]) - 1);
+                const Vec3d n(2 * finite_or_zero(texel[0]) - 1, 2 * finite_or_zero(texel[1]) - 1,
+                              2 * finite_or_zero(texel[2]) - 1);
                 const double length = glm::length(n);
                 s.length += length;
                 s.normal += n;
@@ -238,7 +244,8 @@ void measure_grey(const Image<float>& image, ImageCheck& check) {
         check.grey_step = 1 / (std::ldexp(1.0, bits) - 1);
     } else if (const double largest = std::max(std::abs(check.grey.min), std::abs(check.grey.max)); largest > 0) {
         // The step between floats just below the largest value.
-        check.grey_step = std::ldexp(1.0, int(std::ceil(std::log2(largest))) - (check.info.type == SampleType::half ? 11 : 24));
+        check.grey_step =
+            std::ldexp(1.0, int(std::ceil(std::log2(largest))) - (check.info.type == SampleType::half ? 11 : 24));
     }
 }
 

@@ -41,8 +41,8 @@ struct ImageCheck {
     Tiling tiling;            ///< of the mean of the colour channels
     Looks looks = Looks::colour;
 
-    /// Read as normals n = 2 rgb - 1: mean length, share of texels more than 2 % off unit length, and share with n_z < 0.
-    /// Unset (0) with fewer than three channels.
+    /// Read as normals n = 2 rgb - 1: mean length, share of texels more than 2 % off unit length, and share with
+    /// n_z < 0. Unset (0) with fewer than three channels.
     double normal_length = 0, not_unit = 0, inward = 0;
     Vec3d mean_normal{0};
     double grey_step = 0; ///< height of one quantisation step: 1 / (2^true_bits - 1); of floats the coarsest in use

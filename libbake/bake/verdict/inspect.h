@@ -47,7 +47,8 @@ struct PairReport {
 /// Throw as read_mesh, read_image and read_height.
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options = {});
 ImageReport inspect_image(const std::string& path, const InspectOptions& options = {});
-PairReport inspect_pair(const std::string& height_path, const std::string& normal_path, const InspectOptions& options = {});
+PairReport inspect_pair(const std::string& height_path, const std::string& normal_path,
+                        const InspectOptions& options = {});
 
 /// The findings alone, from measurements already made.
 Findings judge(const MeshReport& report);

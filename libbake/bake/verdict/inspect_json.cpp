@@ -45,18 +45,26 @@ Json uvs(const UvCheck& uv) {
 }
 
 Json channel(const ChannelCheck& c) {
-    return {{"name", c.name}, {"min", c.min}, {"max", c.max}, {"mean", c.mean}, {"nan", c.nan}, {"inf", c.inf},
-            {"levels", c.levels > most_levels ? Json(nullptr) : Json(c.levels)}, {"least_step", c.least_step}};
+    return {{"name", c.name},
+            {"min", c.min},
+            {"max", c.max},
+            {"mean", c.mean},
+            {"nan", c.nan},
+            {"inf", c.inf},
+            {"levels", c.levels > most_levels ? Json(nullptr) : Json(c.levels)},
+            {"least_step", c.least_step}};
 }
 
 } // namespace
 
 std::string to_json(const MeshReport& report) {
     const MeshCheck& c = report.check;
-    Json json = {{"file", report.file}, {"kind", "mesh"}, {"positions", c.positions}, {"faces", c.faces}, {"corners", c.corners}, {"triangles", c.triangles}};
+    Json json = {{"file", report.file}, {"kind", "mesh"},       {"positions", c.positions},
+                 {"faces", c.faces},    {"corners", c.corners}, {"triangles", c.triangles}};
     Json sizes = Json::object();
     for (std::size_t n = 3; n < c.faces_of_size.size(); ++n)
-        if (c.faces_of_size[n] > 0) sizes[std::to_string(n) + (n == largest_listed_face ? "+" : "")] = c.faces_of_size[n];
+        if (c.faces_of_size[n] > 0)
+            sizes[std::to_string(n) + (n == largest_listed_face ? "+" : "")] = c.faces_of_size[n];
     json["faces_of_size"] = sizes;
     json["materials"] = c.materials;
     json["groups"] = c.groups;
@@ -87,8 +95,9 @@ std::string to_json(const MeshReport& report) {
 
 std::string to_json(const ImageReport& report) {
     const ImageCheck& c = report.check;
-    Json json = {{"file", report.file}, {"kind", "image"}, {"format", c.info.format}, {"width", c.info.width}, {"height", c.info.height},
-                 {"type", name(c.info.type)}, {"bits", c.info.bits}, {"true_bits", c.true_bits}, {"srgb_tagged", c.info.srgb_tagged}};
+    Json json = {{"file", report.file},   {"kind", "image"},          {"format", c.info.format},
+                 {"width", c.info.width}, {"height", c.info.height},  {"type", name(c.info.type)},
+                 {"bits", c.info.bits},   {"true_bits", c.true_bits}, {"srgb_tagged", c.info.srgb_tagged}};
     json["channels"] = Json::array();
     for (const ChannelCheck& own : c.channels) {
         Json one = channel(own);
@@ -98,7 +107,10 @@ std::string to_json(const ImageReport& report) {
     json["grey"] = channel(c.grey);
     json["looks_like"] = name(c.looks);
     json["tint"] = {{"max", c.tint}, {"mean", c.mean_tint}};
-    json["tiling"] = {{"x", c.tiling.x}, {"y", c.tiling.y}, {"tiles_x", c.tiling.x <= tiles_up_to}, {"tiles_y", c.tiling.y <= tiles_up_to}};
+    json["tiling"] = {{"x", c.tiling.x},
+                      {"y", c.tiling.y},
+                      {"tiles_x", c.tiling.x <= tiles_up_to},
+                      {"tiles_y", c.tiling.y <= tiles_up_to}};
     if (c.looks == Looks::grey)
         json["step"] = {{"height", c.grey_step},
                         {"slope_per_texel", report.step.per_texel},
@@ -106,7 +118,9 @@ std::string to_json(const ImageReport& report) {
                         {"angle_deg", report.step.angle_deg},
                         {"one_degree_amplitude", report.step.one_degree_amplitude}};
     if (c.looks == Looks::normal_map)
-        json["normals"] = {{"mean_length", c.normal_length}, {"not_unit", c.not_unit}, {"inward", c.inward},
+        json["normals"] = {{"mean_length", c.normal_length},
+                           {"not_unit", c.not_unit},
+                           {"inward", c.inward},
                            {"mean", {c.mean_normal.x, c.mean_normal.y, c.mean_normal.z}}};
     add(json, report.findings);
     return dump(json);

@@ -14,7 +14,9 @@ namespace {
     return text;
 }
 
-std::string row(const std::string& name, const std::string& value) { return format("  %-14s ", name.c_str()) + value + "\n"; }
+std::string row(const std::string& name, const std::string& value) {
+    return format("  %-14s ", name.c_str()) + value + "\n";
+}
 
 std::string endings(const Findings& findings) {
     std::string text;
@@ -24,7 +26,9 @@ std::string endings(const Findings& findings) {
     return text;
 }
 
-std::string plural(std::size_t count, const char* one, const char* many) { return format("%zu %s", count, count == 1 ? one : many); }
+std::string plural(std::size_t count, const char* one, const char* many) {
+    return format("%zu %s", count, count == 1 ? one : many);
+}
 
 std::string face_sizes(const MeshCheck& c) {
     std::string text;
@@ -61,12 +65,18 @@ std::string range(const ChannelCheck& channel) {
 std::string uv_rows(const MeshReport& report) {
     const UvCheck& uv = report.uv;
     if (uv.triangles == 0) return row("uv", "none");
-    std::string text = row("uv bounds", format("u %.4g to %.4g, v %.4g to %.4g; UDIM tiles ", uv.min.x, uv.max.x, uv.min.y, uv.max.y) + tile_list(uv.udim_tiles));
-    text += row("uv charts", format("of %zu triangles %zu mirrored, %zu without area; overlap %.1f %% of the covered area (%.4g)", uv.triangles,
-                                    uv.mirrored_triangles, uv.degenerate_triangles, 100 * uv.overlap, uv.covered));
+    std::string text =
+        row("uv bounds", format("u %.4g to %.4g, v %.4g to %.4g; UDIM tiles ", uv.min.x, uv.max.x, uv.min.y, uv.max.y) +
+                             tile_list(uv.udim_tiles));
+    text += row("uv charts",
+                format("of %zu triangles %zu mirrored, %zu without area; overlap %.1f %% of the covered area (%.4g)",
+                       uv.triangles, uv.mirrored_triangles, uv.degenerate_triangles, 100 * uv.overlap, uv.covered));
     if (uv.density.median > 0) {
-        text += row("texel density", format("median %.4g uv per unit, p5 x%.3g, p95 x%.3g (sqrt(uv area / area), by area)", uv.density.median, uv.density.p5, uv.density.p95));
-        text += row("uv stretch", format("p5 %.3g, median %.3g, p95 %.3g (longer over shorter axis)", uv.stretch.p5, uv.stretch.median, uv.stretch.p95));
+        text +=
+            row("texel density", format("median %.4g uv per unit, p5 x%.3g, p95 x%.3g (sqrt(uv area / area), by area)",
+                                        uv.density.median, uv.density.p5, uv.density.p95));
+        text += row("uv stretch", format("p5 %.3g, median %.3g, p95 %.3g (longer over shorter axis)", uv.stretch.p5,
+                                         uv.stretch.median, uv.stretch.p95));
     }
     return text;
 }
@@ -77,20 +87,27 @@ std::string to_text(const MeshReport& report) {
     const MeshCheck& c = report.check;
     const Topology& t = c.welded;
     std::string text = report.file + "\n";
-    text += row("mesh", format("%zu positions, %zu faces (%s), %zu corners, %zu triangles", c.positions, c.faces, face_sizes(c).c_str(), c.corners, c.triangles));
+    text += row("mesh", format("%zu positions, %zu faces (%s), %zu corners, %zu triangles", c.positions, c.faces,
+                               face_sizes(c).c_str(), c.corners, c.triangles));
     if (c.materials > 0 || c.groups > 0)
         text += row("parts", plural(c.groups, "group", "groups") + ", " + plural(c.materials, "material", "materials"));
-    text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x, c.box.min.y, c.box.min.z, c.box.max.x,
-                                 c.box.max.y, c.box.max.z, c.diagonal, c.area));
-    text += row("topology", plural(t.components, "component", "components") + format(" (%zu closed), ", t.closed_components) +
-                                plural(t.boundary_edges, "boundary edge", "boundary edges") + " in " + plural(t.boundary_loops, "loop", "loops") +
-                                ", " + plural(t.nonmanifold_edges, "non-manifold edge", "non-manifold edges") + ", " +
+    text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x,
+                                 c.box.min.y, c.box.min.z, c.box.max.x, c.box.max.y, c.box.max.z, c.diagonal, c.area));
+    text += row("topology", plural(t.components, "component", "components") +
+                                format(" (%zu closed), ", t.closed_components) +
+                                plural(t.boundary_edges, "boundary edge", "boundary edges") + " in " +
+                                plural(t.boundary_loops, "loop", "loops") + ", " +
+                                plural(t.nonmanifold_edges, "non-manifold edge", "non-manifold edges") + ", " +
                                 plural(t.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"));
-    text += row("faces", format("%zu flipped, %zu duplicate, %zu zero-area (up to 1e-12 of diagonal^2, or collinear)", t.flipped_faces, c.duplicate_faces, c.zero_area_faces));
+    text += row("faces", format("%zu flipped, %zu duplicate, %zu zero-area (up to 1e-12 of diagonal^2, or collinear)",
+                                t.flipped_faces, c.duplicate_faces, c.zero_area_faces));
     text += uv_rows(report);
     if (report.audit.available)
         text += row("audit", format("%zu self intersections, %s, volume %.6g", report.audit.self_intersections,
-                                    !report.audit.closed ? "not closed" : report.audit.outward ? "closed and outward" : "closed, not outward", report.audit.volume));
+                                    !report.audit.closed   ? "not closed"
+                                    : report.audit.outward ? "closed and outward"
+                                                           : "closed, not outward",
+                                    report.audit.volume));
     return text + endings(report.findings);
 }
 
@@ -99,34 +116,44 @@ std::string to_text(const ImageReport& report) {
     std::string names;
     for (const ChannelCheck& channel : c.channels) names += (names.empty() ? "" : " ") + channel.name;
     std::string text = report.file + "\n";
-    text += row("image", format("%d x %d, %s, %d-bit %s, channels ", c.info.width, c.info.height, c.info.format.c_str(), c.info.bits, name(c.info.type)) + names);
+    text += row("image", format("%d x %d, %s, %d-bit %s, channels ", c.info.width, c.info.height, c.info.format.c_str(),
+                                c.info.bits, name(c.info.type)) +
+                             names);
     for (const ChannelCheck& channel : c.channels) text += row("channel " + channel.name, range(channel));
-    text += row("true depth", c.true_bits > 0 ? plural(std::size_t(c.true_bits), "bit", "bits") : std::string("as stored, ") + name(c.info.type));
+    text += row("true depth", c.true_bits > 0 ? plural(std::size_t(c.true_bits), "bit", "bits")
+                                              : std::string("as stored, ") + name(c.info.type));
     const bool grey = c.looks == Looks::grey || (c.looks == Looks::constant && c.tint <= grey_tint);
     std::string greyness = grey ? "yes" : "no";
     if (c.tint > 0) greyness += format(", channels differ by up to %.4g of 255 levels", c.tint);
     if (grey && c.colour_channels > 1) greyness += "; their mean " + range(c.grey);
     text += row("grey", greyness);
     const auto tiles = [](double ratio) { return format("%s (x%.3g)", ratio <= tiles_up_to ? "yes" : "no", ratio); };
-    text += row("tiles", "x " + tiles(c.tiling.x) + ", y " + tiles(c.tiling.y) + ": border step over the mean step inside");
+    text +=
+        row("tiles", "x " + tiles(c.tiling.x) + ", y " + tiles(c.tiling.y) + ": border step over the mean step inside");
     text += row("looks like", name(c.looks));
     if (c.looks == Looks::grey && c.grey_step > 0) {
-        text += row("one step", format("%.4g of the height; slope %.4g per texel, at extent 1 and amplitude 1 %.4g = %.4g degrees", c.grey_step, report.step.per_texel,
-                                       report.step.slope, report.step.angle_deg));
-        text += row("", format("slope = amplitude * step * width / (2 * extent); one degree at amplitude %.4g", report.step.one_degree_amplitude));
+        text += row("one step",
+                    format("%.4g of the height; slope %.4g per texel, at extent 1 and amplitude 1 %.4g = %.4g degrees",
+                           c.grey_step, report.step.per_texel, report.step.slope, report.step.angle_deg));
+        text += row("", format("slope = amplitude * step * width / (2 * extent); one degree at amplitude %.4g",
+                               report.step.one_degree_amplitude));
     }
     if (c.looks == Looks::normal_map)
-        text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off, mean (%.3f %.3f %.3f)", c.normal_length, 100 * c.not_unit, c.mean_normal.x, c.mean_normal.y, c.mean_normal.z));
+        text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off, mean (%.3f %.3f %.3f)", c.normal_length,
+                                      100 * c.not_unit, c.mean_normal.x, c.mean_normal.y, c.mean_normal.z));
     return text + endings(report.findings);
 }
 
 std::string to_text(const PairReport& report) {
     const PairCheck& c = report.check;
     std::string text = report.height_file + " + " + report.normal_file + "\n";
-    text += row("pair", format("height %d x %d, normals %d x %d, compared at %d x %d", report.height_width, report.height_height, report.normal_width,
-                               report.normal_height, c.width, c.height));
-    text += row("correlation", format("x %+.4f, y %+.4f (slopes of the normals, read as OpenGL, against those of the height)", c.corr_x, c.corr_y));
-    text += row("scale", format("%.4g (x %.4g, y %.4g): slope in the normal map per unit of height per texel", c.scale, c.scale_x, c.scale_y));
+    text += row("pair", format("height %d x %d, normals %d x %d, compared at %d x %d", report.height_width,
+                               report.height_height, report.normal_width, report.normal_height, c.width, c.height));
+    text += row("correlation",
+                format("x %+.4f, y %+.4f (slopes of the normals, read as OpenGL, against those of the height)",
+                       c.corr_x, c.corr_y));
+    text += row("scale", format("%.4g (x %.4g, y %.4g): slope in the normal map per unit of height per texel", c.scale,
+                                c.scale_x, c.scale_y));
     text += row("height", c.inverted ? "inverted" : "white is high");
     text += row("green", c.directx ? "DirectX, y down" : "OpenGL, y up");
     text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off", c.normal_length, 100 * c.not_unit));

@@ -41,7 +41,8 @@ Image<float> shrink(const Image<float>& image, int channels, int width, int heig
                 std::fill(sum.begin(), sum.end(), 0.0);
                 for (const Tap& ty : taps_y[y])
                     for (const Tap& tx : taps_x[x])
-                        for (int c = 0; c < channels; ++c) sum[c] += double(ty.weight) * tx.weight * image.at(tx.index, ty.index, c);
+                        for (int c = 0; c < channels; ++c)
+                            sum[c] += double(ty.weight) * tx.weight * image.at(tx.index, ty.index, c);
                 for (int c = 0; c < channels; ++c) out.at(x, y, c) = float(sum[c]);
             }
     });
@@ -144,12 +145,14 @@ PairCheck check_pair(const Image<float>& height, const Image<float>& normals) {
     normal_slopes(normals, check);
     const bool shrunk = normals.width() != check.width || normals.height() != check.height;
     PairCheck ignored;
-    const Image<float> author_slopes =
-        shrunk ? normal_slopes(shrink(normals, 3, check.width, check.height), ignored) : normal_slopes(normals, ignored);
+    const Image<float> author_slopes = shrunk ? normal_slopes(shrink(normals, 3, check.width, check.height), ignored)
+                                              : normal_slopes(normals, ignored);
 
     const Image<float> ours = smooth(height_slopes(our_height)), authors = smooth(author_slopes);
     const Moments x = moments(ours, authors, 0), y = moments(ours, authors, 1);
-    const auto corr = [](const Moments& m) { return m.ours > 0 && m.authors > 0 ? m.both / std::sqrt(m.ours * m.authors) : 0; };
+    const auto corr = [](const Moments& m) {
+        return m.ours > 0 && m.authors > 0 ? m.both / std::sqrt(m.ours * m.authors) : 0;
+    };
     const auto scale = [](const Moments& m) { return m.ours > 0 ? m.both / m.ours : 0; };
     check.corr_x = corr(x);
     check.corr_y = corr(y);

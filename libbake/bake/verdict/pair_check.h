@@ -24,8 +24,8 @@ inline constexpr double pair_agrees = 0.8;
 /// Below this the conventions are guessed from noise.
 inline constexpr double pair_tells = 0.3;
 
-/// `height` has one channel; `normals` three or more, the first three being n = 2 rgb - 1. The larger one is box-filtered
-/// to the size of the smaller first. Values must be finite.
+/// `height` has one channel; `normals` three or more, the first three being n = 2 rgb - 1. The larger one is
+/// box-filtered to the size of the smaller first. Values must be finite.
 PairCheck check_pair(const Image<float>& height, const Image<float>& normals);
 
 } // namespace bake
