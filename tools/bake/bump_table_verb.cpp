@@ -144,7 +144,10 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("bake and write");
 
     const Vec2d extent = resolve_extent(args.options.extent_u, args.options.extent_v, width, rows);
-    const ErrorBudget budget = table_budget(height, args.options, depth, bias.range);
+    const BudgetInput input = table_budget(height, args.options, depth, bias.range);
+    const ErrorBudget budget = error_budget(input);
+    const std::optional<FilterAdvice> advice = better_filter(input, budget);
+    if (advice) note(common, to_text(*advice));
     watch.lap("budget");
     const double tilt = step_tilt_deg(height.step, args.options.amplitude, extent.x, width);
     if (common.json) {
@@ -152,6 +155,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
                                  {"filter", name(table.filter())}, {"units", name(args.options.units)},
                                  {"levels", height.levels}, {"step", height.step}, {"step_tilt_deg", tilt},
                                  {"error_budget", to_json(budget)}, {"seconds", watch.to_json()}};
+        if (advice) result["better_filter"] = to_json(*advice);
         if (bias.range > 0) result["bias"] = {{"range", bias.range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
         std::printf("%s\n", result.dump(2).c_str());
         return 0;

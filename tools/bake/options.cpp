@@ -116,6 +116,12 @@ nlohmann::json to_json(const ErrorBudget& budget) {
             {"total_deg", budget.total_deg}, {"samples", budget.samples}};
 }
 
+std::string to_text(const FilterAdvice& advice) {
+    return text("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(), advice.total_deg);
+}
+
+nlohmann::json to_json(const FilterAdvice& advice) { return {{"filter", name(advice.filter)}, {"total_deg", advice.total_deg}}; }
+
 namespace {
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -63,6 +63,8 @@ double step_tilt_deg(double step, double amplitude, double extent, int texels) n
 
 std::string to_text(const ErrorBudget& budget);
 nlohmann::json to_json(const ErrorBudget& budget);
+std::string to_text(const FilterAdvice& advice);
+nlohmann::json to_json(const FilterAdvice& advice);
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
 
