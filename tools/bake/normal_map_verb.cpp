@@ -54,7 +54,7 @@ void print(const NormalMapArgs& args, const HeightTexture& height, const Result&
 
 void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& r) {
     const auto say = [&](std::int64_t count, const char* what) {
-        if (count > 0) note(common, text("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
+        if (count > 0) note(common, format("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
     };
     say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
     say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
