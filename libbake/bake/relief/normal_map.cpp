@@ -22,7 +22,10 @@ Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n
     // The inverse of the frame by cofactors; its determinant has the sign of `sign`.
     const Vec3f t(glm::dot(normal, glm::cross(bitangent, n)), glm::dot(normal, glm::cross(n, tangent)),
                   glm::dot(normal, glm::cross(tangent, bitangent)));
-    return unit_or_zero(sign * t);
+    const Vec3f unit = unit_or_zero(sign * t);
+    // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
+    constexpr float rounding = 1e-6f;
+    return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
 }
 
 namespace {
@@ -201,6 +204,13 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
     }, progress);
     const UvRaster& raster = target.raster;
     report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
+    report.flat_triangles = raster.degenerate;
+    for (const Triangle& t : target.surface.triangles)
+        for (const std::uint32_t corner : t.corner)
+            if (target.surface.mesh->corner_uv[corner] == no_index) {
+                ++report.triangles_without_uv;
+                break;
+            }
     report.degenerate = degenerate;
     report.folded = folded;
     report.padded = pad_texels(map, owned, options.padding);
