@@ -117,6 +117,54 @@ std::string exr_fault(std::istream& file, const std::string& head, std::int64_t 
     return "";
 }
 
+/// Numbers of a TIFF file at any place, in its byte order; 0 beyond its end.
+struct TiffBytes {
+    std::istream& file;
+    bool big_endian;
+
+    std::uint64_t number(std::uint64_t at, int bytes) {
+        unsigned char raw[8] = {};
+        file.clear();
+        file.seekg(std::streamoff(at));
+        if (!file.read(reinterpret_cast<char*>(raw), bytes)) return 0;
+        std::uint64_t value = 0;
+        for (int i = 0; i < bytes; ++i) value |= std::uint64_t(raw[i]) << 8 * (big_endian ? bytes - 1 - i : i);
+        return value;
+    }
+};
+
+/// A field of a TIFF directory: where its values lie, how many they are and how long each is.
+struct TiffField {
+    std::uint64_t at = 0, count = 0;
+    int bytes = 0;
+};
+
+// Adobe, "TIFF Revision 6.0", and BigTIFF. libtiff fills strips beyond the end with what was there before.
+std::string tiff_fault(std::istream& file, const std::string& head, std::int64_t stored_bytes) {
+    const auto stored = std::uint64_t(stored_bytes);
+    TiffBytes tiff{file, head[0] == 'M'};
+    const bool big = tiff.number(2, 2) == 43; // BigTIFF
+    const int wide = big ? 8 : 4;
+    const std::uint64_t directory = tiff.number(big ? 8 : 4, wide), count_bytes = big ? 8 : 2;
+    const std::uint64_t fields = tiff.number(directory, int(count_bytes)), field_bytes = big ? 20 : 12;
+    if (directory < 8 || directory > stored || fields == 0 || fields > (stored - directory) / field_bytes) return "is cut short";
+    TiffField offsets, sizes;
+    for (std::uint64_t i = 0; i < fields; ++i) {
+        const std::uint64_t at = directory + count_bytes + i * field_bytes, tag = tiff.number(at, 2), type = tiff.number(at + 2, 2);
+        if (tag != 273 && tag != 279 && tag != 324 && tag != 325) continue; // strips' or tiles' offsets and sizes
+        TiffField field{at + 4 + wide, tiff.number(at + 4, wide), type == 3 ? 2 : type == 4 ? 4 : 8};
+        if (field.count > stored / field.bytes) return "is cut short";
+        if (field.count * field.bytes > std::uint64_t(wide)) field.at = tiff.number(field.at, wide);
+        (tag == 273 || tag == 324 ? offsets : sizes) = field;
+    }
+    for (std::uint64_t i = 0; i < offsets.count; ++i) {
+        const std::uint64_t offset = tiff.number(offsets.at + i * offsets.bytes, offsets.bytes);
+        const std::uint64_t size = i < sizes.count ? tiff.number(sizes.at + i * sizes.bytes, sizes.bytes) : 0;
+        if (offset > stored || size > stored - offset) return "is cut short";
+    }
+    return "";
+}
+
 // OpenImageIO's decoders of these write past their buffers, or abort, on files with a few bytes changed, or cannot tell
 // that a file was cut.
 constexpr std::pair<std::string_view, const char*> unsafe_formats[] = {
@@ -133,6 +181,9 @@ std::string image_fault(const std::string& path, std::int64_t stored) {
     file.clear();
     if (head.starts_with("DDS ")) return dds_fault(head, stored);
     if (head.starts_with("\x76\x2f\x31\x01")) return exr_fault(file, head, stored);
+    if (head.starts_with(std::string_view("II*\0", 4)) || head.starts_with(std::string_view("MM\0*", 4)) ||
+        head.starts_with(std::string_view("II+\0", 4)) || head.starts_with(std::string_view("MM\0+", 4)))
+        return tiff_fault(file, head, stored);
     for (const auto& [magic, format] : unsafe_formats)
         if (head.starts_with(magic)) return std::string(format) + " is not read: damaged files of that format crash its decoder";
     return "";

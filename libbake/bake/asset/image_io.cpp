@@ -1,5 +1,6 @@
 #include "bake/asset/image_io.h"
 #include "bake/asset/image_guard.h"
+#include "bake/asset/png_header.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
@@ -77,7 +78,7 @@ Window picture_window(const OIIO::ImageSpec& spec) {
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
 
-ImageInfo describe(OIIO::ImageInput& in) {
+ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     const OIIO::ImageSpec& spec = in.spec();
     const Window window = picture_window(spec);
     ImageInfo info;
@@ -90,6 +91,9 @@ ImageInfo describe(OIIO::ImageInput& in) {
     info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
+    // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
+    if (info.format == "png")
+        if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
     return info;
 }
 
@@ -150,7 +154,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
-    info = describe(*in);
+    info = describe(*in, path);
     const OIIO::ImageSpec& spec = in->spec();
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
@@ -314,13 +318,21 @@ template <class Level> void quantise(const float* values, Level* levels, std::in
 } // namespace
 
 struct ImageWriter::Impl {
+    Impl(const std::string& target, Depth stored, const OIIO::ImageSpec& header) : path(target), file(target), depth(stored), spec(header) {}
+
     std::string path;
     OutputFile file;
     Depth depth;
     OIIO::ImageSpec spec;
-    std::unique_ptr<OIIO::ImageOutput> out = nullptr;
+    std::unique_ptr<OIIO::ImageOutput> out;
     int next_row = 0;
     std::vector<unsigned char> levels = {}; ///< one band of integer samples
+
+    // libpng complains on stderr about a file that is given up; its reason is told elsewhere.
+    ~Impl() {
+        const MutedStderr muted(out && out->format_name() == std::string("png"));
+        out.reset();
+    }
 
     [[noreturn]] void fail(const std::string& why) {
         throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, file.temporary()) + "); is the disk full?");
@@ -348,7 +360,7 @@ struct ImageWriter::Impl {
 ImageWriter::ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options) {
     configure_oiio();
     const Depth depth = resolve_depth(path, options.depth);
-    impl_.reset(new Impl{path, OutputFile(path), depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))});
+    impl_.reset(new Impl(path, depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))));
     impl_->out = OIIO::ImageOutput::create(path);
     if (!impl_->out) impl_->fail(OIIO::geterror());
 
@@ -362,6 +374,8 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
+    if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.mips) {
         if (!impl_->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
