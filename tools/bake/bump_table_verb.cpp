@@ -176,7 +176,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
 
 std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<BumpTableArgs>();
-    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required();
+    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
     sub.add_option("-o,--out", args->out, "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")->required()->check(not_empty());
     add_height_options(sub, args->height);
     sub.add_option_function<std::string>("--units", [args](const std::string& given) {

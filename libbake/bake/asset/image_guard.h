@@ -11,4 +11,8 @@ namespace bake {
 /// by their decoders. `stored` is the file's size in bytes.
 std::string image_fault(const std::string& path, std::int64_t stored);
 
+/// Whether a PNG, EXR or TIFF just written by us reaches its end: a full disk goes unnoticed by some encoders, above all
+/// in their last bytes. Pixels are not looked at.
+bool reaches_its_end(const std::string& path);
+
 } // namespace bake

@@ -377,7 +377,7 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
     if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.mips) {
-        if (!impl_->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        if (!impl_->out->supports("mipmap") && !impl_->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
         spec.attribute("textureformat", "Plain Texture");
     }
@@ -405,11 +405,15 @@ void ImageWriter::next_level() {
     spec.width = spec.full_width = std::max(1, spec.width / 2);
     spec.height = spec.full_height = std::max(1, spec.height / 2);
     impl_->next_row = 0;
-    if (!impl_->out->open(impl_->file.temporary(), spec, OIIO::ImageOutput::AppendMIPLevel)) impl_->fail(impl_->out->geterror());
+    // In TIFF the levels are images of their own, which OIIO reads back as levels.
+    const auto mode = impl_->out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
+    if (!impl_->out->open(impl_->file.temporary(), spec, mode)) impl_->fail(impl_->out->geterror());
 }
 
 void ImageWriter::finish() {
     if (!impl_->out->close()) impl_->fail(impl_->out->geterror());
+    impl_->out.reset(); // close() leaves EXR files with mips open
+    if (!reaches_its_end(impl_->file.temporary())) impl_->fail("is cut short");
     impl_->file.commit();
 }
 

@@ -1,4 +1,4 @@
-// What a PNG says of its samples before its pixels begin, which OpenImageIO does not pass on.
+// What a PNG file says of itself that OpenImageIO does not pass on.
 #pragma once
 #include <optional>
 #include <string>
