@@ -1,7 +1,6 @@
 #include "options.h"
 #include "bake/relief/dequantise.h"
 #include <chrono>
-#include <cstdarg>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -80,7 +79,7 @@ Amplitude parse_amplitude(const std::string& text) {
 
 void check_steepness(const std::string& amplitude, double value, double length) {
     if (std::abs(value) > 1e9 * length)
-        throw usage("--amplitude " + amplitude + text(": is more than 1e9 times the %g it is spread over; write less", length));
+        throw usage("--amplitude " + amplitude + format(": is more than 1e9 times the %g it is spread over; write less", length));
 }
 
 void check_not_input(const std::string& out, const std::string& input) {
@@ -108,18 +107,9 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {int(*width), int(*height)};
 }
 
-std::string text(const char* format, ...) {
-    char buffer[1024];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(buffer, sizeof buffer, format, values);
-    va_end(values);
-    return buffer;
-}
-
 std::string describe_levels(const HeightTexture& height) {
     const std::string stored = std::string(name(height.info.type)) + " height";
-    return stored + (height.levels <= 256 ? text(", %d levels", height.levels) : ", more than 256 levels");
+    return stored + (height.levels <= 256 ? format(", %d levels", height.levels) : ", more than 256 levels");
 }
 
 double step_tilt_deg(double step, double amplitude, double extent, int texels) noexcept {
@@ -127,7 +117,7 @@ double step_tilt_deg(double step, double amplitude, double extent, int texels) n
 }
 
 std::string to_text(const ErrorBudget& budget) {
-    return text("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
+    return format("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
                 budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
 }
 
@@ -136,6 +126,12 @@ nlohmann::json to_json(const ErrorBudget& budget) {
             {"encoding_deg", budget.encoding_deg}, {"method_deg", budget.method_deg},
             {"total_deg", budget.total_deg}, {"samples", budget.samples}};
 }
+
+std::string to_text(const FilterAdvice& advice) {
+    return format("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(), advice.total_deg);
+}
+
+nlohmann::json to_json(const FilterAdvice& advice) { return {{"filter", name(advice.filter)}, {"total_deg", advice.total_deg}}; }
 
 namespace {
 double now() {
@@ -153,7 +149,7 @@ void Stopwatch::lap(const std::string& step) {
 
 std::string Stopwatch::to_text() const {
     std::string line;
-    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + text("%s %.3f s", step.c_str(), seconds);
+    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + format("%s %.3f s", step.c_str(), seconds);
     return line;
 }
 

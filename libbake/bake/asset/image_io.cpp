@@ -340,10 +340,26 @@ struct ImageWriter::Impl {
 
     void write_rows(int rows, OIIO::TypeDesc type, const void* values) {
         const int end = next_row + rows;
-        const bool written = spec.tile_width ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
-                                             : out->write_scanlines(next_row, end, 0, type, values);
+        const bool written = !spec.tile_width ? out->write_scanlines(next_row, end, 0, type, values)
+                             : out->supports("mipmap") ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
+                                                       : write_whole_tiles(rows, type, static_cast<const char*>(values));
         if (!written) fail(out->geterror());
         next_row = end;
+    }
+
+    // TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
+    bool write_whole_tiles(int rows, OIIO::TypeDesc type, const char* values) {
+        const std::size_t texel = type.size() * spec.nchannels, row_size = texel * spec.width, tile_row = texel * spec.tile_width;
+        std::vector<char> tile(tile_row * spec.tile_height);
+        for (int y = 0; y < rows; y += spec.tile_height)
+            for (int x = 0; x < spec.width; x += spec.tile_width) {
+                std::fill(tile.begin(), tile.end(), '\0');
+                const std::size_t covered = texel * std::min(spec.tile_width, spec.width - x);
+                for (int j = 0; j < std::min(spec.tile_height, rows - y); ++j)
+                    std::memcpy(tile.data() + j * tile_row, values + (y + j) * row_size + x * texel, covered);
+                if (!out->write_tile(x, next_row + y, 0, type, tile.data())) return false;
+            }
+        return true;
     }
 
     template <class Level> void write_levels(const float* values, int rows, OIIO::TypeDesc type) {

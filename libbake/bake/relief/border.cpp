@@ -1,5 +1,6 @@
 #include "bake/relief/border.h"
 #include <algorithm>
+#include <tuple>
 
 namespace bake {
 
@@ -15,34 +16,41 @@ int wrap_index(int i, int n, Wrap wrap) noexcept {
     return std::clamp(i, 0, n - 1);
 }
 
-std::vector<double> extrapolation_weights(int k, int degree) {
-    std::vector<double> weights(degree + 1, 1.0);
-    for (int j = 0; j <= degree; ++j)
+namespace {
+
+void lagrange_weights(int k, int degree, double* weights) noexcept {
+    for (int j = 0; j <= degree; ++j) {
+        weights[j] = 1;
         for (int i = 0; i <= degree; ++i)
             if (i != j) weights[j] *= double(-k - i) / double(j - i);
+    }
+}
+
+} // namespace
+
+std::vector<double> extrapolation_weights(int k, int degree) {
+    std::vector<double> weights(degree + 1);
+    lagrange_weights(k, degree, weights.data());
     return weights;
 }
 
-template <class T> void extend_row(const T* row, int n, Wrap wrap, int reach, int degree, T* out) {
-    std::copy_n(row, n, out + reach);
-    degree = std::min(degree, n - 1);
-    for (int k = 1; k <= reach; ++k) {
-        T& left = out[reach - k];
-        T& right = out[reach + n - 1 + k];
-        if (wrap != Wrap::clamp) {
-            left = row[wrap_index(-k, n, wrap)];
-            right = row[wrap_index(n - 1 + k, n, wrap)];
-            continue;
-        }
-        double left_sum = 0, right_sum = 0;
-        const std::vector<double> weights = extrapolation_weights(k, degree);
-        for (int j = 0; j <= degree; ++j) {
-            left_sum += weights[j] * row[j];
-            right_sum += weights[j] * row[n - 1 - j];
-        }
-        left = T(left_sum);
-        right = T(right_sum);
+template <class T> std::pair<T, T> beyond_ends(const T* row, int n, Wrap wrap, int k, int degree) noexcept {
+    if (wrap != Wrap::clamp) return {row[wrap_index(-k, n, wrap)], row[wrap_index(n - 1 + k, n, wrap)]};
+    degree = std::min({degree, n - 1, largest_degree});
+    double weights[largest_degree + 1];
+    lagrange_weights(k, degree, weights);
+    double left = 0, right = 0;
+    for (int j = 0; j <= degree; ++j) {
+        left += weights[j] * row[j];
+        right += weights[j] * row[n - 1 - j];
     }
+    return {T(left), T(right)};
+}
+
+template <class T> void extend_row(const T* row, int n, Wrap wrap, int reach, int degree, T* out) noexcept {
+    T* const inside = out + reach;
+    if (row != inside) std::copy_n(row, n, inside);
+    for (int k = 1; k <= reach; ++k) std::tie(inside[-k], inside[n - 1 + k]) = beyond_ends(row, n, wrap, k, degree);
 }
 
 template <class T>
@@ -76,8 +84,10 @@ ExtendedRows<T>::ExtendedRows(const Image<T>& image, Wrap wrap, int reach, int d
     }
 }
 
-template void extend_row(const float*, int, Wrap, int, int, float*);
-template void extend_row(const double*, int, Wrap, int, int, double*);
+template std::pair<float, float> beyond_ends(const float*, int, Wrap, int, int) noexcept;
+template std::pair<double, double> beyond_ends(const double*, int, Wrap, int, int) noexcept;
+template void extend_row(const float*, int, Wrap, int, int, float*) noexcept;
+template void extend_row(const double*, int, Wrap, int, int, double*) noexcept;
 template class ExtendedRows<float>;
 template class ExtendedRows<double>;
 

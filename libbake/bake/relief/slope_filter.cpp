@@ -31,6 +31,8 @@ std::vector<double> spline_taps(int count) {
 }
 
 constexpr int spline_reach = 28;
+constexpr int largest_reach = 32;
+constexpr int block = 512; ///< texels whose sums stay in the nearest cache
 
 } // namespace
 
@@ -83,81 +85,145 @@ double noise_of_difference(const Stencil& a, const Stencil& b) {
     return std::sqrt(sum);
 }
 
+namespace {
+
+/// Taps down to what T can tell from rounding.
+template <class T> Stencil as_precise_as(Stencil stencil) {
+    while (std::abs(stencil.taps.back()) < std::numeric_limits<T>::epsilon() / 8) stencil.taps.pop_back();
+    return stencil;
+}
+
+} // namespace
+
 template <class T>
 SlopeFilter<T>::SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v)
-    : image_(image), stencil_(stencil), wrap_u_(wrap_u), reach_(stencil.reach()),
-      taps_(stencil.taps.begin(), stencil.taps.end()), rows_(image, wrap_v, reach_, stencil.border_degree) {
-    while (std::abs(taps_.back()) < std::numeric_limits<T>::epsilon() / 8) taps_.pop_back();
-}
+    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u), reach_(stencil_.reach()),
+      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree) {}
 
 namespace {
 
-// out[x] (+)= tap * (ahead[x] - behind[x]), three loops that the compiler turns into vector code.
-template <class T> void accumulate(const T* ahead, const T* behind, T tap, bool first, T* out, int n) noexcept {
-    if (first)
-        for (int x = 0; x < n; ++x) out[x] = tap * (ahead[x] - behind[x]);
-    else
-        for (int x = 0; x < n; ++x) out[x] += tap * (ahead[x] - behind[x]);
+// The loops below are what the compiler turns into vector code: straight rows that do not overlap.
+
+/// One tap, no smoothing. Reads samples -1 to n of each row.
+template <class T>
+void central(const T* above, const T* here, const T* below, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
+    for (int x = 0; x < n; ++x) {
+        out[2 * x] = scale_u * (here[x + 1] - here[x - 1]);
+        out[2 * x + 1] = scale_v * (above[x] - below[x]);
+    }
 }
 
-template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v, T* out, int n) noexcept {
+/// One tap, smoothed across by (side, 1 - 2 side, side). Both slopes share the differences along the two diagonals.
+/// Reads samples -1 to n of each row.
+template <class T>
+void smoothed_central(const T* above, const T* here, const T* below, T side, T scale_u, T scale_v, T* __restrict out,
+                      int n) noexcept {
+    const T centre_u = scale_u * (1 - 2 * side), side_u = scale_u * side;
+    const T centre_v = scale_v * (1 - 2 * side), side_v = scale_v * side;
+    for (int x = 0; x < n; ++x) {
+        const T rising = above[x + 1] - below[x - 1], falling = above[x - 1] - below[x + 1];
+        out[2 * x] = centre_u * (here[x + 1] - here[x - 1]) + side_u * (rising - falling);
+        out[2 * x + 1] = centre_v * (above[x] - below[x]) + side_v * (rising + falling);
+    }
+}
+
+constexpr int aligned = 4; ///< texels after which a row's stores are aligned again
+
+/// A row and the samples beyond its ends.
+template <class T> struct RowWithEnds {
+    const T* row;
+    std::pair<T, T> ends;
+};
+
+/// kernel(above, here, below, first, count) over the n texels of a row: in place from the first aligned texel on, and
+/// on copies that reach beyond the ends before and after.
+template <class T, class Kernel> void over_row(const RowWithEnds<T> (&rows)[3], int n, const Kernel& kernel) noexcept {
+    const auto on_copy = [&](int first, int count) {
+        T copy[3][aligned + 2];
+        for (int r = 0; r < 3; ++r)
+            for (int i = 0; i < count + 2; ++i) {
+                const int x = first - 1 + i;
+                copy[r][i] = x < 0 ? rows[r].ends.first : x < n ? rows[r].row[x] : rows[r].ends.second;
+            }
+        kernel(copy[0] + 1, copy[1] + 1, copy[2] + 1, first, count);
+    };
+    on_copy(0, std::min(aligned, n));
+    if (n <= aligned) return;
+    kernel(rows[0].row + aligned, rows[1].row + aligned, rows[2].row + aligned, aligned, n - 1 - aligned);
+    on_copy(n - 1, 1);
+}
+
+/// sum[x] (+)= the sum over N taps of tap[k] (ahead[k][x] - behind[k][x]).
+template <int N, class T>
+void add_taps(const T* const* ahead, const T* const* behind, const T* tap, bool first, T* __restrict sum, int n) noexcept {
+    const auto taps_at = [&](int x) {
+        T s = tap[0] * (ahead[0][x] - behind[0][x]);
+        if constexpr (N > 1) s += tap[1] * (ahead[1][x] - behind[1][x]);
+        if constexpr (N > 2) s += tap[2] * (ahead[2][x] - behind[2][x]);
+        if constexpr (N > 3) s += tap[3] * (ahead[3][x] - behind[3][x]);
+        return s;
+    };
+    if (first)
+        for (int x = 0; x < n; ++x) sum[x] = taps_at(x);
+    else
+        for (int x = 0; x < n; ++x) sum[x] += taps_at(x);
+}
+
+/// Any number of taps, four to a loop.
+template <class T>
+void differentiate(const T* const* ahead, const T* const* behind, const T* taps, int count, T* sum, int n) noexcept {
+    for (int k = 0; k < count; k += 4) {
+        const auto add = [&](auto add_some) { add_some(ahead + k, behind + k, taps + k, k == 0, sum, n); };
+        switch (count - k) {
+        case 1: add(add_taps<1, T>); break;
+        case 2: add(add_taps<2, T>); break;
+        case 3: add(add_taps<3, T>); break;
+        default: add(add_taps<4, T>);
+        }
+    }
+}
+
+template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v, T* __restrict out, int n) noexcept {
     for (int x = 0; x < n; ++x) {
         out[2 * x] = scale_u * u[x];
         out[2 * x + 1] = scale_v * v[x];
     }
 }
 
-// central along u and v at once: one tap, no smoothing.
-template <class T>
-void central(const T* extended, const T* above, const T* below, T scale_u, T scale_v, T* out, int n) noexcept {
-    for (int x = 0; x < n; ++x) {
-        out[2 * x] = scale_u * (extended[x + 2] - extended[x]);
-        out[2 * x + 1] = scale_v * (above[x] - below[x]);
-    }
-}
-
-// One tap smoothed across by (side, 1 - 2 side, side), from three extended rows.
-template <class T>
-void smoothed_central(const T* above, const T* here, const T* below, T side, T scale_u, T scale_v, T* out, int n) noexcept {
-    const T centre = 1 - 2 * side;
-    for (int x = 0; x < n; ++x) {
-        out[2 * x] = scale_u * (centre * (here[x + 2] - here[x]) +
-                                side * ((above[x + 2] - above[x]) + (below[x + 2] - below[x])));
-        out[2 * x + 1] = scale_v * (centre * (above[x + 1] - below[x + 1]) +
-                                    side * ((above[x] - below[x]) + (above[x + 2] - below[x + 2])));
-    }
-}
-
 } // namespace
 
 template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
-    const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size());
-    const auto extend = [&](const T* row, T* to) { extend_row(row, n, wrap_u_, reach_, stencil_.border_degree, to); };
-    if (taps == 1 && stencil_.side == 0) {
-        scratch.a.resize(padded);
-        extend(rows_(y), scratch.a.data());
-        central(scratch.a.data(), rows_(y - 1), rows_(y + 1), taps_[0] * scale_u, taps_[0] * scale_v, out, n);
-        return;
-    }
+    const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size()), degree = stencil_.border_degree;
     if (taps == 1) {
-        scratch.a.resize(3 * padded);
-        T* const above = scratch.a.data();
-        for (int k = 0; k < 3; ++k) extend(rows_(y - 1 + k), above + k * padded);
-        smoothed_central(above, above + padded, above + 2 * padded, T(stencil_.side), taps_[0] * scale_u,
-                         taps_[0] * scale_v, out, n);
+        const auto with_ends = [&](const T* row) { return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, degree)}; };
+        const RowWithEnds<T> rows[3] = {with_ends(rows_(y - 1)), with_ends(rows_(y)), with_ends(rows_(y + 1))};
+        const T side = T(stencil_.side), tap_u = taps_[0] * scale_u, tap_v = taps_[0] * scale_v;
+        over_row(rows, n, [=](const T* above, const T* here, const T* below, int first, int count) {
+            T* const to = out + 2 * std::size_t(first);
+            if (side == 0)
+                central(above, here, below, tap_u, tap_v, to, count);
+            else
+                smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
+        });
         return;
     }
     scratch.a.resize(padded);
-    scratch.b.resize(2 * n);
+    scratch.b.resize(2 * block);
     T* const row = scratch.a.data();
     T* const slope_u = scratch.b.data();
-    T* const slope_v = slope_u + n;
-    extend(rows_(y), row);
-    for (int k = 1; k <= taps; ++k) {
-        accumulate(row + reach_ + k, row + reach_ - k, taps_[k - 1], k == 1, slope_u, n);
-        accumulate(rows_(y - k), rows_(y + k), taps_[k - 1], k == 1, slope_v, n);
+    T* const slope_v = slope_u + block;
+    extend_row(rows_(y), n, wrap_u_, reach_, degree, row);
+    const T *right[largest_reach], *left[largest_reach], *above[largest_reach], *below[largest_reach];
+    for (int x = 0; x < n; x += block) {
+        const int count = std::min(block, n - x);
+        for (int k = 1; k <= taps; ++k) {
+            right[k - 1] = row + reach_ + k + x, left[k - 1] = row + reach_ - k + x;
+            above[k - 1] = rows_(y - k) + x, below[k - 1] = rows_(y + k) + x;
+        }
+        differentiate(right, left, taps_.data(), taps, slope_u, count);
+        differentiate(above, below, taps_.data(), taps, slope_v, count);
+        interleave(slope_u, slope_v, scale_u, scale_v, out + 2 * std::size_t(x), count);
     }
-    interleave(slope_u, slope_v, scale_u, scale_v, out, n);
 }
 
 template class SlopeFilter<float>;
