@@ -82,6 +82,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
 int run(NormalMapArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_depth(args.out, args.depth);
     check_usage(args);
+    check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
     const HeightTexture height = load_height(args.height);
@@ -89,10 +90,13 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     if (!args.mesh.empty()) mesh = read_mesh(args.mesh);
     watch.lap("read");
     const NormalMapOptions options = resolve_options(args, height, mesh);
+    // Opened before the work, so that a long bake does not fail at its end.
+    ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
     Result result;
     if (args.mesh.empty()) {
         const Vec2d given = args.extent.empty() ? Vec2d(0) : parse_pair("--extent", args.extent);
         const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
+        check_steepness(args.amplitude, options.height_options.amplitude, std::min(extent.x, extent.y));
         result = bake_plane(height, options, extent, depth, progress);
     } else {
         const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height);
@@ -102,7 +106,8 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     result.filter = resolve_filter(options.filter, height);
     progress.finish();
     watch.lap("bake");
-    write_image(args.out, result.map, {.depth = depth, .channels = {"R", "G", "B"}});
+    writer.write(result.map.data(), result.map.height());
+    writer.finish();
     watch.lap("write");
     if (common.json) {
         nlohmann::json object = to_json(args, height, result, options);
@@ -122,7 +127,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
 std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
     sub.add_option("mesh", args->mesh, "UV-mapped mesh (.obj, .ply); without it the map is that of a flat rectangle");
-    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required();
+    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required()->check(not_empty());
     add_normal_map_options(sub, *args);
     add_choice<Depth>(sub, "--depth", args->depth,
                       {{"auto", Depth::automatic}, {"8", Depth::u8}, {"16", Depth::u16}, {"half", Depth::half}, {"float", Depth::float32}},

@@ -1,5 +1,6 @@
 #include "bake/asset/image_io.h"
 #include "bake/asset/image_guard.h"
+#include "bake/asset/png_header.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
@@ -77,7 +78,7 @@ Window picture_window(const OIIO::ImageSpec& spec) {
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
 
-ImageInfo describe(OIIO::ImageInput& in) {
+ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     const OIIO::ImageSpec& spec = in.spec();
     const Window window = picture_window(spec);
     ImageInfo info;
@@ -90,6 +91,9 @@ ImageInfo describe(OIIO::ImageInput& in) {
     info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
+    // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
+    if (info.format == "png")
+        if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
     return info;
 }
 
@@ -150,7 +154,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
-    info = describe(*in);
+    info = describe(*in, path);
     const OIIO::ImageSpec& spec = in->spec();
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
@@ -314,13 +318,21 @@ template <class Level> void quantise(const float* values, Level* levels, std::in
 } // namespace
 
 struct ImageWriter::Impl {
+    Impl(const std::string& target, Depth stored, const OIIO::ImageSpec& header) : path(target), file(target), depth(stored), spec(header) {}
+
     std::string path;
     OutputFile file;
     Depth depth;
     OIIO::ImageSpec spec;
-    std::unique_ptr<OIIO::ImageOutput> out = nullptr;
+    std::unique_ptr<OIIO::ImageOutput> out;
     int next_row = 0;
     std::vector<unsigned char> levels = {}; ///< one band of integer samples
+
+    // libpng complains on stderr about a file that is given up; its reason is told elsewhere.
+    ~Impl() {
+        const MutedStderr muted(out && out->format_name() == std::string("png"));
+        out.reset();
+    }
 
     [[noreturn]] void fail(const std::string& why) {
         throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, file.temporary()) + "); is the disk full?");
@@ -328,10 +340,26 @@ struct ImageWriter::Impl {
 
     void write_rows(int rows, OIIO::TypeDesc type, const void* values) {
         const int end = next_row + rows;
-        const bool written = spec.tile_width ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
-                                             : out->write_scanlines(next_row, end, 0, type, values);
+        const bool written = !spec.tile_width ? out->write_scanlines(next_row, end, 0, type, values)
+                             : out->supports("mipmap") ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
+                                                       : write_whole_tiles(rows, type, static_cast<const char*>(values));
         if (!written) fail(out->geterror());
         next_row = end;
+    }
+
+    // TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
+    bool write_whole_tiles(int rows, OIIO::TypeDesc type, const char* values) {
+        const std::size_t texel = type.size() * spec.nchannels, row_size = texel * spec.width, tile_row = texel * spec.tile_width;
+        std::vector<char> tile(tile_row * spec.tile_height);
+        for (int y = 0; y < rows; y += spec.tile_height)
+            for (int x = 0; x < spec.width; x += spec.tile_width) {
+                std::fill(tile.begin(), tile.end(), '\0');
+                const std::size_t covered = texel * std::min(spec.tile_width, spec.width - x);
+                for (int j = 0; j < std::min(spec.tile_height, rows - y); ++j)
+                    std::memcpy(tile.data() + j * tile_row, values + (y + j) * row_size + x * texel, covered);
+                if (!out->write_tile(x, next_row + y, 0, type, tile.data())) return false;
+            }
+        return true;
     }
 
     template <class Level> void write_levels(const float* values, int rows, OIIO::TypeDesc type) {
@@ -348,7 +376,7 @@ struct ImageWriter::Impl {
 ImageWriter::ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options) {
     configure_oiio();
     const Depth depth = resolve_depth(path, options.depth);
-    impl_.reset(new Impl{path, OutputFile(path), depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))});
+    impl_.reset(new Impl(path, depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))));
     impl_->out = OIIO::ImageOutput::create(path);
     if (!impl_->out) impl_->fail(OIIO::geterror());
 
@@ -362,8 +390,10 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
+    if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.mips) {
-        if (!impl_->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        if (!impl_->out->supports("mipmap") && !impl_->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
         spec.attribute("textureformat", "Plain Texture");
     }
@@ -391,11 +421,15 @@ void ImageWriter::next_level() {
     spec.width = spec.full_width = std::max(1, spec.width / 2);
     spec.height = spec.full_height = std::max(1, spec.height / 2);
     impl_->next_row = 0;
-    if (!impl_->out->open(impl_->file.temporary(), spec, OIIO::ImageOutput::AppendMIPLevel)) impl_->fail(impl_->out->geterror());
+    // In TIFF the levels are images of their own, which OIIO reads back as levels.
+    const auto mode = impl_->out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
+    if (!impl_->out->open(impl_->file.temporary(), spec, mode)) impl_->fail(impl_->out->geterror());
 }
 
 void ImageWriter::finish() {
     if (!impl_->out->close()) impl_->fail(impl_->out->geterror());
+    impl_->out.reset(); // close() leaves EXR files with mips open
+    if (!reaches_its_end(impl_->file.temporary())) impl_->fail("is cut short");
     impl_->file.commit();
 }
 

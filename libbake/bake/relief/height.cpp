@@ -80,11 +80,12 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
+    // Slopes of what is beyond 1e12 would leave the range of float.
     std::int64_t bad = 0, first = -1;
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isfinite(values.data()[i]) && bad++ == 0) first = std::int64_t(i);
+        if (!(std::abs(values.data()[i]) <= 1e12f) && bad++ == 0) first = std::int64_t(i);
     if (bad == 0) return;
-    throw Error(Refusal::unsuitable, path + ": " + std::to_string(bad) + " values are NaN or infinite, the first at texel (" +
+    throw Error(Refusal::unsuitable, path + ": " + std::to_string(bad) + " values are NaN, infinite or beyond 1e12, the first at texel (" +
                                          std::to_string(first % values.width()) + ", " +
                                          std::to_string(first / values.width()) + "); repair the height");
 }
