@@ -27,6 +27,8 @@ void check_usage(const NormalMapArgs& args) {
         throw usage("--amplitude " + args.amplitude + ": there is no bounding box without a mesh; give object units");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
+    if (args.space == Space::object && args.directx)
+        throw usage("--directx: turns the green of tangent space; leave it out with --space object");
     if (!args.size.empty()) parse_size(args.size);
     if (!args.extent.empty()) parse_pair("--extent", args.extent);
     if (!args.amplitude.empty()) parse_amplitude(args.amplitude);

@@ -60,7 +60,9 @@ void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapRe
     say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
     say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside was baked");
     say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
-    say(r.folded, "texels turn inside out; the amplitude is beyond the radius of curvature there");
+    say(r.flat_triangles, "triangles have no area in uv and were not baked");
+    say(r.triangles_without_uv, "triangles have no uvs and were not baked");
+    say(r.folded, "texels turn inside out, the amplitude being beyond the radius of curvature; blinn's normal stands in for exact there");
 }
 
 nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const Result& result, const NormalMapOptions& options) {
@@ -75,7 +77,8 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered}, {"border", r.border}, {"overlapped", r.overlapped}, {"padded", r.padded},
                             {"empty", r.empty}, {"degenerate", r.degenerate}, {"folded", r.folded},
-                            {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces}};
+                            {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces},
+                            {"flat_triangles", r.flat_triangles}, {"triangles_without_uv", r.triangles_without_uv}};
     return object;
 }
 
@@ -118,6 +121,8 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         std::printf("%s\n", watch.to_text().c_str());
     }
     warn(common, args, result.report);
+    if (args.mesh.empty() && args.amplitude.empty())
+        note(common, "amplitude 1: white lies as high above black as the picture is wide; --amplitude sets it");
     if (result.advice) note(common, to_text(*result.advice));
     return 0;
 }

@@ -38,7 +38,7 @@ void add_height_options(CLI::App& sub, HeightArgs& args) {
                      {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}},
                      "Which grey of the picture is the height; mean: of the colour channels");
     sub.add_flag("--invert", args.invert, "Black is high");
-    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within half a level");
+    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within a level; for gentle heights without grain");
 }
 
 HeightTexture load_height(const HeightArgs& args) {
