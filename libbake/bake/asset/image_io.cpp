@@ -1,201 +1,30 @@
 #include "bake/asset/image_io.h"
+#include "bake/asset/picture_formats.h"
+#include "bake/asset/plain_tiff.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fcntl.h>
+#include <dlfcn.h>
 #include <filesystem>
-#include <fstream>
-#include <mutex>
-#include <unistd.h>
+#include <limits>
+#include <optional>
 
 namespace bake {
+
 namespace {
 
-constexpr int band_rows = 256; // a multiple of every compression's block of scanlines
-
-void configure_oiio() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        OIIO::attribute("threads", 1);
-        OIIO::attribute("limits:channels", 64);
-        OIIO::attribute("limits:imagesize_MB", 64 * 1024);
-    });
-    OIIO::attribute("exr_threads", thread_count() > 1 ? thread_count() : 0);
-}
-
-// OIIO's messages may span lines and repeat the file's name; ours are one line.
-std::string one_line(std::string text, const std::string& path) {
-    for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.replace(at, path.size(), "it");
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
-    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    return text.empty() ? "unknown error" : text;
-}
-
-Error unreadable(const std::string& path, const std::string& why, const char* mend = "the file is damaged; export it again") {
-    return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
-}
-
-// Most bytes one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
-// anything is allocated.
-std::int64_t largest_ratio(const std::string& format) {
-    if (format == "dds") return 16;     // BC1: 8 bytes per 16 RGBA texels, which are 64 bytes decoded
-    if (format == "openexr") return 20000;
-    return 4096;                        // deflate reaches 1032, flat JPEG blocks less
-}
-
-SampleType sample_type(OIIO::TypeDesc type) {
-    switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8: return SampleType::u8;
-    case OIIO::TypeDesc::UINT16: return SampleType::u16;
-    case OIIO::TypeDesc::UINT32: return SampleType::u32;
-    case OIIO::TypeDesc::HALF: return SampleType::half;
-    case OIIO::TypeDesc::FLOAT: return SampleType::float32;
-    default: return SampleType::other;
-    }
-}
-
-// The part of the file that is the picture: the display window, except in OpenEXR's cube strips, whose six faces fill a
-// data window taller than it.
-struct Window {
-    int x, y, width, height;
-};
-
-Window picture_window(const OIIO::ImageSpec& spec) {
-    const bool cube = spec.get_string_attribute("textureformat") == "CubeFace Environment";
-    if (cube || spec.full_width <= 0 || spec.full_height <= 0) return {spec.x, spec.y, spec.width, spec.height};
-    return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
-}
-
-ImageInfo describe(OIIO::ImageInput& in) {
-    const OIIO::ImageSpec& spec = in.spec();
-    const Window window = picture_window(spec);
-    ImageInfo info;
-    info.format = in.format_name();
-    info.width = window.width;
-    info.height = window.height;
-    info.channels = spec.channelnames;
-    info.channels.resize(spec.nchannels);
-    info.type = sample_type(spec.format);
-    info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
-    info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
-    info.alpha_channel = spec.alpha_channel;
-    return info;
-}
-
-// libpng writes lines of its own to stderr, about whole files too; what matters of them comes back through OIIO.
-class MutedStderr {
-public:
-    explicit MutedStderr(bool mute) : saved_(mute ? dup(2) : -1) {
-        const int nowhere = saved_ >= 0 ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
-        if (nowhere < 0) return;
-        dup2(nowhere, 2);
-        close(nowhere);
-    }
-    ~MutedStderr() {
-        if (saved_ < 0) return;
-        dup2(saved_, 2);
-        close(saved_);
-    }
-    MutedStderr(const MutedStderr&) = delete;
-    MutedStderr& operator=(const MutedStderr&) = delete;
-
-private:
-    int saved_;
-};
-
-// First bytes of the file, fewer when it is short.
-std::string file_head(const std::string& path) {
-    std::string head(128, '\0');
-    std::ifstream file(path, std::ios::binary);
-    file.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(file.gcount()));
-    return head;
-}
-
-bool looks_like_png(const std::string& path) {
-    return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
-}
-
-// Bytes the top level of a block-compressed DDS file has after its header; 0 for other kinds. OIIO fills what is missing
-// with black and says nothing.
-std::int64_t dds_bytes(const std::string& head, std::int64_t width, std::int64_t height) {
-    if (head.size() < 128) return 0;
-    const std::string code = head.substr(84, 4);
-    const bool small = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S";
-    const bool large = code == "DXT2" || code == "DXT3" || code == "DXT4" || code == "DXT5" || code == "ATI2" || code == "BC5U" || code == "BC5S";
-    return small || large ? (width + 3) / 4 * ((height + 3) / 4) * (small ? 8 : 16) : 0;
-}
-
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const ReadLimits& limits, ImageInfo& info) {
-    namespace fs = std::filesystem;
-    configure_oiio();
-    std::error_code failed;
-    const fs::file_status status = fs::status(path, failed);
-    if (!fs::exists(status)) throw unreadable(path, "no such file", "check the name");
-    if (fs::is_directory(status)) throw unreadable(path, "is a folder", "name an image file in it");
-    const auto stored = std::int64_t(fs::file_size(path, failed));
-    if (!failed && stored == 0) throw unreadable(path, "is empty");
-
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
-    const MutedStderr muted(looks_like_png(path));
-    auto in = OIIO::ImageInput::open(path, &config);
-    if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
-
-    info = describe(*in);
-    const OIIO::ImageSpec& spec = in->spec();
-    if (spec.depth > 1) throw Error(Refusal::unsuitable, path + ": is a volume; give a flat image");
-    if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
-        throw unreadable(path, "has no pixels");
-    const auto decoded = [&](std::int64_t sample) { return sample * spec.width * spec.height * spec.nchannels; };
-    if (info.format == "dds" && stored < 128 + dds_bytes(file_head(path), spec.width, spec.height)) throw unreadable(path, "is cut short");
-    const std::string size = std::to_string(info.width) + " x " + std::to_string(info.height);
-    if (!failed && decoded(1) / largest_ratio(info.format) > stored + 65536 / largest_ratio(info.format))
-        throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
-    const std::int64_t picture = std::int64_t(4) * info.width * info.height * spec.nchannels;
-    if (decoded(4) > limits.max_bytes || picture > limits.max_bytes || info.width > (1 << 20) || info.height > (1 << 20))
-        throw Error(Refusal::unsuitable, path + ": " + size + " pixels need more memory than the limit of " +
-                                             std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
-    return in;
-}
-
-// A library's warning that some of the picture is missing; other warnings are let pass.
-bool says_cut_short(const std::string& message) {
-    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
-}
-
-void read_window(OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
-    const OIIO::ImageSpec& spec = in.spec();
-    bool whole = true;
-    if (spec.tile_width == 0) {
-        for (int y = 0; y < spec.height && whole; y += band_rows) {
-            throw_if_interrupted();
-            const int end = std::min(spec.height, y + band_rows);
-            whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.row(y));
-        }
-    } else {
-        whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data());
-    }
-    const std::string message = in.geterror();
-    if (!whole || says_cut_short(message)) throw unreadable(path, message);
-}
-
-// Moves the data window to its place in the picture's window; what it does not cover is 0.
-Image<float> place(const Image<float>& data, const OIIO::ImageSpec& spec, const Window& window) {
-    Image<float> image(window.width, window.height, spec.nchannels);
-    std::fill_n(image.data(), image.size(), 0.0f);
-    const int left = std::max(spec.x, window.x), right = std::min(spec.x + spec.width, window.x + window.width);
-    const int top = std::max(spec.y, window.y), bottom = std::min(spec.y + spec.height, window.y + window.height);
-    for (int y = top; y < bottom && left < right; ++y)
-        std::copy_n(&data.at(left - spec.x, y - spec.y), std::size_t(right - left) * spec.nchannels,
-                    &image.at(left - window.x, y - window.y));
-    return image;
+/// OpenImageIO's room, loaded when it is first needed.
+const PictureFormats& picture_formats() {
+    static const PictureFormats& formats = [&]() -> const PictureFormats& {
+        void* const library = dlopen("bake_formats.so", RTLD_LAZY | RTLD_LOCAL);
+        void* const entry = library ? dlsym(library, "bake_picture_formats") : nullptr;
+        if (!entry) throw Error(Refusal::unreadable, std::string(dlerror()) + "; put bake_formats.so beside the command, as it was built");
+        return *reinterpret_cast<const PictureFormats* (*)()>(entry)();
+    }();
+    return formats;
 }
 
 } // namespace
@@ -213,25 +42,19 @@ const char* name(SampleType type) noexcept {
 }
 
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
-    ImageInfo info;
-    open_image(path, limits, info);
-    return info;
+    if (const auto tiff = find_plain_tiff(path, limits)) return tiff->info;
+    return picture_formats().read_info(path, limits);
 }
 
 Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
     ImageInfo info;
-    const auto in = open_image(path, limits, info);
-    const OIIO::ImageSpec spec = in->spec();
-    Image<float> image(spec.width, spec.height, spec.nchannels);
-    try {
-        const MutedStderr muted(info.format == "png");
-        read_window(*in, path, image);
-    } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
+    Image<float> image;
+    if (const auto tiff = find_plain_tiff(path, limits)) {
+        info = tiff->info;
+        image = read_plain_tiff(path, *tiff);
+    } else {
+        image = picture_formats().read(path, info, limits);
     }
-    const Window window = picture_window(spec);
-    if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
-        image = place(image, spec, window);
     if (info_out) *info_out = std::move(info);
     return image;
 }
@@ -274,14 +97,7 @@ Depth resolve_depth(const std::string& path, Depth depth) {
 
 namespace {
 
-OIIO::TypeDesc stored_type(Depth depth) {
-    switch (depth) {
-    case Depth::u8: return OIIO::TypeDesc::UINT8;
-    case Depth::u16: return OIIO::TypeDesc::UINT16;
-    case Depth::half: return OIIO::TypeDesc::HALF;
-    default: return OIIO::TypeDesc::FLOAT;
-    }
-}
+constexpr int band_rows = 256; // a multiple of every compression's block of scanlines
 
 std::vector<std::string> default_channels(int count) {
     switch (count) {
@@ -311,85 +127,67 @@ struct ImageWriter::Impl {
     std::string path;
     OutputFile file;
     Depth depth;
-    OIIO::ImageSpec spec;
-    std::unique_ptr<OIIO::ImageOutput> out = nullptr;
-    int next_row = 0;
-    std::vector<unsigned char> levels = {}; ///< one band of integer samples
+    int width, channels;
+    std::optional<PlainTiffWriter> plain = {};
+    std::shared_ptr<FormatWriter> format = {}; ///< of files that are not plain
+    std::vector<unsigned char> levels = {};    ///< one band of integer samples
 
-    [[noreturn]] void fail(const std::string& why) {
-        throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, file.temporary()) + "); is the disk full?");
+    void write_rows(const void* values, int rows) {
+        if (plain)
+            plain->write(values, rows);
+        else
+            picture_formats().write(*format, values, rows);
     }
 
-    void write_rows(int rows, OIIO::TypeDesc type, const void* values) {
-        const int end = next_row + rows;
-        const bool written = spec.tile_width ? out->write_tiles(0, spec.width, next_row, end, 0, 1, type, values)
-                                             : out->write_scanlines(next_row, end, 0, type, values);
-        if (!written) fail(out->geterror());
-        next_row = end;
-    }
-
-    template <class Level> void write_levels(const float* values, int rows, OIIO::TypeDesc type) {
-        const std::int64_t row_size = std::int64_t(spec.width) * spec.nchannels;
+    template <class Level> void write_levels(const float* values, int rows) {
+        const std::int64_t row_size = std::int64_t(width) * channels;
         levels.resize(rows * row_size * sizeof(Level));
         Level* to = reinterpret_cast<Level*>(levels.data());
         for_rows(rows, 64, [&](std::int64_t begin, std::int64_t end) {
             quantise(values + begin * row_size, to + begin * row_size, (end - begin) * row_size);
         });
-        write_rows(rows, type, to);
+        write_rows(to, rows);
     }
 };
 
 ImageWriter::ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options) {
-    configure_oiio();
-    const Depth depth = resolve_depth(path, options.depth);
-    impl_.reset(new Impl{path, OutputFile(path), depth, OIIO::ImageSpec(width, height, channels, stored_type(depth))});
-    impl_->out = OIIO::ImageOutput::create(path);
-    if (!impl_->out) impl_->fail(OIIO::geterror());
-
-    OIIO::ImageSpec& spec = impl_->spec;
-    spec.channelnames = options.channels.empty() ? default_channels(channels) : options.channels;
-    spec.alpha_channel = -1;
-    for (int c = 0; c < channels; ++c)
-        if (spec.channelnames[c] == "A") spec.alpha_channel = c;
-    const std::string format = impl_->out->format_name();
-    const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
-    if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
-    if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (options.mips) {
-        if (!impl_->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
-        spec.tile_width = spec.tile_height = 64;
-        spec.attribute("textureformat", "Plain Texture");
-    }
-    if (!impl_->out->open(impl_->file.temporary(), spec)) impl_->fail(impl_->out->geterror());
+    WriteOptions resolved = options;
+    resolved.depth = resolve_depth(path, options.depth);
+    if (resolved.channels.empty()) resolved.channels = default_channels(channels);
+    impl_.reset(new Impl{path, OutputFile(path), resolved.depth, width, channels});
+    const PictureSize size{width, height, channels};
+    if (fits_plain_tiff(path, size, resolved))
+        impl_->plain.emplace(path, impl_->file.temporary(), size, resolved);
+    else
+        impl_->format = picture_formats().open(path, impl_->file.temporary(), size, resolved);
 }
 
 ImageWriter::~ImageWriter() = default;
 
 void ImageWriter::write(const float* values, int rows) {
-    const std::int64_t row_size = std::int64_t(impl_->spec.width) * impl_->spec.nchannels;
+    const std::int64_t row_size = std::int64_t(impl_->width) * impl_->channels;
     for (int y = 0; y < rows; y += band_rows) {
         throw_if_interrupted();
         const int count = std::min(band_rows, rows - y);
         const float* band = values + y * row_size;
         switch (impl_->depth) {
-        case Depth::u8: impl_->write_levels<std::uint8_t>(band, count, OIIO::TypeDesc::UINT8); break;
-        case Depth::u16: impl_->write_levels<std::uint16_t>(band, count, OIIO::TypeDesc::UINT16); break;
-        default: impl_->write_rows(count, OIIO::TypeDesc::FLOAT, band); break;
+        case Depth::u8: impl_->write_levels<std::uint8_t>(band, count); break;
+        case Depth::u16: impl_->write_levels<std::uint16_t>(band, count); break;
+        default: impl_->write_rows(band, count);
         }
     }
 }
 
 void ImageWriter::next_level() {
-    OIIO::ImageSpec& spec = impl_->spec;
-    spec.width = spec.full_width = std::max(1, spec.width / 2);
-    spec.height = spec.full_height = std::max(1, spec.height / 2);
-    impl_->next_row = 0;
-    if (!impl_->out->open(impl_->file.temporary(), spec, OIIO::ImageOutput::AppendMIPLevel)) impl_->fail(impl_->out->geterror());
+    impl_->width = std::max(1, impl_->width / 2);
+    picture_formats().next_level(*impl_->format);
 }
 
 void ImageWriter::finish() {
-    if (!impl_->out->close()) impl_->fail(impl_->out->geterror());
+    if (impl_->plain)
+        impl_->plain->finish();
+    else
+        picture_formats().finish(*impl_->format);
     impl_->file.commit();
 }
 
