@@ -53,6 +53,7 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
         info = tiff->info;
         image = read_plain_tiff(path, *tiff);
     } else {
+        if (is_cut_short_tiff(path)) throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
         image = picture_formats().read(path, info, limits);
     }
     if (info_out) *info_out = std::move(info);

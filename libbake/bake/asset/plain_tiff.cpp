@@ -70,7 +70,8 @@ std::vector<std::uint32_t> values_of(const ReadFile& file, const std::vector<Ent
     return values;
 }
 
-std::vector<Entry> read_entries(const ReadFile& file) {
+/// The first directory of a little-endian TIFF; nothing for others. `alone`: it is the only one.
+std::vector<Entry> read_entries(const ReadFile& file, bool& alone) {
     struct { char order[2]; std::uint16_t version; std::uint32_t first; } header;
     std::uint16_t count = 0;
     if (!file.read(0, &header, sizeof header) || std::memcmp(header.order, "II", 2) != 0 || header.version != 42) return {};
@@ -78,7 +79,8 @@ std::vector<Entry> read_entries(const ReadFile& file) {
     std::vector<Entry> entries(count);
     std::uint32_t next = 0;
     const std::int64_t end = std::int64_t(header.first) + 2 + std::int64_t(count) * 12;
-    if (!file.read(header.first + 2, entries.data(), std::int64_t(count) * 12) || !file.read(end, &next, 4) || next != 0) return {};
+    if (!file.read(header.first + 2, entries.data(), std::int64_t(count) * 12) || !file.read(end, &next, 4)) return {};
+    alone = next == 0;
     return entries;
 }
 
@@ -88,6 +90,13 @@ bool all_known(const std::vector<Entry>& entries) {
     return std::all_of(entries.begin(), entries.end(), [&](const Entry& e) {
         return std::count(std::begin(known), std::end(known), e.tag) || std::count(std::begin(remarks), std::end(remarks), e.tag);
     });
+}
+
+/// The one value of a tag, `otherwise` where it is missing, -1 where it is something else.
+std::int64_t one(const ReadFile& file, const std::vector<Entry>& entries, std::uint16_t tag, std::uint32_t otherwise) {
+    const bool there = std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.tag == tag; });
+    const std::vector<std::uint32_t> values = values_of(file, entries, tag);
+    return values.size() == 1 ? values[0] : there ? -1 : std::int64_t(otherwise);
 }
 
 std::int64_t bytes_per_sample(const PlainTiff& tiff) { return tiff.info.bits / 8; }
@@ -104,13 +113,10 @@ std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimi
     if (std::endian::native != std::endian::little || !std::filesystem::is_regular_file(path, failed)) return {};
     const auto stored = std::int64_t(std::filesystem::file_size(path, failed));
     const ReadFile file(path);
-    const std::vector<Entry> entries = read_entries(file);
-    if (entries.empty() || !all_known(entries)) return {};
-    const auto one = [&](std::uint16_t tag, std::uint32_t otherwise) -> std::int64_t {
-        const bool there = std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.tag == tag; });
-        const std::vector<std::uint32_t> values = values_of(file, entries, tag);
-        return values.size() == 1 ? values[0] : there ? -1 : std::int64_t(otherwise);
-    };
+    bool alone = false;
+    const std::vector<Entry> entries = read_entries(file, alone);
+    if (entries.empty() || !alone || !all_known(entries)) return {};
+    const auto one = [&](std::uint16_t tag, std::uint32_t otherwise) { return bake::one(file, entries, tag, otherwise); };
     const std::int64_t depth = one(bits, 1), format = one(sample_format, unsigned_samples);
     const bool floats = depth == 32 && format == float_samples, integers = (depth == 8 || depth == 16) && format == unsigned_samples;
     if (!(floats || integers) || one(subfile, 0) != 0 || one(compression, 1) != 1 || one(photometric, rgb) != min_is_black ||
@@ -131,6 +137,26 @@ std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimi
     tiff.info = {.format = "tiff", .width = int(w), .height = int(h), .channels = {"Y"},
                  .type = floats ? SampleType::float32 : depth == 16 ? SampleType::u16 : SampleType::u8, .bits = int(depth)};
     return tiff;
+}
+
+bool is_cut_short_tiff(const std::string& path) {
+    std::error_code failed;
+    if (std::endian::native != std::endian::little || !std::filesystem::is_regular_file(path, failed)) return false;
+    const auto stored = std::int64_t(std::filesystem::file_size(path, failed));
+    const ReadFile file(path);
+    bool alone = false;
+    const std::vector<Entry> entries = read_entries(file, alone);
+    const std::vector<std::uint32_t> depths = values_of(file, entries, bits);
+    if (entries.empty() || depths.empty() || one(file, entries, compression, 1) != 1) return false;
+    const std::int64_t h = one(file, entries, height, 0), strip = std::min(one(file, entries, rows_per_strip, ~0u), h);
+    const std::int64_t row_bits = one(file, entries, width, 0) * one(file, entries, samples, 1) * depths[0];
+    const std::vector<std::uint32_t> offsets = values_of(file, entries, strip_offsets), counts = values_of(file, entries, strip_counts);
+    for (std::size_t i = 0; i < std::min(offsets.size(), counts.size()); ++i) {
+        // Some writers claim a whole last strip where there are fewer rows.
+        const std::int64_t needed = std::min(strip, h - std::int64_t(i) * strip) * (row_bits / 8);
+        if (std::int64_t(offsets[i]) + std::min<std::int64_t>(counts[i], needed) > stored) return true;
+    }
+    return false;
 }
 
 Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff) {

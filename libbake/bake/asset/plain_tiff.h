@@ -20,6 +20,9 @@ struct PlainTiff {
 /// files over `limits` and for whatever does not add up: OpenImageIO then says what the file is, or what is wrong with it.
 std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimits& limits);
 
+/// Whether the file is an uncompressed TIFF whose last rows are missing, which OpenImageIO reads without a word.
+bool is_cut_short_tiff(const std::string& path);
+
 /// As read_image. Throws Error{Refusal::unreadable} when the file has changed in between.
 Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff);
 
