@@ -177,4 +177,19 @@ TEST_CASE("displaced_normal: beyond the radius of curvature exact turns inside o
     // Below both the determinant is positive again although the surface is inside out: a sphere shows it.
     CHECK(glm::dot(displaced_normal(oracle::sphere(1, 0.2, 0.5), {-1.5, 0, 0}, NormalMethod::exact), oracle::sphere(1, 0.2, 0.5).n) > 0);
 }
+
+TEST_CASE("folds: the torus folds at b = -r, and at b = r - R where v = pi; a sphere displaced by -1.5 R is inside out") {
+    const double R = 2, r = 0.7;
+    for (const double side : {1.0, -1.0}) { // mirrored charts too
+        const auto torus = [&](double v) { return oracle::rechart(oracle::torus(R, r, 0.3, v), side, 0, 0, 1); };
+        CHECK_FALSE(folds(torus(0.4), -0.99 * r));
+        CHECK(folds(torus(0.4), -1.01 * r));
+        CHECK_FALSE(folds(torus(pi), 0.99 * (R - r)));
+        CHECK(folds(torus(pi), 1.01 * (R - r)));
+        CHECK_FALSE(folds(torus(0), 100.0));
+    }
+    CHECK(folds(oracle::sphere(1, 0.2, 0.5), -1.5));
+    CHECK_FALSE(folds(oracle::sphere(1, 0.2, 0.5), -0.5));
+    CHECK_FALSE(folds(Jet<double>{}, 1.0));
+}
 }

@@ -140,7 +140,7 @@ TEST_CASE("error_budget: holds on the torus, by height depth, map depth and meth
         if (c.depth == Depth::half)
             for (std::size_t i = 0; i < map.size(); ++i) map.data()[i] = as_half(map.data()[i]);
         const auto errors = oracle::map_errors(map, target, bits_of(c.depth), [&](double u, double v) { return oracle::relief_normal(r, u, v); });
-        check_budget(mesh_budget(height, field, options, target, c.depth), oracle::spread(errors).rms);
+        check_budget(error_budget(mesh_budget(height, field, options, target, c.depth)), oracle::spread(errors).rms);
     }
 }
 
@@ -169,8 +169,28 @@ TEST_CASE("error_budget: holds on the sphere, poles included") {
             const Height<double> h = oracle::relief(r, u, v);
             return glm::cross(2 * pi * s.p_u + h.b_u * s.n + 2 * pi * h.b * s.n_u, pi * s.p_v + h.b_v * s.n + pi * h.b * s.n_v);
         });
-        check_budget(mesh_budget(height, field, options, target, Depth::u16), oracle::spread(errors).rms);
+        check_budget(error_budget(mesh_budget(height, field, options, target, Depth::u16)), oracle::spread(errors).rms);
     }
+}
+}
+
+TEST_SUITE("unit") {
+
+TEST_CASE("better_filter: advises the spline where steps are small against the detail, and sobel where they are not") {
+    const auto advice = [](const TorusRelief& r, int bits, Filter filter) {
+        const HeightTexture height = relief_texture(r, 512, bits);
+        const NormalMapOptions options = relief_options(r, 512, filter);
+        const HeightField field(height, options.height_options, filter, 512, 512);
+        const BudgetInput input = plane_budget(height, field, options, {1, 1}, Depth::u16);
+        return better_filter(input, error_budget(input));
+    };
+    // 8 texels a period: sobel loses a tenth of every slope, 8-bit steps cost less.
+    REQUIRE(advice({0.01, 64, 64}, 8, Filter::sobel));
+    CHECK(advice({0.01, 64, 64}, 8, Filter::sobel)->filter != Filter::sobel);
+    REQUIRE(advice({0.01, 3, 2}, 8, Filter::c2));
+    CHECK(advice({0.01, 3, 2}, 8, Filter::c2)->filter == Filter::sobel);
+    CHECK_FALSE(advice({0.01, 3, 2}, 8, Filter::sobel));
+    CHECK_FALSE(advice({0.01, 4, 4}, 0, Filter::c2)); // the encoding is all there is
 }
 }
 
@@ -199,7 +219,7 @@ TEST_CASE("error_budget: holds on three real heights resampled from finer ones")
                 const Image<float> map = normal_map(field, extent, options);
                 const double measured = plane_rms(map, extent, Depth::u16, [&](int x, int y) { return 0.05 * Vec2d(r.slope_u.at(x, y), r.slope_v.at(x, y)); });
                 MESSAGE(std::string(name) << ", " << bits << " bit, " << std::string(bake::name(filter)));
-                check_budget(plane_budget(r.coarse, field, options, extent, Depth::u16), measured);
+                check_budget(error_budget(plane_budget(r.coarse, field, options, extent, Depth::u16)), measured);
             }
         }
     }

@@ -256,6 +256,10 @@ TEST_CASE("normal_map: an amplitude beyond the radius of curvature is counted as
         const Image<float> map = normal_map(HeightField(height, options.height_options, options.filter, 64, 64), target, options, report);
         CHECK(report.folded > 0);
         for (std::size_t i = 0; i < map.size(); ++i) CHECK((map.data()[i] >= 0 && map.data()[i] <= 1));
+        // Blinn stands in, so no normal points inward, but for the little by which T and N are not perpendicular.
+        float deepest = 1;
+        for (std::size_t i = 2; i < map.size(); i += 3) deepest = std::min(deepest, map.data()[i]);
+        CHECK(deepest > 0.45f);
     }
 }
 }

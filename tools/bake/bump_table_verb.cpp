@@ -47,7 +47,7 @@ public:
         if (limit_ > 0)
             for (std::size_t i = 0; i < count; ++i)
                 if (!(std::abs(pairs[i]) <= limit_))
-                    throw Error(Refusal::unsuitable, path_ + text(": a slope of %g does not fit half floats; use --depth float", pairs[i]));
+                    throw Error(Refusal::unsuitable, path_ + format(": a slope of %g does not fit half floats; use --depth float", pairs[i]));
         if (bias_.range == 0) return writer_.write(pairs, rows);
         const int channels = third_ ? 3 : 2;
         room_.resize(count / 2 * channels);
@@ -87,7 +87,7 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
         const std::size_t count = std::size_t(6) * rows * width;
         for (std::size_t i = 0; depth == Depth::half && i < count; ++i)
             if (!(std::abs(values[i]) <= largest_half))
-                throw Error(Refusal::unsuitable, args.out + text(": a moment of %g does not fit half floats; use --depth float or --units texel", values[i]));
+                throw Error(Refusal::unsuitable, args.out + format(": a moment of %g does not fit half floats; use --depth float or --units texel", values[i]));
         writer.write(values, rows);
     };
     for_bands(table, [&](const float* values, int rows) { write(values, rows, table.width()); }, &progress);
@@ -144,7 +144,10 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("bake and write");
 
     const Vec2d extent = resolve_extent(args.options.extent_u, args.options.extent_v, width, rows);
-    const ErrorBudget budget = table_budget(height, args.options, depth, bias.range);
+    const BudgetInput input = table_budget(height, args.options, depth, bias.range);
+    const ErrorBudget budget = error_budget(input);
+    const std::optional<FilterAdvice> advice = better_filter(input, budget);
+    if (advice) note(common, to_text(*advice));
     watch.lap("budget");
     const double tilt = step_tilt_deg(height.step, args.options.amplitude, extent.x, width);
     if (common.json) {
@@ -152,6 +155,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
                                  {"filter", name(table.filter())}, {"units", name(args.options.units)},
                                  {"levels", height.levels}, {"step", height.step}, {"step_tilt_deg", tilt},
                                  {"error_budget", to_json(budget)}, {"seconds", watch.to_json()}};
+        if (advice) result["better_filter"] = to_json(*advice);
         if (bias.range > 0) result["bias"] = {{"range", bias.range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
         std::printf("%s\n", result.dump(2).c_str());
         return 0;
@@ -175,7 +179,7 @@ std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
            args->units = given == "lecture" ? SlopeUnits::lecture : given == "texel" ? SlopeUnits::texel
                          : given == "uv"    ? SlopeUnits::uv : SlopeUnits::world;
        }, "Slopes: lecture h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object unit (needs --extent to differ from 1 wide)")
-        ->check(CLI::IsMember({"lecture", "texel", "uv", "world"}))->type_name("lecture|texel|uv|world");
+        ->check(CLI::IsMember({"lecture", "texel", "uv", "world"}).description(""))->type_name("lecture|texel|uv|world");
     sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")->capture_default_str();
     sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")->type_name("W,H");
     add_choice<TableLayout>(sub, "--layout", args->layout, {{"slopes", TableLayout::slopes}, {"bumpslopes", TableLayout::bumpslopes}},

@@ -86,5 +86,7 @@ int main(int argc, char** argv) {
         return bake::fail(error.what(), error.refusal);
     } catch (const std::bad_alloc&) {
         return bake::fail("out of memory; use smaller inputs or outputs", bake::Refusal::unsuitable);
+    } catch (const std::exception& error) {
+        return bake::fail(std::string("stopped by ") + error.what() + "; please report this", bake::Refusal::unsuitable);
     }
 }

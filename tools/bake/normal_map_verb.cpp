@@ -10,6 +10,7 @@ struct Result {
     Image<float> map;
     NormalMapReport report;
     ErrorBudget budget;
+    std::optional<FilterAdvice> advice;
     double tilt_deg = 0;
     Filter filter = Filter::central;
 };
@@ -19,7 +20,9 @@ Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, 
     Result result;
     progress.start("bake", options.height);
     result.map = normal_map(field, extent, options, &progress);
-    result.budget = plane_budget(height, field, options, extent, depth);
+    const BudgetInput input = plane_budget(height, field, options, extent, depth);
+    result.budget = error_budget(input);
+    result.advice = better_filter(input, result.budget);
     result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, extent.x, height.values.width());
     return result;
 }
@@ -29,7 +32,9 @@ Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const No
     Result result;
     progress.start("bake", options.height);
     result.map = normal_map(field, target, options, result.report, &progress);
-    result.budget = mesh_budget(height, field, options, target, depth);
+    const BudgetInput input = mesh_budget(height, field, options, target, depth);
+    result.budget = error_budget(input);
+    result.advice = better_filter(input, result.budget);
     result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, target.lecture.u, height.values.width());
     return result;
 }
@@ -49,7 +54,7 @@ void print(const NormalMapArgs& args, const HeightTexture& height, const Result&
 
 void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& r) {
     const auto say = [&](std::int64_t count, const char* what) {
-        if (count > 0) note(common, text("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
+        if (count > 0) note(common, format("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
     };
     say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
     say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
@@ -66,6 +71,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                              {"filter", name(result.filter)}, {"amplitude", options.height_options.amplitude},
                              {"levels", height.levels}, {"step", height.step}, {"step_tilt_deg", result.tilt_deg},
                              {"error_budget", bake::to_json(result.budget)}};
+    if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered}, {"border", r.border}, {"overlapped", r.overlapped}, {"padded", r.padded},
                             {"empty", r.empty}, {"degenerate", r.degenerate}, {"folded", r.folded},
@@ -107,6 +113,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         std::printf("%s\n", watch.to_text().c_str());
     }
     warn(common, args, result.report);
+    if (result.advice) note(common, to_text(*result.advice));
     return 0;
 }
 

@@ -1,8 +1,6 @@
 #include "options.h"
 #include "bake/relief/dequantise.h"
 #include <chrono>
-#include <cstdarg>
-#include <cstdio>
 #include <glm/trigonometric.hpp>
 
 namespace bake {
@@ -22,7 +20,7 @@ void add_height_options(CLI::App& sub, HeightArgs& args) {
                    for (const auto& [known, value] : wraps)
                        if (known == given) wrap = value;
                }, help)
-            ->check(CLI::IsMember(std::vector<std::string>{"repeat", "clamp", "mirror"}))
+            ->check(CLI::IsMember(std::vector<std::string>{"repeat", "clamp", "mirror"}).description(""))
             ->type_name("repeat|clamp|mirror");
     };
     per_axis("--wrap-u", args.along_u, "The same along u alone");
@@ -87,18 +85,9 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {int(*width), int(*height)};
 }
 
-std::string text(const char* format, ...) {
-    char buffer[1024];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(buffer, sizeof buffer, format, values);
-    va_end(values);
-    return buffer;
-}
-
 std::string describe_levels(const HeightTexture& height) {
     const std::string stored = std::string(name(height.info.type)) + " height";
-    return stored + (height.levels <= 256 ? text(", %d levels", height.levels) : ", more than 256 levels");
+    return stored + (height.levels <= 256 ? format(", %d levels", height.levels) : ", more than 256 levels");
 }
 
 double step_tilt_deg(double step, double amplitude, double extent, int texels) noexcept {
@@ -106,7 +95,7 @@ double step_tilt_deg(double step, double amplitude, double extent, int texels) n
 }
 
 std::string to_text(const ErrorBudget& budget) {
-    return text("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
+    return format("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
                 budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
 }
 
@@ -115,6 +104,12 @@ nlohmann::json to_json(const ErrorBudget& budget) {
             {"encoding_deg", budget.encoding_deg}, {"method_deg", budget.method_deg},
             {"total_deg", budget.total_deg}, {"samples", budget.samples}};
 }
+
+std::string to_text(const FilterAdvice& advice) {
+    return format("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(), advice.total_deg);
+}
+
+nlohmann::json to_json(const FilterAdvice& advice) { return {{"filter", name(advice.filter)}, {"total_deg", advice.total_deg}}; }
 
 namespace {
 double now() {
@@ -132,7 +127,7 @@ void Stopwatch::lap(const std::string& step) {
 
 std::string Stopwatch::to_text() const {
     std::string line;
-    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + text("%s %.3f s", step.c_str(), seconds);
+    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + format("%s %.3f s", step.c_str(), seconds);
     return line;
 }
 

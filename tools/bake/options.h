@@ -1,6 +1,7 @@
 // Options that several verbs share, and how their values are written.
 #pragma once
 #include "bake/asset/image_io.h"
+#include "bake/base/text.h"
 #include "bake/relief/bump_table.h"
 #include "bake/relief/error_budget.h"
 #include "verb.h"
@@ -25,7 +26,7 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
         for (const auto& [known, choice] : choices)
             if (known == name) value = choice;
     };
-    return sub.add_option_function<std::string>(flag, set, help)->check(CLI::IsMember(names))->type_name(joined)->default_str(current);
+    return sub.add_option_function<std::string>(flag, set, help)->check(CLI::IsMember(names).description(""))->type_name(joined)->default_str(current);
 }
 
 /// How a height texture is read, given the same way by every verb that reads one.
@@ -63,8 +64,8 @@ double step_tilt_deg(double step, double amplitude, double extent, int texels) n
 
 std::string to_text(const ErrorBudget& budget);
 nlohmann::json to_json(const ErrorBudget& budget);
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
+std::string to_text(const FilterAdvice& advice);
+nlohmann::json to_json(const FilterAdvice& advice);
 
 /// Seconds of the steps of a run, in order.
 class Stopwatch {

@@ -111,7 +111,7 @@ std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
     sub.add_option("--size", args->size, "Pixels, N or WxH, instead of the scene's");
     sub.add_option("--spp", args->spp, "Samples per pixel, instead of the scene's")->check(CLI::Range(1, 65536));
     sub.add_option("--depth", args->depth, "auto: 8 for .png, half for .exr, float for .tif")
-        ->check(CLI::IsMember({"auto", "8", "16", "half", "float"}))
+        ->check(CLI::IsMember({"auto", "8", "16", "half", "float"}).description(""))
         ->capture_default_str();
     add_examples(sub, "  bake render scene.toml -o picture.png\n"
                       "  bake render scene.toml -o picture.exr --size 1920x1080 --spp 16\n"

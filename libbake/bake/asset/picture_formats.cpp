@@ -1,4 +1,5 @@
 #include "bake/asset/picture_formats.h"
+#include "bake/asset/image_guard.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
@@ -40,13 +41,17 @@ Error unreadable(const std::string& path, const std::string& why, const char* me
     return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
 }
 
-// Most bytes one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
+// Most samples one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
 // anything is allocated.
-std::int64_t largest_ratio(const std::string& format) {
-    if (format == "dds") return 16;     // BC1: 8 bytes per 16 RGBA texels, which are 64 bytes decoded
-    if (format == "openexr") return 20000;
-    return 4096;                        // deflate reaches 1032, flat JPEG blocks less
+double largest_ratio(const OIIO::ImageSpec& spec, const std::string& format) {
+    if (format == "dds") return 16; // BC1: 8 bytes per 16 RGBA texels
+    // DWA deflates one mean per block of 8 x 8 texels; flat pictures measured 7000.
+    if (format == "openexr" && std::string(spec.get_string_attribute("compression")).starts_with("dwa")) return 32768;
+    return 4096; // deflate reaches 1032, flat JPEG blocks less
 }
+
+// A display window with nothing but black around its data costs no bytes in the file. More than this must be earned.
+constexpr double free_window_bytes = 256 << 20, window_ratio = 20000;
 
 SampleType sample_type(OIIO::TypeDesc type) {
     switch (type.basetype) {
@@ -121,16 +126,6 @@ bool looks_like_png(const std::string& path) {
     return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
 }
 
-// Bytes the top level of a block-compressed DDS file has after its header; 0 for other kinds. OIIO fills what is missing
-// with black and says nothing.
-std::int64_t dds_bytes(const std::string& head, std::int64_t width, std::int64_t height) {
-    if (head.size() < 128) return 0;
-    const std::string code = head.substr(84, 4);
-    const bool small = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S";
-    const bool large = code == "DXT2" || code == "DXT3" || code == "DXT4" || code == "DXT5" || code == "ATI2" || code == "BC5U" || code == "BC5S";
-    return small || large ? (width + 3) / 4 * ((height + 3) / 4) * (small ? 8 : 16) : 0;
-}
-
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const ReadLimits& limits, ImageInfo& info) {
     namespace fs = std::filesystem;
     configure_oiio();
@@ -139,28 +134,36 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     if (!fs::exists(status)) throw unreadable(path, "no such file", "check the name");
     if (fs::is_directory(status)) throw unreadable(path, "is a folder", "name an image file in it");
     const auto stored = std::int64_t(fs::file_size(path, failed));
-    if (!failed && stored == 0) throw unreadable(path, "is empty");
+    if (failed || !fs::is_regular_file(status)) throw unreadable(path, "is not a regular file", "name an image file");
+    if (stored == 0) throw unreadable(path, "is empty");
+    if (const std::string fault = image_fault(path, stored); !fault.empty()) throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
     const MutedStderr muted(looks_like_png(path));
-    auto in = OIIO::ImageInput::open(path, &config);
+    std::unique_ptr<OIIO::ImageInput> in;
+    try {
+        in = OIIO::ImageInput::open(path, &config);
+    } catch (const std::exception& error) { // some decoders pass on what their containers throw
+        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
+    }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
     info = describe(*in);
     const OIIO::ImageSpec& spec = in->spec();
-    if (spec.depth > 1) throw Error(Refusal::unsuitable, path + ": is a volume; give a flat image");
+    const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
+    if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
+    if (spec.deep) throw unsuitable("is a deep image; flatten it");
     if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
         throw unreadable(path, "has no pixels");
-    const auto decoded = [&](std::int64_t sample) { return sample * spec.width * spec.height * spec.nchannels; };
-    if (info.format == "dds" && stored < 128 + dds_bytes(file_head(path), spec.width, spec.height)) throw unreadable(path, "is cut short");
-    const std::string size = std::to_string(info.width) + " x " + std::to_string(info.height);
-    if (!failed && decoded(1) / largest_ratio(info.format) > stored + 65536 / largest_ratio(info.format))
+    // In double: a hostile header overflows 64 bits.
+    const double decoded = double(spec.width) * spec.height * spec.nchannels, picture = 4.0 * info.width * info.height * spec.nchannels;
+    const double stored_bytes = double(stored);
+    const std::string size = std::to_string(std::max(info.width, spec.width)) + " x " + std::to_string(std::max(info.height, spec.height));
+    if (decoded > largest_ratio(spec, info.format) * stored_bytes + 65536 || (picture > free_window_bytes && picture > window_ratio * stored_bytes))
         throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
-    const std::int64_t picture = std::int64_t(4) * info.width * info.height * spec.nchannels;
-    if (decoded(4) > limits.max_bytes || picture > limits.max_bytes || info.width > (1 << 20) || info.height > (1 << 20))
-        throw Error(Refusal::unsuitable, path + ": " + size + " pixels need more memory than the limit of " +
-                                             std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
+    if (std::max(4 * decoded, picture) > double(limits.max_bytes) || std::max({info.width, info.height, spec.width, spec.height}) > (1 << 20))
+        throw unsuitable(size + " pixels need more memory than the limit of " + std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
     return in;
 }
 
@@ -210,16 +213,19 @@ ImageInfo read_info(const std::string& path, const ReadLimits& limits) {
 Image<float> read(const std::string& path, ImageInfo& info, const ReadLimits& limits) {
     const auto in = open_image(path, limits, info);
     const OIIO::ImageSpec spec = in->spec();
-    Image<float> image(spec.width, spec.height, spec.nchannels);
+    const Window window = picture_window(spec);
+    Image<float> image;
     try {
+        image = Image<float>(spec.width, spec.height, spec.nchannels);
         const MutedStderr muted(info.format == "png");
         read_window(*in, path, image);
+        if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
+            image = place(image, spec, window);
     } catch (const std::bad_alloc&) {
         throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
+    } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
+        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
     }
-    const Window window = picture_window(spec);
-    if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
-        image = place(image, spec, window);
     return image;
 }
 

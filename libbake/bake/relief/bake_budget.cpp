@@ -47,15 +47,15 @@ Vec3f stored_normal(const Vec3f& rgb, Depth depth) noexcept {
     return {one(rgb.x), one(rgb.y), one(rgb.z)};
 }
 
-ErrorBudget plane_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
+BudgetInput plane_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
                          const Vec2d& extent, Depth depth) {
     BudgetInput input = common_input(height, field, options, depth);
     input.lecture = {extent.x, extent.y};
     input.jet = [plane = plane_jet(extent)](double, double) { return plane; };
-    return error_budget(input);
+    return input;
 }
 
-ErrorBudget mesh_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
+BudgetInput mesh_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
                         const BakeTarget& target, Depth depth) {
     BudgetInput input = common_input(height, field, options, depth);
     input.lecture = {target.lecture.u, target.lecture.v};
@@ -67,10 +67,10 @@ ErrorBudget mesh_budget(const HeightTexture& height, const HeightField& field, c
         if (hit.triangle == no_index) return {};
         return jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2);
     };
-    return error_budget(input);
+    return input;
 }
 
-ErrorBudget table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth, double range) {
+BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth, double range) {
     const int width = height.values.width(), rows = height.values.height();
     BumpTableOptions unit = options;
     unit.amplitude = 1;
@@ -88,7 +88,7 @@ ErrorBudget table_budget(const HeightTexture& height, const BumpTableOptions& op
         const Height<double> kept{h.b, stored(h.b_u, from_uv.x), stored(h.b_v, from_uv.y)};
         return angle_between(n, displaced_normal(jet, kept, NormalMethod::exact));
     };
-    return error_budget(input);
+    return input;
 }
 
 } // namespace bake

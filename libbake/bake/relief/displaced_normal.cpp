@@ -50,6 +50,19 @@ Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod metho
     return Vec3<T>(T(0));
 }
 
+template <class T> bool folds(const Jet<T>& s, T b) noexcept {
+    // M = I + b A on the tangent plane, n_u = A p_u, n_v = A p_v: both eigenvalues are positive iff its determinant and
+    // its trace are. Times the signed area, both come from cross products.
+    const T area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    const T trace = glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v));
+    const T determinant = glm::dot(s.n, glm::cross(s.n_u, s.n_v));
+    const T side = area < T(0) ? T(-1) : T(1);
+    if (area == T(0)) return false;
+    return side * (area + b * trace + b * b * determinant) <= T(0) || side * (2 * area + b * trace) <= T(0);
+}
+
+template bool folds(const Jet<float>&, float) noexcept;
+template bool folds(const Jet<double>&, double) noexcept;
 template Vec3f displaced_normal(const Jet<float>&, const Height<float>&, NormalMethod, const LectureScale<float>&) noexcept;
 template Vec3d displaced_normal(const Jet<double>&, const Height<double>&, NormalMethod, const LectureScale<double>&) noexcept;
 

@@ -39,4 +39,9 @@ template <class T>
 Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
                          const LectureScale<T>& scale = {}) noexcept;
 
+/// Whether the surface displaced by b turns inside out there, along one principal direction or both: min(1 + b a_i) <= 0,
+/// a_i the principal curvatures. The sign of N' . n is not enough: it is positive again where both directions turned.
+/// False where the chart has no area.
+template <class T> bool folds(const Jet<T>& s, T b) noexcept;
+
 } // namespace bake

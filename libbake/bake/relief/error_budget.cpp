@@ -102,4 +102,16 @@ ErrorBudget error_budget(const BudgetInput& in) {
     return budget;
 }
 
+std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own) {
+    FilterAdvice best{input.filter, own.total_deg};
+    BudgetInput other = input;
+    for (const Filter filter : all_filters) {
+        other.filter = filter;
+        const double total_deg = error_budget(other).total_deg;
+        if (total_deg < best.total_deg) best = {filter, total_deg};
+    }
+    if (best.total_deg < 0.75 * own.total_deg) return best;
+    return {};
+}
+
 } // namespace bake

@@ -35,6 +35,14 @@ struct BudgetInput {
 
 ErrorBudget error_budget(const BudgetInput& input);
 
+/// The filter whose total is smallest on this height, when that is less than three quarters of `own`, the budget of
+/// input.filter; nothing when input.filter is good enough.
+struct FilterAdvice {
+    Filter filter;
+    double total_deg;
+};
+std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own);
+
 /// Angle between two vectors, radians; exact for small ones, 0 where one is zero.
 double angle_between(const Vec3d& a, const Vec3d& b) noexcept;
 

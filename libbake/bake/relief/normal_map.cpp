@@ -144,8 +144,10 @@ struct Texel {
 Texel bake_texel(const BakeTarget& target, const TexelHit& hit, const Height<float>& h, const NormalMapOptions& options) noexcept {
     const MeshSurface& s = target.surface;
     const Jet<float> jet = jet_at(s, hit.triangle, hit.b1, hit.b2);
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, options.method, target.lecture));
-    const bool folded = normal != Vec3f(0) && glm::dot(normal, jet.n) <= 0;
+    const bool folded = folds(jet, h.b);
+    // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
+    const NormalMethod method = folded && options.method == NormalMethod::exact ? NormalMethod::blinn : options.method;
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, target.lecture));
     if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
     const auto [c0, c1, c2] = s.triangles[hit.triangle].corner;
     const float b0 = 1 - hit.b1 - hit.b2;

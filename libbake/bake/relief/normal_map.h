@@ -31,7 +31,7 @@ struct NormalMapReport {
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
-    std::int64_t folded = 0;     ///< texels where the displaced surface is inside out: amplitude beyond the curvature radius
+    std::int64_t folded = 0;     ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
 };
 
 /// rgb = (t + 1) / 2, each in [0,1]; green is turned where `directx`.

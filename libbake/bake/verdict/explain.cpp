@@ -159,7 +159,9 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
     const Jet<float> jet = jet_at(target.surface, hit.triangle, hit.b1, hit.b2);
     route.push_back(surface_step(in, target, hit, jet));
     route.push_back(normal_step(in, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, in.options.method, target.lecture));
+    const bool stand_in = folds(jet, h.b) && in.options.method == NormalMethod::exact;
+    if (stand_in) route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, stand_in ? NormalMethod::blinn : in.options.method, target.lecture));
     const Frame frame = frame_at(target, hit);
     const Vec3f t = in.options.space == Space::object ? normal : to_tangent_space(normal, frame.tangent, frame.n, frame.sign);
     if (t == Vec3f(0)) {

@@ -1,18 +1,8 @@
+#include "bake/base/text.h"
 #include "bake/verdict/inspect.h"
-#include <cstdarg>
-#include <cstdio>
 
 namespace bake {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-    char text[512];
-    va_list args;
-    va_start(args, pattern);
-    std::vsnprintf(text, sizeof text, pattern, args);
-    va_end(args);
-    return text;
-}
 
 std::string row(const std::string& name, const std::string& value) {
     return format("  %-14s ", name.c_str()) + value + "\n";
