@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,23 +21,40 @@ template <class Work> double seconds(Work&& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-inline double median(std::vector<double> values) {
+inline double median_of(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
     return values[values.size() / 2];
 }
 
-/// Median seconds of each work: A B C, A B C, ..., after one round that is not counted, so that noise of the machine
-/// falls on all of them alike.
-inline std::vector<double> in_turn(int rounds, const std::vector<std::function<void()>>& works) {
-    std::vector<std::vector<double>> times(works.size());
+/// Seconds of one work, round by round.
+struct Times {
+    std::vector<double> seconds;
+    double median() const { return median_of(seconds); }
+    /// The median of the rounds' own ratios: a neighbour that slows a round slows both.
+    double ratio_to(const Times& other) const {
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < seconds.size(); ++i) ratios.push_back(seconds[i] / other.seconds[i]);
+        return median_of(ratios);
+    }
+};
+
+/// Times of each work: A B C, A B C, ..., after one round that is not counted, so that noise of the machine falls on
+/// all of them alike.
+inline std::vector<Times> in_turn(int rounds, const std::vector<std::function<void()>>& works) {
+    std::vector<Times> times(works.size());
     for (int round = -1; round < rounds; ++round)
         for (std::size_t i = 0; i < works.size(); ++i) {
             const double time = seconds(works[i]);
-            if (round >= 0) times[i].push_back(time);
+            if (round >= 0) times[i].seconds.push_back(time);
         }
-    std::vector<double> medians;
-    for (const std::vector<double>& of_work : times) medians.push_back(median(of_work));
-    return medians;
+    return times;
+}
+
+/// printf into a string.
+template <class... Values> std::string text(const char* format, Values... values) {
+    char line[256];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
 }
 
 /// Mean, 95th percentile and largest of a list, degrees. Takes the list: percentiles reorder it.

@@ -90,11 +90,10 @@ void rows(int size, int bits, int threads) {
                 });
             }});
         const double texels = double(size) * size;
-        char note[96];
-        std::snprintf(note, sizeof note, "limit %.3f ns; %.1f ms in all", 1e9 * times[0] / texels, 1e3 * times[1]);
         bench::print_row("bump_table", std::string(name(filter)) + (bits ? "_" + std::to_string(bits) + "bit" : "_float"), size,
-                         1e9 * times[1] / texels, table_errors(table, relief), times[1] / times[0],
-                         two_passes ? "two read+write passes" : "read+write pass", note);
+                         1e9 * times[1].median() / texels, table_errors(table, relief), times[1].ratio_to(times[0]),
+                         two_passes ? "two read+write passes" : "read+write pass",
+                         bench::text("limit %.3f ns; %.1f ms in all", 1e9 * times[0].median() / texels, 1e3 * times[1].median()));
     }
 }
 

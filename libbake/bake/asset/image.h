@@ -1,9 +1,20 @@
 // An image in memory: rows of interleaved channels, row 0 at the top.
 #pragma once
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
+#include <type_traits>
 
 namespace bake {
+
+namespace detail {
+/// Memory for `bytes` bytes; in huge pages where there are many, which the system hands out several times as fast.
+/// Throws std::bad_alloc.
+void* allocate_pages(std::size_t bytes);
+struct FreePages {
+    void operator()(void* pages) const noexcept { std::free(pages); }
+};
+}
 
 /// Owns width * height * channels values, texel (x, y) at row(y)[x * channels]. Fresh values are NOT initialised:
 /// a large image is filled by its first writer, not twice. Moves, does not copy.
@@ -13,7 +24,7 @@ public:
     Image() = default;
     Image(int width, int height, int channels)
         : width_(width), height_(height), channels_(channels),
-          values_(std::make_unique_for_overwrite<T[]>(std::size_t(width) * height * channels)) {}
+          values_(static_cast<T*>(detail::allocate_pages(size() * sizeof(T)))) {}
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
@@ -31,7 +42,8 @@ public:
 
 private:
     int width_ = 0, height_ = 0, channels_ = 0;
-    std::unique_ptr<T[]> values_;
+    static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>);
+    std::unique_ptr<T[], detail::FreePages> values_;
 };
 
 } // namespace bake

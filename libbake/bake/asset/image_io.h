@@ -1,32 +1,10 @@
-// Images in and out, by OpenImageIO.
+// Images in and out: plain TIFF by ourselves, all other files by OpenImageIO.
 #pragma once
 #include "bake/asset/image.h"
-#include <cstdint>
+#include "bake/asset/image_types.h"
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace bake {
-
-/// How a sample is stored in a file.
-enum class SampleType { u8, u16, u32, half, float32, other };
-const char* name(SampleType type) noexcept;
-
-/// What a file says of its picture. Nothing but the header is read to fill it.
-struct ImageInfo {
-    std::string format;                ///< "png", "openexr", "tiff", ...
-    int width = 0, height = 0;         ///< full resolution
-    std::vector<std::string> channels; ///< names in file order
-    SampleType type = SampleType::other;
-    int bits = 0;             ///< bits per sample as stored, 1 to 32
-    bool srgb_tagged = false; ///< the file says its values are sRGB-encoded
-    int alpha_channel = -1;   ///< index in channels, -1 without alpha
-};
-
-/// Limits on what a reader believes of a header before it allocates.
-struct ReadLimits {
-    std::int64_t max_bytes = std::int64_t(16) << 30; ///< decoded size
-};
 
 /// Reads the header. Throws Error{Refusal::unreadable} naming the file and the reason.
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {});
@@ -41,19 +19,6 @@ Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, cons
 void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
 /// The reverse, for pictures that people look at.
 float linear_to_srgb(float linear) noexcept;
-
-/// How samples are stored in a written file.
-enum class Depth { automatic, u8, u16, half, float32 };
-
-/// Lossless ones. automatic: none for tif, zip for exr; png is always deflated.
-enum class Compression { automatic, none, zip };
-
-struct WriteOptions {
-    Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
-    std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
-    Compression compression = Compression::automatic;
-    bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
-};
 
 /// Depth a file of this name gets. Throws Error{Refusal::usage} for a depth its format cannot hold (half in png, 8 bit in
 /// exr) or an ending other than .png, .exr, .tif, .tiff.

@@ -54,7 +54,7 @@ void BumpTable::row(int y, float* out, SlopeFilter<float>::Scratch& scratch) con
 void for_bands(const BumpTable& table, const std::function<void(const float*, int)>& consume, Progress* progress) {
     // Bands small enough to stay in the cache between the kernel and the writer.
     const std::int64_t row_bytes = std::int64_t(4) * table.width() * table.channels();
-    const int band = int(std::clamp<std::int64_t>((std::int64_t(4) << 20) / row_bytes / 64, 1, 16)) * 64;
+    const int band = int(std::clamp<std::int64_t>((std::int64_t(2) << 20) / row_bytes / 64, 1, 16)) * 64;
     const int bands = (table.height() + band - 1) / band;
     std::vector<Image<float>> slots(slot_count());
     std::vector<SlopeFilter<float>::Scratch> scratch(slot_count());

@@ -70,20 +70,17 @@ ErrorBudget error_budget(const BudgetInput& in) {
     const int rows = std::min(lattice, height), columns = std::min(lattice, width);
     std::vector<Squares> of_row(rows);
     for_rows(rows, 4, [&](std::int64_t begin, std::int64_t end) {
-        SlopeFilter<float>::Scratch scratch;
-        std::vector<float> own_pairs(2 * std::size_t(width)), sharp_pairs(own_pairs.size());
         for (auto j = begin; j < end; ++j) {
             const int y = int((2 * j + 1) * height / (2 * rows));
-            own_slopes.row(y, float(scale.x), float(scale.y), own_pairs.data(), scratch);
-            sharp_slopes.row(y, float(scale.x), float(scale.y), sharp_pairs.data(), scratch);
             for (int i = 0; i < columns; ++i) {
                 // Columns shift from row to row, so that no period of the texture hides between them.
                 const int x = int((std::int64_t(2 * i + 1) * width / (2 * columns) + 7 * j) % width);
                 const auto jet = in.jet((x + 0.5) / width, 1 - (y + 0.5) / height);
                 if (!jet || jet->sigma == 0) continue;
                 const double b = in.options.amplitude * (double(values.at(x, y)) - in.options.midlevel);
-                add_sample(in, *jet, {b, own_pairs[2 * x], own_pairs[2 * x + 1]},
-                           {b, sharp_pairs[2 * x], sharp_pairs[2 * x + 1]}, noise, difference_noise, of_row[j]);
+                const auto [own_u, own_v] = own_slopes.at(x, y, float(scale.x), float(scale.y));
+                const auto [sharp_u, sharp_v] = sharp_slopes.at(x, y, float(scale.x), float(scale.y));
+                add_sample(in, *jet, {b, own_u, own_v}, {b, sharp_u, sharp_v}, noise, difference_noise, of_row[j]);
             }
         }
     });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace bake {
 namespace {
@@ -80,14 +81,23 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
-    // Slopes of what is beyond 1e12 would leave the range of float.
-    std::int64_t bad = 0, first = -1;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!(std::abs(values.data()[i]) <= 1e12f) && bad++ == 0) first = std::int64_t(i);
-    if (bad == 0) return;
-    throw Error(Refusal::unsuitable, path + ": " + std::to_string(bad) + " values are NaN, infinite or beyond 1e12, the first at texel (" +
-                                         std::to_string(first % values.width()) + ", " +
-                                         std::to_string(first / values.width()) + "); repair the height");
+    // Slopes of what is beyond this would leave the range of float.
+    constexpr float largest = 1e12f;
+    std::vector<std::int64_t> bad_in_row(values.height());
+    for_rows(values.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = begin; y < end; ++y) {
+            const float* row = values.row(int(y));
+            for (int x = 0; x < values.width(); ++x) bad_in_row[y] += !(std::abs(row[x]) <= largest);
+        }
+    });
+    const auto bad_row = std::find_if(bad_in_row.begin(), bad_in_row.end(), [](std::int64_t bad) { return bad > 0; });
+    if (bad_row == bad_in_row.end()) return;
+    const auto y = int(bad_row - bad_in_row.begin());
+    const float* const row = values.row(y);
+    const auto x = std::find_if(row, row + values.width(), [](float v) { return !(std::abs(v) <= largest); }) - row;
+    throw Error(Refusal::unsuitable, path + ": " + std::to_string(std::accumulate(bad_row, bad_in_row.end(), std::int64_t(0))) +
+                                         " values are NaN, infinite or beyond 1e12, the first at texel (" + std::to_string(x) + ", " +
+                                         std::to_string(y) + "); repair the height");
 }
 
 } // namespace
@@ -117,7 +127,8 @@ HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& 
             }
         });
     }
-    refuse_bad_values(path, height.values);
+    const SampleType type = height.info.type;
+    if (type != SampleType::u8 && type != SampleType::u16 && type != SampleType::u32) refuse_bad_values(path, height.values);
     return height;
 }
 

@@ -139,7 +139,7 @@ template <class T> struct RowWithEnds {
 /// on copies that reach beyond the ends before and after.
 template <class T, class Kernel> void over_row(const RowWithEnds<T> (&rows)[3], int n, const Kernel& kernel) noexcept {
     const auto on_copy = [&](int first, int count) {
-        T copy[3][aligned + 2];
+        T copy[3][aligned + 2] = {};
         for (int r = 0; r < 3; ++r)
             for (int i = 0; i < count + 2; ++i) {
                 const int x = first - 1 + i;
@@ -224,6 +224,26 @@ template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out,
         differentiate(above, below, taps_.data(), taps, slope_v, count);
         interleave(slope_u, slope_v, scale_u, scale_v, out + 2 * std::size_t(x), count);
     }
+}
+
+template <class T> std::pair<T, T> SlopeFilter<T>::at(int x, int y, T scale_u, T scale_v) const noexcept {
+    const int n = image_.width();
+    const auto sample = [&](int i, int j) {
+        const T* row = rows_(j);
+        if (i >= 0 && i < n) return row[i];
+        const auto ends = beyond_ends(row, n, wrap_u_, i < 0 ? -i : i - n + 1, stencil_.border_degree);
+        return i < 0 ? ends.first : ends.second;
+    };
+    const T side = T(stencil_.side), centre = 1 - 2 * side;
+    const auto smooth = [&](T before, T at, T after) { return centre * at + side * (before + after); };
+    T slope_u = 0, slope_v = 0;
+    for (int k = 1; k <= int(taps_.size()); ++k) {
+        const auto along_u = [&](int j) { return sample(x + k, j) - sample(x - k, j); };
+        const auto along_v = [&](int i) { return sample(i, y - k) - sample(i, y + k); };
+        slope_u += taps_[k - 1] * (side == 0 ? along_u(y) : smooth(along_u(y - 1), along_u(y), along_u(y + 1)));
+        slope_v += taps_[k - 1] * (side == 0 ? along_v(x) : smooth(along_v(x - 1), along_v(x), along_v(x + 1)));
+    }
+    return {scale_u * slope_u, scale_v * slope_v};
 }
 
 template class SlopeFilter<float>;

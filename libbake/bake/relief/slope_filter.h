@@ -57,6 +57,8 @@ public:
     /// Writes scale_u * slope along +u and scale_v * slope along +v (v is up: towards row 0) of row y, per texel, as
     /// width interleaved pairs.
     void row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
+    /// The pair of texel (x, y) alone, to rounding: for samples of a large image.
+    std::pair<T, T> at(int x, int y, T scale_u, T scale_v) const noexcept;
 
 private:
     const Image<T>& image_;

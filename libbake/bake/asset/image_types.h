@@ -1,0 +1,42 @@
+// What image files are described by.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+/// How a sample is stored in a file.
+enum class SampleType { u8, u16, u32, half, float32, other };
+const char* name(SampleType type) noexcept;
+
+/// What a file says of its picture. Nothing but the header is read to fill it.
+struct ImageInfo {
+    std::string format;                ///< "png", "openexr", "tiff", ...
+    int width = 0, height = 0;         ///< full resolution
+    std::vector<std::string> channels; ///< names in file order
+    SampleType type = SampleType::other;
+    int bits = 0;             ///< bits per sample as stored, 1 to 32
+    bool srgb_tagged = false; ///< the file says its values are sRGB-encoded
+    int alpha_channel = -1;   ///< index in channels, -1 without alpha
+};
+
+/// Limits on what a reader believes of a header before it allocates.
+struct ReadLimits {
+    std::int64_t max_bytes = std::int64_t(16) << 30; ///< decoded size
+};
+
+/// How samples are stored in a written file.
+enum class Depth { automatic, u8, u16, half, float32 };
+
+/// Lossless ones. automatic: none for tif, zip for exr; png is always deflated.
+enum class Compression { automatic, none, zip };
+
+struct WriteOptions {
+    Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
+    std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
+    Compression compression = Compression::automatic;
+    bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
+};
+
+} // namespace bake

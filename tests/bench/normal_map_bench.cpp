@@ -1,0 +1,140 @@
+// normal_map_bench [SIZE]: time and error of a bake on a mesh, for all four methods, at SIZE^2 (4096 unless given) on a
+// torus fine enough not to matter, and at 1024^2 on the plain torus of 4096 triangles; the steps before the bake; and
+// the bake on a plane. The oracle is the closed form of the torus relief (tests/relief/torus_relief.h), the map decoded
+// in the frames a shader would have. Size counts texels along a side, or triangles. The limit is one pass that reads
+// what a bake reads per texel, hit and height, 16 bytes, and writes the 12 of the map.
+#include "bench.h"
+#include "bake/surface/tangent_space.h"
+#include "relief/torus_relief.h"
+
+using namespace bake;
+
+namespace {
+
+/// As oracle::map_errors of floats, on all threads: every third row, and the last.
+bench::Errors map_errors(const Image<float>& map, const BakeTarget& target) {
+    const int size = map.width(), rows = (size + 2) / 3 + 1;
+    std::vector<float> errors(std::size_t(rows) * size);
+    for_rows(rows, 8, [&](std::int64_t begin, std::int64_t end) {
+        for (auto j = int(begin); j < int(end); ++j) {
+            const int y = std::min(3 * j, size - 1);
+            for (int x = 0; x < size; ++x) {
+                const TexelHit& hit = target.raster.hits.at(x, y);
+                const auto& corner = target.surface.triangles[hit.triangle].corner;
+                const double b[3] = {1.0 - hit.b1 - hit.b2, hit.b1, hit.b2};
+                Vec3d T(0), N(0);
+                for (int i = 0; i < 3; ++i) {
+                    T += b[i] * Vec3d(Vec3f(target.tangents[corner[i]]));
+                    N += b[i] * Vec3d(target.surface.n[corner[i]]);
+                }
+                const Vec3d t = 2.0 * Vec3d(map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2)) - 1.0;
+                const Vec3d B = double(target.tangents[corner[0]].w) * glm::cross(N, T);
+                const Vec3d truth = oracle::relief_normal({}, (x + 0.5) / size, 1 - (y + 0.5) / size);
+                errors[std::size_t(j) * size + x] = float(oracle::angle_deg(t.x * T + t.y * B + t.z * N, truth));
+            }
+        }
+    });
+    return bench::errors_of(std::move(errors));
+}
+
+void read_16_write_12(const Image<TexelHit>& hits, const Image<float>& values, Image<float>& map) {
+    for_rows(map.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y) {
+            const TexelHit* hit = hits.row(y);
+            const float* value = values.row(y);
+            float* to = map.row(y);
+            for (int x = 0; x < map.width(); ++x) {
+                to[3 * x] = hit[x].b1;
+                to[3 * x + 1] = hit[x].b2;
+                to[3 * x + 2] = value[x] + float(hit[x].triangle);
+            }
+        }
+    });
+}
+
+void method_rows(const std::string& name, const Mesh& mesh, int size) {
+    const HeightTexture height = oracle::relief_texture({}, size);
+    const BakeTarget target = make_bake_target(mesh, "torus", size, size);
+    const double texels = double(size) * size;
+    Image<float> room(size, size, 3);
+    for (const NormalMethod method : all_normal_methods) {
+        const NormalMapOptions options = oracle::relief_options({}, size, Filter::c2, method);
+        const HeightField field(height, options.height_options, options.filter, size, size);
+        Image<float> map;
+        NormalMapReport report;
+        const auto times = bench::in_turn(3, {[&] { read_16_write_12(target.raster.hits, height.values, room); },
+                                              [&] { map = normal_map(field, target, options, report); }});
+        const bench::Times& limit = times[0], &bake = times[1];
+        bench::print_row("normal_map", name + "_" + std::string(bake::name(method)), size, 1e9 * bake.median() / texels,
+                         map_errors(map, target), bake.ratio_to(limit), "read+write pass",
+                         bench::text("limit %.2f ns; %.0f ms in all; %zu triangles", 1e9 * limit.median() / texels,
+                                     1e3 * bake.median(), target.surface.triangles.size()));
+    }
+}
+
+void plane_row(int size) {
+    const oracle::TorusRelief r{0.001, size / 32, size / 32};
+    const HeightTexture height = oracle::relief_texture(r, size);
+    const NormalMapOptions options = oracle::relief_options(r, size, Filter::c2);
+    const HeightField field(height, options.height_options, options.filter, size, size);
+    Image<TexelHit> hits(size, size, 1);
+    std::fill_n(hits.data(), hits.size(), TexelHit{0, 0, 0});
+    Image<float> map, room(size, size, 3);
+    const auto times = bench::in_turn(3, {[&] { read_16_write_12(hits, height.values, room); },
+                                          [&] { map = normal_map(field, Vec2d(1, 1), options); }});
+    std::vector<float> errors;
+    for (int y = 0; y < size; y += 3)
+        for (int x = 0; x < size; ++x) {
+            const Height<double> h = oracle::relief(r, (x + 0.5) / size, 1 - (y + 0.5) / size);
+            const Vec3f t = decode_normal({map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2)}, false);
+            errors.push_back(float(oracle::angle_deg(Vec3d(t), {-h.b_u, -h.b_v, 1})));
+        }
+    const double texels = double(size) * size;
+    bench::print_row("normal_map", "plane_exact", size, 1e9 * times[1].median() / texels, bench::errors_of(std::move(errors)),
+                     times[1].ratio_to(times[0]), "read+write pass", bench::text("%.0f ms in all", 1e3 * times[1].median()));
+}
+
+/// What make_bake_target does, step by step; the tangents' oracle is the closed form of dp/du.
+void step_rows(const Mesh& mesh, int size) {
+    MeshSurface surface;
+    std::vector<Vec4f> tangents;
+    UvRaster raster;
+    const auto times = bench::in_turn(3, {[&] { surface = make_mesh_surface(mesh); },
+                                          [&] { tangents = corner_tangents(mesh, surface.triangles, surface.n); },
+                                          [&] { raster = uv_raster(mesh, surface.triangles, size, size); }});
+    const auto triangles = std::int64_t(surface.triangles.size());
+    std::vector<float> tangent_errors, surface_errors, raster_errors;
+    for (std::size_t c = 0; c < tangents.size(); ++c) {
+        const Vec2d uv(mesh.uvs[mesh.corner_uv[c]]);
+        const Vec3d p_u = oracle::unit_torus(uv.x, uv.y).p_u;
+        tangent_errors.push_back(float(oracle::angle_deg(Vec3d(Vec3f(tangents[c])), p_u)));
+        surface_errors.push_back(float(oracle::angle_deg(Vec3d(surface.p_u[c]), p_u)));
+    }
+    for (int y = 0; y < size; y += 7)
+        for (int x = 0; x < size; x += 7) {
+            const TexelHit& hit = raster.hits.at(x, y);
+            const auto& corner = surface.triangles[hit.triangle].corner;
+            const auto uv = [&](int k) { return Vec2d(mesh.uvs[mesh.corner_uv[corner[k]]]); };
+            const Vec2d found = uv(0) + double(hit.b1) * (uv(1) - uv(0)) + double(hit.b2) * (uv(2) - uv(0));
+            raster_errors.push_back(float(360 * glm::length(found - Vec2d((x + 0.5) / size, 1 - (y + 0.5) / size))));
+        }
+    const auto row = [&](const char* name, std::int64_t items, double seconds, std::vector<float> errors, const char* note) {
+        bench::print_row("normal_map", name, items, 1e9 * seconds / double(items == size ? std::int64_t(size) * size : items),
+                         bench::errors_of(std::move(errors)), 0, "", bench::text("%.0f ms in all; %s", 1e3 * seconds, note));
+    };
+    row("step_surface", triangles, times[0].median(), surface_errors, "per triangle; error of p_u at the corners");
+    row("step_tangents", triangles, times[1].median(), tangent_errors, "per triangle; error of T at the corners");
+    row("step_raster", size, times[2].median(), raster_errors, "per texel; error in uv as if one unit were 360 deg");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const int size = argc > 1 ? std::atoi(argv[1]) : 4096;
+    if (size < 64 || size > 16384) return std::fprintf(stderr, "usage: normal_map_bench [SIZE], 64 to 16384\n"), 2;
+    const Mesh fine = oracle::torus_mesh(512, 256), coarse = oracle::torus_mesh(64, 32);
+    step_rows(fine, size);
+    method_rows("torus_262k", fine, size);
+    method_rows("torus_4k", coarse, 1024);
+    plane_row(size);
+}
