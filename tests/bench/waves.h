@@ -1,4 +1,4 @@
-// The height of the table benches: waves of 64 x 32 texels, and its closed form.
+// The height of the table benches: waves of about 64 x 32 texels, and its closed form.
 #pragma once
 #include "bench.h"
 #include "relief/torus_relief.h"
@@ -6,8 +6,9 @@
 
 namespace bench {
 
-/// Steepest slope 0.5 along u on a plane of extent 1 x 1. `size` is a multiple of 64.
-inline oracle::TorusRelief waves(int size) { return {0.5 / (2 * oracle::pi * size / 64), size / 64, size / 32}; }
+/// Steepest slope about 0.5 along u on a plane of extent 1 x 1. Whole waves, so that the picture repeats, but not of whole
+/// texels, so that it uses most levels.
+inline oracle::TorusRelief waves(int size) { return {0.5 / (2 * oracle::pi * size / 64), size / 64 + 1, size / 32 + 3}; }
 
 /// As oracle::relief_texture, from one sine per row and per column.
 inline bake::HeightTexture wave_texture(int size, int bits) {
