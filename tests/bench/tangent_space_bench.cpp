@@ -1,7 +1,7 @@
 // tangent_space_bench [FOLDER]: time and error of corner_tangents on a torus of 250,000 triangles, the oracle being the
 // closed-form dp/du, and on each FOLDER/*.f32, the oracle being the reference tangents stored there.
-// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,limit_ratio,note
-// size counts triangles; limit_ratio is the time over that of reading the input once and writing the output once.
+// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
+// size counts triangles; ratio is the time over that of reading the input once and writing the output once.
 #include "bake/base/parallel.h"
 #include "bake/surface/tangent_space.h"
 #include <algorithm>
@@ -96,7 +96,7 @@ void row(const std::string& name, const Corners& mesh, int threads) {
         signs += tangents[c].w != mesh.oracle[c].w;
     }
     std::sort(errors.begin(), errors.end());
-    std::printf("tangent_space,%s,%zu,%d,%.1f,%.3g,%.3g,%.3g,%.1f,", name.c_str(), corners / 3, thread_count(),
+    std::printf("tangent_space,%s,%zu,%d,%.1f,%.3g,%.3g,%.3g,%.1f,read+write pass,", name.c_str(), corners / 3, thread_count(),
                 times[2] * 1e9 / double(corners / 3), sum / double(corners), errors[corners * 95 / 100], errors.back(),
                 times[2] / passes[2]);
     std::printf("first run %.2f ms; median %.2f ms; max |dT| %.2g; %d signs differ\n", first * 1e3, times[2] * 1e3,

@@ -1,7 +1,7 @@
 // uv_raster_bench: time and error of uv_raster. The error is the distance in uv from the hit's point to the texel's
 // centre, on a chart that wraps 360 degrees, over all texels whose centre lies in the chart.
-// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,limit_ratio,note
-// size counts texels along a side; limit_ratio is the time over that of writing as many hits once, on as many threads.
+// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
+// size counts texels along a side; ratio is the time over that of writing as many hits once, on as many threads.
 #include "bake/base/parallel.h"
 #include "bake/surface/uv_raster.h"
 #include <algorithm>
@@ -96,7 +96,7 @@ void row(const std::string& name, const Chart& chart, int size, int threads) {
             sum += error;
         }
     std::sort(errors.begin(), errors.end());
-    std::printf("uv_raster,%s,%d,%d,%.2f,%.3g,%.3g,%.3g,%.2f,", name.c_str(), size, thread_count(),
+    std::printf("uv_raster,%s,%d,%d,%.2f,%.3g,%.3g,%.3g,%.2f,write pass,", name.c_str(), size, thread_count(),
                 times[1] * 1e9 / (double(size) * size), sum / double(errors.size()), errors[errors.size() * 95 / 100],
                 errors.back(), times[1] / writes[1]);
     std::printf("%zu triangles; first run %.0f ms; median %.0f ms; covered %lld border %lld overlapped %lld\n",

@@ -3,7 +3,11 @@
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <iterator>
+#include <mutex>
 #include <numeric>
 
 namespace bake {
@@ -43,41 +47,59 @@ std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, 
     return weights;
 }
 
-/// Counts different values up to 257, and the smallest step between them when they are 256 or fewer.
-struct LevelCounter {
-    std::vector<float> seen; ///< sorted
-    float last = std::nanf("");
+constexpr int most_levels = 256; ///< of what counts as an 8-bit height
 
-    bool full() const { return seen.size() > 256; }
-    void add(float value) {
-        if (value == last || full()) return;
-        last = value;
-        const auto at = std::lower_bound(seen.begin(), seen.end(), value);
-        if (at == seen.end() || *at != value) seen.insert(at, value);
-    }
-    double step() const {
-        double smallest = 0;
-        for (std::size_t i = 1; i < seen.size(); ++i) {
-            const double step = double(seen[i]) - seen[i - 1];
-            if (i == 1 || step < smallest) smallest = step;
+/// The different values of one channel, sorted; of many, some more than most_levels of them.
+std::vector<float> used_levels(const Image<float>& picture, int channel) {
+    std::mutex mutex;
+    std::vector<float> levels;
+    std::atomic<bool> many{false};
+    for_rows(picture.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        // Neighbours are often equal, and a short table of recent values answers for most others.
+        constexpr std::uint32_t slots = 1024;
+        std::vector<float> recent(slots, std::nanf("")), seen;
+        for (auto y = int(begin); y < int(end) && !many; ++y) {
+            const float* value = picture.row(y) + channel;
+            for (int x = 0; x < picture.width(); ++x, value += picture.channels()) {
+                float& slot = recent[std::bit_cast<std::uint32_t>(*value) * 2654435761u / (0xffffffffu / slots + 1)];
+                if (slot == *value) continue;
+                slot = *value;
+                const auto at = std::lower_bound(seen.begin(), seen.end(), *value);
+                if (at != seen.end() && *at == *value) continue;
+                seen.insert(at, *value);
+                if (seen.size() > most_levels) break;
+            }
         }
-        return smallest;
+        const std::lock_guard lock(mutex);
+        std::vector<float> all;
+        std::set_union(levels.begin(), levels.end(), seen.begin(), seen.end(), std::back_inserter(all));
+        levels = std::move(all);
+        if (levels.size() > most_levels) many = true;
+    });
+    return levels;
+}
+
+double smallest_step(const std::vector<float>& levels) {
+    double smallest = 0;
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        const double step = double(levels[i]) - levels[i - 1];
+        if (i == 1 || step < smallest) smallest = step;
     }
-};
+    return smallest;
+}
 
 void count_levels(HeightTexture& height, const Image<float>& picture, const std::vector<float>& weights) {
     // One channel is counted, not the grey: a tint must not make 8 bits look like more.
     const int channel = int(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    LevelCounter counter;
-    const float* value = picture.data() + channel;
-    for (std::size_t i = 0; i < picture.size() && !counter.full(); i += picture.channels()) counter.add(value[i]);
-    height.levels = int(counter.seen.size());
+    const std::vector<float> levels = used_levels(picture, channel);
+    const bool many = levels.size() > most_levels;
+    height.levels = many ? most_levels + 1 : int(levels.size());
     const int bits = height.info.bits;
     const double stored = height.info.type == SampleType::u8 || height.info.type == SampleType::u16
                               ? 1.0 / (std::exp2(bits) - 1)
                               : 0.0;
     // A file of 16 bits that uses 256 levels is an 8-bit height; a smaller step than the type's cannot be.
-    height.step = counter.full() ? stored : std::max(stored, counter.step());
+    height.step = many ? stored : std::max(stored, smallest_step(levels));
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
