@@ -227,6 +227,14 @@ template <class T> Jet<T> jet_at(const MeshSurface& s, std::uint32_t triangle, T
     const auto across = [&](const Vec3<T>& v) { return v - glm::dot(v, jet.n) * jet.n; };
     jet.p_u = across(mix(s.p_u[c0], s.p_u[c1], s.p_u[c2]));
     jet.p_v = across(mix(s.p_v[c0], s.p_v[c1], s.p_v[c2]));
+    const auto outward = [&] { return jet.sigma * glm::dot(glm::cross(jet.p_u, jet.p_v), jet.n) > T(0); };
+    if (!outward()) {
+        // A quad folded over in uv: its corners' derivatives are those of its other side. The triangle's own are not.
+        const Vec3<T> e1 = point(c1) - point(c0), e2 = point(c2) - point(c0);
+        jet.p_u = across((d2.y * e1 - d1.y * e2) * per_area);
+        jet.p_v = across((d1.x * e2 - d2.x * e1) * per_area);
+        if (!outward()) return Jet<T>{.sigma = 0};
+    }
     const Vec3<T> n1 = Vec3<T>(s.n[c1]) - Vec3<T>(s.n[c0]), n2 = Vec3<T>(s.n[c2]) - Vec3<T>(s.n[c0]);
     jet.n_u = across((d2.y * n1 - d1.y * n2) * per_area) / length;
     jet.n_v = across((d1.x * n2 - d2.x * n1) * per_area) / length;
