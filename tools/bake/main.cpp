@@ -12,7 +12,7 @@ namespace bake {
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!common.quiet) std::fprintf(stderr, "bake: %s\n", line.c_str());
+    if (!common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", line.c_str());
 }
 
 namespace {
