@@ -74,12 +74,11 @@ TEST_CASE("output: a full disk is exit 5, one line; the old file stays and no ot
         REQUIRE(run_bake(folder, job.arguments).code == 0);
         const auto whole = (long long)fs::file_size(folder / job.out);
         write_file(folder / job.out, "old");
-        for (const long long most : {300LL, 5000LL, whole / 2, whole - 1}) {
+        for (const long long most : {300LL, whole / 2, whole - 1}) {
             CAPTURE(most);
             check_refused(folder, job.arguments, 5, job.out, {.file_bytes = most});
             CHECK(contents(folder / job.out) == "old");
         }
-        CHECK(run_bake(folder, job.arguments, {.file_bytes = whole + 65536}).code == 0);
     }
 }
 

@@ -114,7 +114,7 @@ TEST_CASE("usage: an output that is its own input is refused, by whatever name")
 
 TEST_CASE("usage: --json prints one object and nothing else, --quiet keeps notes away, endings in capitals work") {
     const Folder folder;
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bump-table", dots, "-o", "a.EXR", "--json"},
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bump-table", dots, "-o", "a.EXR", "--json", "--quiet"},
                                                       {"normal-map", "--height", dots, "-o", "A.PNG", "--amplitude", "0.1", "--json"},
                                                       {"normal-map", torus, "--height", dots, "--amplitude", "200%", "-o", "b.TIFF", "--size", "64", "--json", "--quiet"}}) {
         const Run run = run_bake(folder, arguments);
