@@ -18,11 +18,11 @@ Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept {
 }
 
 Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept {
-    const Vec3f bitangent = sign * glm::cross(n, tangent);
-    // The inverse of the frame by cofactors; its determinant has the sign of `sign`.
-    const Vec3f t(glm::dot(normal, glm::cross(bitangent, n)), glm::dot(normal, glm::cross(n, tangent)),
-                  glm::dot(normal, glm::cross(tangent, bitangent)));
-    const Vec3f unit = unit_or_zero(sign * t);
+    // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
+    // determinant has the sign of `sign`.
+    const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
+    const Vec3f unit = unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
+                              along_n * glm::dot(tangent, tangent) - along_t * skew));
     // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
     constexpr float rounding = 1e-6f;
     return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
@@ -144,19 +144,32 @@ struct Texel {
     bool folded = false;
 };
 
-Texel bake_texel(const BakeTarget& target, const TexelHit& hit, const Height<float>& h, const NormalMapOptions& options) noexcept {
-    const MeshSurface& s = target.surface;
-    const Jet<float> jet = jet_at(s, hit.triangle, hit.b1, hit.b2);
+/// What the texels of one triangle share.
+struct TriangleFrame {
+    std::uint32_t triangle = no_index;
+    TrianglePatch<float> patch{};
+    Vec3f tangent[3];
+    float sign = 1;
+};
+
+TriangleFrame triangle_frame(const BakeTarget& target, std::uint32_t triangle) noexcept {
+    TriangleFrame frame{.triangle = triangle, .patch = triangle_patch<float>(target.surface, triangle)};
+    const auto& corner = target.surface.triangles[triangle].corner;
+    for (int k = 0; k < 3; ++k) frame.tangent[k] = Vec3f(target.tangents[corner[k]]);
+    frame.sign = target.tangents[corner[0]].w;
+    return frame;
+}
+
+Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h, const LectureScale<float>& lecture,
+                 const NormalMapOptions& options) noexcept {
+    const Jet<float> jet = jet_at(frame.patch, b1, b2);
     const bool folded = folds(jet, h.b);
     // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
     const NormalMethod method = folded && options.method == NormalMethod::exact ? NormalMethod::blinn : options.method;
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, target.lecture));
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, lecture));
     if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
-    const auto [c0, c1, c2] = s.triangles[hit.triangle].corner;
-    const float b0 = 1 - hit.b1 - hit.b2;
-    const Vec3f n = b0 * s.n[c0] + hit.b1 * s.n[c1] + hit.b2 * s.n[c2];
-    const auto tangent = [&](std::uint32_t c) { return Vec3f(target.tangents[c]); };
-    return {to_tangent_space(normal, b0 * tangent(c0) + hit.b1 * tangent(c1) + hit.b2 * tangent(c2), n, target.tangents[c0].w), folded};
+    const auto mix = [&, b0 = 1 - b1 - b2](const Vec3f(&a)[3]) { return b0 * a[0] + b1 * a[1] + b2 * a[2]; };
+    return {to_tangent_space(normal, mix(frame.tangent), mix(frame.patch.n), frame.sign), folded};
 }
 
 } // namespace
@@ -182,6 +195,7 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
     for_rows(height, 16, [&](std::int64_t begin, std::int64_t end) {
         SlopeFilter<float>::Scratch scratch;
         std::vector<Height<float>> heights(width);
+        TriangleFrame frame;
         std::int64_t degenerate_here = 0, folded_here = 0;
         for (auto y = int(begin); y < int(end); ++y) {
             field.row(y, heights.data(), scratch);
@@ -190,7 +204,8 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
             for (int x = 0; x < width; ++x, to += 3) {
                 Texel texel{flat_normal};
                 const bool hit = hits[x].triangle != no_index;
-                if (hit) texel = bake_texel(target, hits[x], heights[x], options);
+                if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
+                if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.lecture, options);
                 const bool own = hit && texel.t != Vec3f(0);
                 if (hit && !own) ++degenerate_here, texel.t = flat_normal;
                 folded_here += texel.folded;

@@ -198,50 +198,40 @@ MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
     return s;
 }
 
-template <class T> Jet<T> jet_at(const MeshSurface& s, std::uint32_t triangle, T b1, T b2) noexcept {
-    Jet<T> jet{};
-    jet.sigma = T(s.sigma[triangle]);
-    if (jet.sigma == T(0)) return jet;
+template <class T> TrianglePatch<T> triangle_patch(const MeshSurface& s, std::uint32_t triangle) noexcept {
+    TrianglePatch<T> patch{};
+    patch.sigma = T(s.sigma[triangle]);
+    patch.flat = s.flat;
+    if (patch.sigma == T(0)) return patch;
     const Mesh& mesh = *s.mesh;
-    const auto [c0, c1, c2] = s.triangles[triangle].corner;
-    const T b0 = T(1) - b1 - b2;
-    const auto mix = [&](const auto& a, const auto& b, const auto& c) { return b0 * Vec3<T>(a) + b1 * Vec3<T>(b) + b2 * Vec3<T>(c); };
-    const auto point = [&](std::uint32_t c) { return Vec3<T>(mesh.positions[mesh.corner_position[c]]); };
-    const auto uv = [&](std::uint32_t c) { return Vec2<T>(mesh.uvs[mesh.corner_uv[c]]); };
-    jet.p = mix(point(c0), point(c1), point(c2));
-
+    Vec2<T> uv[3];
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t corner = s.triangles[triangle].corner[k];
+        uv[k] = Vec2<T>(mesh.uvs[mesh.corner_uv[corner]]);
+        patch.p[k] = Vec3<T>(mesh.positions[mesh.corner_position[corner]]);
+        patch.n[k] = Vec3<T>(s.n[corner]);
+        patch.p_u[k] = Vec3<T>(s.p_u[corner]);
+        patch.p_v[k] = Vec3<T>(s.p_v[corner]);
+    }
     // Barycentrics along u and v: (b1_u, b2_u) = (d2.y, -d1.y) / area, (b1_v, b2_v) = (-d2.x, d1.x) / area.
-    const Vec2<T> d1 = uv(c1) - uv(c0), d2 = uv(c2) - uv(c0);
+    const Vec2<T> d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
     const T per_area = T(1) / (d1.x * d2.y - d2.x * d1.y);
+    const auto along_u = [&](const Vec3<T>(&a)[3]) { return (d2.y * (a[1] - a[0]) - d1.y * (a[2] - a[0])) * per_area; };
+    const auto along_v = [&](const Vec3<T>(&a)[3]) { return (d1.x * (a[2] - a[0]) - d2.x * (a[1] - a[0])) * per_area; };
     if (s.flat) {
-        const Vec3<T> e1 = point(c1) - point(c0), e2 = point(c2) - point(c0);
-        jet.p_u = (d2.y * e1 - d1.y * e2) * per_area;
-        jet.p_v = (d1.x * e2 - d2.x * e1) * per_area;
-        jet.n = jet.sigma * unit_or_zero(glm::cross(jet.p_u, jet.p_v));
-        return jet.n != Vec3<T>(T(0)) ? jet : Jet<T>{.sigma = 0};
+        patch.p_u[0] = along_u(patch.p);
+        patch.p_v[0] = along_v(patch.p);
+        patch.facet_n = patch.sigma * unit_or_zero(glm::cross(patch.p_u[0], patch.p_v[0]));
+    } else {
+        patch.own_u = along_u(patch.p);
+        patch.own_v = along_v(patch.p);
+        patch.m_u = along_u(patch.n);
+        patch.m_v = along_v(patch.n);
     }
-    const Vec3<T> m = mix(s.n[c0], s.n[c1], s.n[c2]);
-    const T length = glm::length(m);
-    if (!(length > T(0))) return Jet<T>{.sigma = 0};
-    jet.n = m / length;
-    const auto across = [&](const Vec3<T>& v) { return v - glm::dot(v, jet.n) * jet.n; };
-    jet.p_u = across(mix(s.p_u[c0], s.p_u[c1], s.p_u[c2]));
-    jet.p_v = across(mix(s.p_v[c0], s.p_v[c1], s.p_v[c2]));
-    const auto outward = [&] { return jet.sigma * glm::dot(glm::cross(jet.p_u, jet.p_v), jet.n) > T(0); };
-    if (!outward()) {
-        // A quad folded over in uv: its corners' derivatives are those of its other side. The triangle's own are not.
-        const Vec3<T> e1 = point(c1) - point(c0), e2 = point(c2) - point(c0);
-        jet.p_u = across((d2.y * e1 - d1.y * e2) * per_area);
-        jet.p_v = across((d1.x * e2 - d2.x * e1) * per_area);
-        if (!outward()) return Jet<T>{.sigma = 0};
-    }
-    const Vec3<T> n1 = Vec3<T>(s.n[c1]) - Vec3<T>(s.n[c0]), n2 = Vec3<T>(s.n[c2]) - Vec3<T>(s.n[c0]);
-    jet.n_u = across((d2.y * n1 - d1.y * n2) * per_area) / length;
-    jet.n_v = across((d1.x * n2 - d2.x * n1) * per_area) / length;
-    return jet;
+    return patch;
 }
 
-template Jet<float> jet_at(const MeshSurface&, std::uint32_t, float, float) noexcept;
-template Jet<double> jet_at(const MeshSurface&, std::uint32_t, double, double) noexcept;
+template TrianglePatch<float> triangle_patch(const MeshSurface&, std::uint32_t) noexcept;
+template TrianglePatch<double> triangle_patch(const MeshSurface&, std::uint32_t) noexcept;
 
 } // namespace bake
