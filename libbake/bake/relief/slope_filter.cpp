@@ -1,5 +1,7 @@
 #include "bake/relief/slope_filter.h"
+#include "bake/relief/spline_slope.h"
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -30,7 +32,7 @@ std::vector<double> spline_taps(int count) {
     return taps;
 }
 
-constexpr int spline_reach = 28;
+constexpr int spline_tap_count = 28;
 constexpr int largest_reach = 32;
 constexpr int block = 512; ///< texels whose sums stay in the nearest cache
 
@@ -42,7 +44,7 @@ Stencil stencil(Filter filter) {
     case Filter::scharr: return {{0.5}, 3.0 / 16, 2};
     case Filter::order4: return {{8.0 / 12, -1.0 / 12}, 0, 4};
     case Filter::order6: return {{45.0 / 60, -9.0 / 60, 1.0 / 60}, 0, 6};
-    case Filter::c2: return {spline_taps(spline_reach), 0, 3};
+    case Filter::c2: return {spline_taps(spline_tap_count), 0, 3, true};
     case Filter::central: return {{0.5}, 0, 2};
     case Filter::automatic: break;
     }
@@ -93,12 +95,17 @@ template <class T> Stencil as_precise_as(Stencil stencil) {
     return stencil;
 }
 
+std::uint64_t fresh_id() noexcept {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 } // namespace
 
 template <class T>
 SlopeFilter<T>::SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v)
-    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u), reach_(stencil_.reach()),
-      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree) {}
+    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u), reach_(stencil_.spline ? spline_reach<T> + 1 : stencil_.reach()),
+      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree), id_(fresh_id()) {}
 
 namespace {
 
@@ -192,6 +199,21 @@ template <class T> void interleave(const T* u, const T* v, T scale_u, T scale_v,
 
 } // namespace
 
+template <class T> void SlopeFilter<T>::spline_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
+    const int n = image_.width(), padded = n + 2 * spline_reach<T>, block = y / spline_block;
+    scratch.a.resize(2 * std::size_t(padded) + n);
+    T *const row = scratch.a.data(), *const room = row + padded, *const slope_u = room + padded;
+    extend_row(rows_(y), n, wrap_u_, spline_reach<T>, stencil_.border_degree, row);
+    spline_slopes_along(row, room, n, slope_u);
+    if (scratch.filter != id_ || scratch.block != block) {
+        scratch.b.resize(std::size_t(spline_block) * n);
+        const int first = block * spline_block;
+        spline_slopes_across(rows_, first, std::min(spline_block, image_.height() - first), n, scratch.b.data());
+        scratch.filter = id_, scratch.block = block;
+    }
+    interleave(slope_u, scratch.b.data() + std::size_t(y % spline_block) * n, scale_u, scale_v, out, n);
+}
+
 template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
     const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size()), degree = stencil_.border_degree;
     if (taps == 1) {
@@ -207,8 +229,10 @@ template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out,
         });
         return;
     }
+    if (stencil_.spline) return spline_row(y, scale_u, scale_v, out, scratch);
     scratch.a.resize(padded);
     scratch.b.resize(2 * block);
+    scratch.filter = 0;
     T* const row = scratch.a.data();
     T* const slope_u = scratch.b.data();
     T* const slope_v = slope_u + block;

@@ -5,6 +5,7 @@
 // m[i-1] + 4 m[i] + m[i+1] = 3 (h[i+1] - h[i-1]).
 #pragma once
 #include "bake/relief/border.h"
+#include <cstdint>
 #include <string_view>
 
 namespace bake {
@@ -29,6 +30,7 @@ struct Stencil {
     std::vector<double> taps;
     double side = 0;
     int border_degree = 2; ///< of the polynomial beyond a clamped border
+    bool spline = false;   ///< the taps are the cubic spline's: SlopeFilter then works by spline_slope.h, to rounding
     int reach() const noexcept { return int(taps.size()); }
     /// Response along the axis at w radians per texel over that of the true derivative, the other axis being at w_cross.
     double gain(double w, double w_cross = 0) const noexcept;
@@ -50,9 +52,12 @@ public:
     SlopeFilter(const Image<T>& image, Filter filter, Wrap wrap_u, Wrap wrap_v)
         : SlopeFilter(image, stencil(filter), wrap_u, wrap_v) {}
 
-    /// Room that rows() works in; one per thread.
+    /// Room that row() works in; one per thread. It keeps a block of the spline's slopes across rows, so that rows asked
+    /// for in order cost least.
     struct Scratch {
         std::vector<T> a, b;
+        std::uint64_t filter = 0; ///< whose block it is
+        int block = -1;
     };
     /// Writes scale_u * slope along +u and scale_v * slope along +v (v is up: towards row 0) of row y, per texel, as
     /// width interleaved pairs.
@@ -61,12 +66,15 @@ public:
     std::pair<T, T> at(int x, int y, T scale_u, T scale_v) const noexcept;
 
 private:
+    void spline_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
+
     const Image<T>& image_;
     Stencil stencil_;
     Wrap wrap_u_;
     int reach_;
     std::vector<T> taps_;
     ExtendedRows<T> rows_;
+    std::uint64_t id_; ///< no other filter of this run has it
 };
 
 } // namespace bake
