@@ -34,6 +34,24 @@ std::string bytes_of(const std::string& path) {
 
 void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
+/// A 16 x 16 file of 8 bits whose directory lies before its one or two strips, as some programs write it.
+std::string directory_first(int strips, std::uint32_t orientation) {
+    const std::uint32_t beyond = 8 + 2 + 10 * 12 + 4, samples = beyond + 16, rows = 16 / strips;
+    const std::uint32_t arrays[4] = {samples, samples + 128, 128, 128};
+    const std::uint32_t offsets = strips == 1 ? samples : beyond, counts = strips == 1 ? 256 : beyond + 8, count = strips;
+    const std::uint32_t entries[10][3] = {{256, 1, 16}, {257, 1, 16}, {258, 1, 8}, {259, 1, 1}, {262, 1, 1}, {273, count, offsets},
+                                          {274, 1, orientation}, {277, 1, 1}, {278, 1, rows}, {279, count, counts}};
+    std::string bytes("II*\0\10\0\0\0\12\0", 10);
+    const auto put = [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); };
+    for (const auto& [tag, many, value] : entries) {
+        const std::uint16_t start[2] = {std::uint16_t(tag), 4};
+        put(start, 4), put(&many, 4), put(&value, 4);
+    }
+    bytes.append(4, '\0');
+    put(arrays, 16);
+    return bytes + std::string(256, '\x40');
+}
+
 bool same(const Image<float>& a, const Image<float>& b) {
     return a.width() == b.width() && a.height() == b.height() && a.channels() == b.channels() &&
            std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
@@ -105,7 +123,7 @@ TEST_CASE("plain_tiff: strips in any order are read in theirs") {
     std::string bytes = bytes_of(path);
     const auto offset = [&](int i) { return std::uint32_t(tiff->strips[i]); };
     const std::uint32_t before[2] = {offset(0), offset(1)}, after[2] = {offset(1), offset(0)};
-    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(before), 8));
+    const std::size_t at = bytes.rfind(std::string(reinterpret_cast<const char*>(before), 8));
     REQUIRE(at != std::string::npos);
     std::memcpy(bytes.data() + at, after, 8);
     write_bytes(swapped, bytes);
@@ -131,12 +149,31 @@ TEST_CASE("plain_tiff: a file cut anywhere is refused, never read in part") {
     }
 }
 
+TEST_CASE("plain_tiff: a file whose last rows are missing is refused where its directory comes first, whoever reads it") {
+    const Folder folder;
+    const std::string path = folder / "in.tif";
+    for (const int strips : {1, 2})
+        for (const std::uint32_t orientation : {1u, 2u}) { // 2, mirrored, is for OpenImageIO
+            const std::string bytes = directory_first(strips, orientation);
+            write_bytes(path, bytes);
+            CHECK(find_plain_tiff(path, {}).has_value() == (orientation == 1));
+            CHECK_FALSE(is_cut_short_tiff(path));
+            CHECK(read_image(path).at(15, 15) == doctest::Approx(64 / 255.0));
+            for (const std::size_t missing : {1, 128, 129, 255}) {
+                write_bytes(path, bytes.substr(0, bytes.size() - missing));
+                CHECK_FALSE(find_plain_tiff(path, {}));
+                CHECK(is_cut_short_tiff(path));
+                CHECK_THROWS_WITH_AS(read_image(path), doctest::Contains("is cut short"), Error);
+            }
+        }
+}
+
 TEST_CASE("plain_tiff: a header with any one byte changed is read whole, or left to OpenImageIO, and never crashes") {
     const Folder folder;
     const std::string path = folder / "in.tif", changed = folder / "changed.tif";
     write_image(path, pattern(40, 100, 1), {.depth = Depth::u16});
     const std::string bytes = bytes_of(path);
-    for (std::size_t i = 0; i < 250; ++i)
+    for (std::size_t i = 0; i < bytes.size(); i = i == 7 ? 8 + 2 * 40 * 100 : i + 1) // header and directory, not the samples
         for (const char value : {'\0', '\1', '\x7f', '\xff'}) {
             std::string other = bytes;
             other[i] = value;

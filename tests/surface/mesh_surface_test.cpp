@@ -175,4 +175,26 @@ TEST_CASE("mesh_surface: mirrored halves that share a vertex and a uv keep their
     CHECK(glm::length(jet_at<double>(surface, 0, 0.2, 0.2).p_u - Vec3d(1, 0, 0)) < 1e-6);
     CHECK(glm::length(jet_at<double>(surface, 1, 0.2, 0.2).p_u - Vec3d(-1, 0, 0)) < 1e-6);
 }
+
+TEST_CASE("mesh_surface: quads folded over in uv face outward on either side of the fold") {
+    // Without the triangle's own derivatives these gave tangent normals of (0, 0, -1), as on Spot's ears.
+    int folded = 0;
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j) {
+            Mesh mesh;
+            mesh.face_begin = {0, 4};
+            mesh.positions = {{0, 0, 0}, {1, 0, 0.2f}, {1, 1, 0}, {0, 1, 0.1f}};
+            mesh.uvs = {{0, 0}, {1, 0}, {0.07f + 0.1f * float(i), 0.03f + 0.1f * float(j)}, {0, 1}};
+            if (j % 2) mesh.uvs[3] = {0.8f, 0.1f};
+            mesh.corner_position = mesh.corner_uv = {0, 1, 2, 3};
+            const MeshSurface surface = make_mesh_surface(mesh);
+            folded += surface.sigma[0] != surface.sigma[1];
+            for (std::uint32_t t = 0; t < 2; ++t)
+                for (const auto& [b1, b2] : {std::pair(1 / 3.0, 1 / 3.0), {0.0, 0.0}, {0.9, 0.05}, {0.1, 0.85}}) {
+                    const Jet<double> jet = jet_at<double>(surface, t, b1, b2);
+                    CHECK(jet.sigma * glm::dot(glm::cross(jet.p_u, jet.p_v), jet.n) > 0);
+                }
+        }
+    CHECK(folded >= 10);
+}
 }

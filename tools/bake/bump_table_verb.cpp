@@ -69,10 +69,12 @@ private:
     std::vector<float> room_;
 };
 
+bool is_png(const std::string& path) { return CLI::detail::to_lower(path).ends_with(".png"); }
+
 constexpr float largest_half = 65504;
 
 void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Bias& bias, Progress& progress) {
-    const bool png = bias.range > 0 && args.out.ends_with(".png");
+    const bool png = bias.range > 0 && is_png(args.out);
     ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png));
     TableSink sink(writer, table.width(), bias, png, depth == Depth::half ? largest_half : 0, args.out);
     for_bands(table, std::ref(sink), &progress);
@@ -80,14 +82,13 @@ void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth
 }
 
 void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth depth, Progress& progress) {
-    if (depth != Depth::half && depth != Depth::float32)
-        throw Error(Refusal::usage, args.out + ": bumpslopes are signed; use --depth half or float");
     ImageWriter writer(args.out, table.width(), table.height(), table.channels(), write_options(args, depth, false));
     const auto write = [&](const float* values, int rows, int width) {
         const std::size_t count = std::size_t(6) * rows * width;
-        for (std::size_t i = 0; depth == Depth::half && i < count; ++i)
-            if (!(std::abs(values[i]) <= largest_half))
-                throw Error(Refusal::unsuitable, args.out + format(": a moment of %g does not fit half floats; use --depth float or --units texel", values[i]));
+        const float most = depth == Depth::half ? largest_half : std::numeric_limits<float>::max();
+        for (std::size_t i = 0; i < count; ++i)
+            if (!(std::abs(values[i]) <= most))
+                throw Error(Refusal::unsuitable, args.out + format(": a moment of %g does not fit its file; use --depth float, --units texel or a smaller --amplitude", values[i]));
         writer.write(values, rows);
     };
     for_bands(table, [&](const float* values, int rows) { write(values, rows, table.width()); }, &progress);
@@ -121,11 +122,16 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     if (!args.extent.empty()) {
         const Vec2d extent = parse_pair("--extent", args.extent);
         args.options.extent_u = extent.x, args.options.extent_v = extent.y;
+        check_steepness(args.amplitude, amplitude.value, std::min(extent.x, extent.y));
     }
     args.options.units = args.units.value_or(args.layout == TableLayout::bumpslopes ? SlopeUnits::texel : SlopeUnits::uv);
     args.options.filter = args.height.filter;
     args.options.wrap_u = args.height.wrap_u(), args.options.wrap_v = args.height.wrap_v();
 
+    if (depth == Depth::u8) throw Error(Refusal::usage, args.out + ": 8 bits are too few for slopes; use --depth 16, half or float");
+    if (depth == Depth::u16 && args.layout == TableLayout::bumpslopes)
+        throw Error(Refusal::usage, args.out + ": bumpslopes are signed; write .exr or .tif with --depth half or float");
+    check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
     const HeightTexture height = load_height(args.height);
@@ -133,8 +139,10 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     const int width = height.values.width(), rows = height.values.height();
     const BumpTable table(height, args.options, args.layout);
     Bias bias;
-    if (depth == Depth::u8) throw Error(Refusal::usage, args.out + ": 8 bits are too few for slopes; use --depth 16, half or float");
-    if (depth == Depth::u16 && args.layout == TableLayout::slopes) bias.range = std::max(largest(table), std::numeric_limits<float>::min());
+    if (depth == Depth::u16) {
+        bias.range = largest(table);
+        if (bias.range == 0) bias.range = 1; // a flat table
+    }
     progress.start("bake", rows);
     if (args.layout == TableLayout::slopes)
         write_slopes(args, table, depth, bias, progress);
@@ -172,16 +180,16 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
 
 std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<BumpTableArgs>();
-    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required();
-    sub.add_option("-o,--out", args->out, "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")->required();
+    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
+    sub.add_option("-o,--out", args->out, "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")->required()->check(not_empty());
     add_height_options(sub, args->height);
     sub.add_option_function<std::string>("--units", [args](const std::string& given) {
            args->units = given == "lecture" ? SlopeUnits::lecture : given == "texel" ? SlopeUnits::texel
                          : given == "uv"    ? SlopeUnits::uv : SlopeUnits::world;
        }, "Slopes: lecture h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object unit (needs --extent to differ from 1 wide)")
-        ->check(CLI::IsMember({"lecture", "texel", "uv", "world"}).description(""))->type_name("lecture|texel|uv|world");
-    sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")->capture_default_str();
-    sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")->type_name("W,H");
+        ->check(one_of({"lecture", "texel", "uv", "world"}))->type_name("lecture|texel|uv|world");
+    sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")->check(not_empty())->capture_default_str();
+    sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")->check(not_empty())->type_name("W,H");
     add_choice<TableLayout>(sub, "--layout", args->layout, {{"slopes", TableLayout::slopes}, {"bumpslopes", TableLayout::bumpslopes}},
                             "slopes: (b_u, b_v); bumpslopes: OpenImageIO's h, s, t, s2, t2, st with mips, t down, per texel unless --units");
     add_choice<Depth>(sub, "--depth", args->depth, {{"auto", Depth::automatic}, {"half", Depth::half}, {"float", Depth::float32}, {"16", Depth::u16}},

@@ -2,6 +2,7 @@
 #include "verb.h"
 #include "bake/base/parallel.h"
 #include "bake/base/version.h"
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -11,7 +12,7 @@ namespace bake {
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!common.quiet) std::fprintf(stderr, "bake: %s\n", line.c_str());
+    if (!common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", line.c_str());
 }
 
 namespace {
@@ -43,10 +44,13 @@ std::string one_line(std::string text) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app{"bake: normal, bump and environment maps, and a preview of them"};
+    CLI::App app{"bake: normal, bump and environment maps, and a preview of them", "bake"};
     app.set_version_flag("--version", std::string("bake ") + version());
     app.require_subcommand(1);
     app.set_help_flag("-h,--help", "Print this help");
+    add_examples(app, "  bake check model.obj height.png\n"
+                      "  bake normal-map model.obj --height height.png --amplitude 1% -o normal.png\n"
+                      "  bake <verb> --help\n");
 
     CommonArgs common;
     std::function<int()> chosen;
@@ -60,6 +64,10 @@ int run(int argc, char** argv) {
         sub->add_flag("--json", common.json, "Print one JSON object");
         sub->callback([&chosen, job] { chosen = job; });
     }
+    const std::string first = argc > 1 ? argv[1] : "";
+    const auto known = [&](const VerbEntry& entry) { return entry.name == first; };
+    if (!first.empty() && first[0] != '-' && std::none_of(std::begin(verbs), std::end(verbs), known))
+        return fail(one_line(first) + ": is not a verb; see bake --help", Refusal::usage);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version
@@ -67,6 +75,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const auto used = app.get_subcommands();
         const std::string verb = used.empty() ? "bake" : "bake " + used.front()->get_name();
+        if (argc == 1) return fail("which verb? See bake --help", Refusal::usage);
         return fail(one_line(error.what()) + "; see " + verb + " --help", Refusal::usage);
     }
     const ThreadLimit limit(common.threads);

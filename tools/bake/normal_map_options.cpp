@@ -3,14 +3,14 @@
 namespace bake {
 
 void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
-    sub.add_option("--height", args.height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required();
-    sub.add_option("--size", args.size, "Texels of the map [those of the height]")->type_name("N|WxH");
+    sub.add_option("--height", args.height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
+    sub.add_option("--size", args.size, "Texels of the map [those of the height]")->check(not_empty())->type_name("N|WxH");
     std::vector<std::pair<std::string, NormalMethod>> methods;
     for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
     add_choice(sub, "--method", args.method, methods, "Terms of the displaced normal that are kept");
-    sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]");
+    sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]")->check(not_empty());
     sub.add_option("--midlevel", args.midlevel, "Value that lies on the surface")->capture_default_str();
-    sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")->type_name("W,H");
+    sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")->check(not_empty())->type_name("W,H");
     add_height_options(sub, args.height);
     add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}}, "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
@@ -27,6 +27,8 @@ void check_usage(const NormalMapArgs& args) {
         throw usage("--amplitude " + args.amplitude + ": there is no bounding box without a mesh; give object units");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
+    if (args.space == Space::object && args.directx)
+        throw usage("--directx: turns the green of tangent space; leave it out with --space object");
     if (!args.size.empty()) parse_size(args.size);
     if (!args.extent.empty()) parse_pair("--extent", args.extent);
     if (!args.amplitude.empty()) parse_amplitude(args.amplitude);

@@ -60,7 +60,9 @@ void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapRe
     say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
     say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside was baked");
     say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
-    say(r.folded, "texels turn inside out; the amplitude is beyond the radius of curvature there");
+    say(r.flat_triangles, "triangles have no area in uv and were not baked");
+    say(r.triangles_without_uv, "triangles have no uvs and were not baked");
+    say(r.folded, "texels turn inside out, the amplitude being beyond the radius of curvature; blinn's normal stands in for exact there");
 }
 
 nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const Result& result, const NormalMapOptions& options) {
@@ -75,13 +77,15 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered}, {"border", r.border}, {"overlapped", r.overlapped}, {"padded", r.padded},
                             {"empty", r.empty}, {"degenerate", r.degenerate}, {"folded", r.folded},
-                            {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces}};
+                            {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces},
+                            {"flat_triangles", r.flat_triangles}, {"triangles_without_uv", r.triangles_without_uv}};
     return object;
 }
 
 int run(NormalMapArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_depth(args.out, args.depth);
     check_usage(args);
+    check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
     const HeightTexture height = load_height(args.height);
@@ -89,10 +93,13 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     if (!args.mesh.empty()) mesh = read_mesh(args.mesh);
     watch.lap("read");
     const NormalMapOptions options = resolve_options(args, height, mesh);
+    // Opened before the work, so that a long bake does not fail at its end.
+    ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
     Result result;
     if (args.mesh.empty()) {
         const Vec2d given = args.extent.empty() ? Vec2d(0) : parse_pair("--extent", args.extent);
         const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
+        check_steepness(args.amplitude, options.height_options.amplitude, std::min(extent.x, extent.y));
         result = bake_plane(height, options, extent, depth, progress);
     } else {
         const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height);
@@ -102,7 +109,8 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     result.filter = resolve_filter(options.filter, height);
     progress.finish();
     watch.lap("bake");
-    write_image(args.out, result.map, {.depth = depth, .channels = {"R", "G", "B"}});
+    writer.write(result.map.data(), result.map.height());
+    writer.finish();
     watch.lap("write");
     if (common.json) {
         nlohmann::json object = to_json(args, height, result, options);
@@ -113,6 +121,8 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         std::printf("%s\n", watch.to_text().c_str());
     }
     warn(common, args, result.report);
+    if (args.mesh.empty() && args.amplitude.empty())
+        note(common, "amplitude 1: white lies as high above black as the picture is wide; --amplitude sets it");
     if (result.advice) note(common, to_text(*result.advice));
     return 0;
 }
@@ -122,7 +132,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
 std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
     sub.add_option("mesh", args->mesh, "UV-mapped mesh (.obj, .ply); without it the map is that of a flat rectangle");
-    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required();
+    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required()->check(not_empty());
     add_normal_map_options(sub, *args);
     add_choice<Depth>(sub, "--depth", args->depth,
                       {{"auto", Depth::automatic}, {"8", Depth::u8}, {"16", Depth::u16}, {"half", Depth::half}, {"float", Depth::float32}},

@@ -1,9 +1,18 @@
 #include "options.h"
 #include "bake/relief/dequantise.h"
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <glm/trigonometric.hpp>
 
 namespace bake {
+
+CLI::Validator one_of(const std::vector<std::string>& names) { return CLI::IsMember(names).description(""); }
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
+}
 
 void add_height_options(CLI::App& sub, HeightArgs& args) {
     const std::vector<std::pair<std::string, Wrap>> wraps = {
@@ -20,7 +29,7 @@ void add_height_options(CLI::App& sub, HeightArgs& args) {
                    for (const auto& [known, value] : wraps)
                        if (known == given) wrap = value;
                }, help)
-            ->check(CLI::IsMember(std::vector<std::string>{"repeat", "clamp", "mirror"}).description(""))
+            ->check(one_of({"repeat", "clamp", "mirror"}))
             ->type_name("repeat|clamp|mirror");
     };
     per_axis("--wrap-u", args.along_u, "The same along u alone");
@@ -29,7 +38,7 @@ void add_height_options(CLI::App& sub, HeightArgs& args) {
                      {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}},
                      "Which grey of the picture is the height; mean: of the colour channels");
     sub.add_flag("--invert", args.invert, "Black is high");
-    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within half a level");
+    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within a level; for gentle heights without grain");
 }
 
 HeightTexture load_height(const HeightArgs& args) {
@@ -63,15 +72,28 @@ Amplitude parse_amplitude(const std::string& text) {
     amplitude.percent = !text.empty() && text.back() == '%';
     const auto value = number(amplitude.percent ? text.substr(0, text.size() - 1) : text);
     if (!value) throw usage("--amplitude " + text + ": is not a number; write 0.02, or 1% of the bounding box's diagonal");
+    if (std::abs(*value) > 1e12) throw usage("--amplitude " + text + ": is out of range; write at most 1e12");
     amplitude.value = amplitude.percent ? *value / 100 : *value;
     return amplitude;
+}
+
+void check_steepness(const std::string& amplitude, double value, double length) {
+    if (std::abs(value) > 1e9 * length)
+        throw usage("--amplitude " + amplitude + format(": is more than 1e9 times the %g it is spread over; write less", length));
+}
+
+void check_not_input(const std::string& out, const std::string& input) {
+    std::error_code absent;
+    if (std::filesystem::equivalent(out, input, absent))
+        throw usage("--out " + out + ": would replace the picture it is made from; choose another name");
 }
 
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive) {
     const std::size_t comma = text.find(',');
     const auto first = number(text.substr(0, comma));
     const auto second = comma == std::string::npos ? std::nullopt : number(text.substr(comma + 1));
-    if (!first || !second || (positive && !(*first > 0 && *second > 0)))
+    const auto in_range = [](double value) { return value >= 1e-12 && value <= 1e12; };
+    if (!first || !second || (positive && !(in_range(*first) && in_range(*second))))
         throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") + "numbers, such as 2,1");
     return {*first, *second};
 }

@@ -11,6 +11,11 @@
 
 namespace bake {
 
+/// Accepts these names alone. The help does not list them a second time after the type's name.
+CLI::Validator one_of(const std::vector<std::string>& names);
+/// Refuses the empty text that a script's unset variable leaves.
+CLI::Validator not_empty();
+
 /// Adds an option whose value is one of a few names, and writes the value that goes with the name.
 template <class Value>
 CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
@@ -26,7 +31,7 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
         for (const auto& [known, choice] : choices)
             if (known == name) value = choice;
     };
-    return sub.add_option_function<std::string>(flag, set, help)->check(CLI::IsMember(names).description(""))->type_name(joined)->default_str(current);
+    return sub.add_option_function<std::string>(flag, set, help)->check(one_of(names))->type_name(joined)->default_str(current);
 }
 
 /// How a height texture is read, given the same way by every verb that reads one.
@@ -51,8 +56,12 @@ struct Amplitude {
     bool percent = false;
 };
 Amplitude parse_amplitude(const std::string& text);
+/// Throws Error{Refusal::usage} for slopes that floats cannot hold: an amplitude above 1e9 times the length it is over.
+void check_steepness(const std::string& amplitude, double value, double length);
+/// Throws Error{Refusal::usage} when the output would replace the input it is made from.
+void check_not_input(const std::string& out, const std::string& input);
 
-/// "W,H", both above 0. Throws Error{Refusal::usage}.
+/// "W,H", from 1e-12 to 1e12 when `positive`. Throws Error{Refusal::usage}.
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive = true);
 /// "N" or "WxH" texels, 1 to 65536. Throws Error{Refusal::usage}.
 std::pair<int, int> parse_size(const std::string& text);

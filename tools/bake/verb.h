@@ -28,7 +28,7 @@ Verb explain_verb;
 
 /// Adds what a verb's --help ends with.
 void add_examples(CLI::App& sub, const std::string& examples);
-/// One line on stderr, unless --quiet: a note that does not stop the run.
+/// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
 
 } // namespace bake

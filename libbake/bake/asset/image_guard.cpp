@@ -1,13 +1,16 @@
 #include "bake/asset/image_guard.h"
 #include <algorithm>
+#include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <unistd.h>
 #include <utility>
 
 namespace bake {
 namespace {
 
-/// A little- or big-endian 32-bit number, 0 beyond the end.
+/// A number of 4 bytes, 0 beyond the end.
 std::uint32_t u32(const std::string& bytes, std::size_t at, bool big_endian = false) {
     std::uint32_t value = 0;
     for (int i = 0; at + 4 <= bytes.size() && i < 4; ++i)
@@ -32,6 +35,8 @@ std::string dds_fault(const std::string& head, std::int64_t stored) {
                                                : width * height * std::clamp<std::int64_t>(bits, 0, 128) / 8;
     return stored < 128 + (extended ? 20 : 0) + needed ? "is cut short" : "";
 }
+
+constexpr std::string_view exr_magic = "\x76\x2f\x31\x01";
 
 /// The attributes of one part of an OpenEXR file that its pixels depend on.
 struct ExrPart {
@@ -117,6 +122,54 @@ std::string exr_fault(std::istream& file, const std::string& head, std::int64_t 
     return "";
 }
 
+/// Numbers of a TIFF file at any place, in its byte order; 0 beyond its end.
+struct TiffBytes {
+    std::istream& file;
+    bool big_endian;
+
+    std::uint64_t number(std::uint64_t at, int bytes) {
+        unsigned char raw[8] = {};
+        file.clear();
+        file.seekg(std::streamoff(at));
+        if (!file.read(reinterpret_cast<char*>(raw), bytes)) return 0;
+        std::uint64_t value = 0;
+        for (int i = 0; i < bytes; ++i) value |= std::uint64_t(raw[i]) << 8 * (big_endian ? bytes - 1 - i : i);
+        return value;
+    }
+};
+
+/// A field of a TIFF directory: where its values lie, how many they are and how long each is.
+struct TiffField {
+    std::uint64_t at = 0, count = 0;
+    int bytes = 0;
+};
+
+// Adobe, "TIFF Revision 6.0", and BigTIFF. libtiff fills strips beyond the end with what was there before.
+std::string tiff_fault(std::istream& file, const std::string& head, std::int64_t stored_bytes) {
+    const auto stored = std::uint64_t(stored_bytes);
+    TiffBytes tiff{file, head[0] == 'M'};
+    const bool big = tiff.number(2, 2) == 43; // BigTIFF
+    const int wide = big ? 8 : 4;
+    const std::uint64_t directory = tiff.number(big ? 8 : 4, wide), count_bytes = big ? 8 : 2;
+    const std::uint64_t fields = tiff.number(directory, int(count_bytes)), field_bytes = big ? 20 : 12;
+    if (directory < 8 || directory > stored || fields == 0 || fields > (stored - directory) / field_bytes) return "is cut short";
+    TiffField offsets, sizes;
+    for (std::uint64_t i = 0; i < fields; ++i) {
+        const std::uint64_t at = directory + count_bytes + i * field_bytes, tag = tiff.number(at, 2), type = tiff.number(at + 2, 2);
+        if (tag != 273 && tag != 279 && tag != 324 && tag != 325) continue; // strips' or tiles' offsets and sizes
+        TiffField field{at + 4 + wide, tiff.number(at + 4, wide), type == 3 ? 2 : type == 4 ? 4 : 8};
+        if (field.count > stored / field.bytes) return "is cut short";
+        if (field.count * field.bytes > std::uint64_t(wide)) field.at = tiff.number(field.at, wide);
+        (tag == 273 || tag == 324 ? offsets : sizes) = field;
+    }
+    for (std::uint64_t i = 0; i < offsets.count; ++i) {
+        const std::uint64_t offset = tiff.number(offsets.at + i * offsets.bytes, offsets.bytes);
+        const std::uint64_t size = i < sizes.count ? tiff.number(sizes.at + i * sizes.bytes, sizes.bytes) : 0;
+        if (offset > stored || size > stored - offset) return "is cut short";
+    }
+    return "";
+}
+
 // OpenImageIO's decoders of these write past their buffers, or abort, on files with a few bytes changed, or cannot tell
 // that a file was cut.
 constexpr std::pair<std::string_view, const char*> unsafe_formats[] = {
@@ -132,10 +185,79 @@ std::string image_fault(const std::string& path, std::int64_t stored) {
     head.resize(std::size_t(file.gcount()));
     file.clear();
     if (head.starts_with("DDS ")) return dds_fault(head, stored);
-    if (head.starts_with("\x76\x2f\x31\x01")) return exr_fault(file, head, stored);
+    if (head.starts_with(exr_magic)) return exr_fault(file, head, stored);
+    if (head.starts_with(std::string_view("II*\0", 4)) || head.starts_with(std::string_view("MM\0*", 4)) ||
+        head.starts_with(std::string_view("II+\0", 4)) || head.starts_with(std::string_view("MM\0+", 4)))
+        return tiff_fault(file, head, stored);
     for (const auto& [magic, format] : unsafe_formats)
         if (head.starts_with(magic)) return std::string(format) + " is not read: damaged files of that format crash its decoder";
     return "";
+}
+
+namespace {
+
+/// Reads at any place without reading what lies between.
+class RandomAccess {
+public:
+    explicit RandomAccess(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+    ~RandomAccess() { if (file_ >= 0) close(file_); }
+    RandomAccess(const RandomAccess&) = delete;
+    RandomAccess& operator=(const RandomAccess&) = delete;
+
+    std::string bytes(std::int64_t at, int count) const {
+        std::string all(std::size_t(count), '\0');
+        const auto got = pread(file_, all.data(), all.size(), at);
+        all.resize(std::size_t(std::max<ssize_t>(0, got)));
+        return all;
+    }
+    std::int64_t offset(std::int64_t at) const {
+        const std::string all = bytes(at, 8);
+        return all.size() < 8 ? -1 : std::int64_t(u32(all, 0)) | std::int64_t(u32(all, 4)) << 32;
+    }
+
+private:
+    int file_;
+};
+
+// Each chunk leads to the next; a lost byte breaks the chain.
+bool png_reaches_its_end(const RandomAccess& file, std::int64_t stored) {
+    for (std::int64_t at = 8; at < stored;) {
+        const std::string chunk = file.bytes(at, 8);
+        if (chunk.size() < 8) return false;
+        at += 12 + std::int64_t(u32(chunk, 0, true));
+        if (chunk.ends_with("IEND")) return at == stored;
+    }
+    return false;
+}
+
+// The table of offsets ends where the first chunk begins, and the chunk that lies last ends with the file.
+bool exr_reaches_its_end(const RandomAccess& file, std::int64_t table, bool tiled, std::int64_t stored) {
+    std::int64_t first = stored, last = 0;
+    for (std::int64_t at = table; at < first; at += 8) {
+        const std::int64_t chunk = file.offset(at);
+        if (chunk <= table || chunk >= stored) return false;
+        first = std::min(first, chunk);
+        last = std::max(last, chunk);
+    }
+    const int header = tiled ? 20 : 8; // ends with the size of what follows
+    const std::string chunk = file.bytes(last, header);
+    return int(chunk.size()) == header && last + header + std::int64_t(u32(chunk, std::size_t(header) - 4)) == stored;
+}
+
+} // namespace
+
+bool reaches_its_end(const std::string& path) {
+    std::error_code failed;
+    const auto stored = std::int64_t(std::filesystem::file_size(path, failed));
+    if (failed || !image_fault(path, stored).empty()) return false;
+    const RandomAccess file(path);
+    const std::string head = file.bytes(0, 8);
+    if (head.starts_with("\x89PNG")) return png_reaches_its_end(file, stored);
+    if (!head.starts_with(exr_magic)) return true;
+    std::ifstream stream(path, std::ios::binary);
+    stream.seekg(8);
+    ExrPart part;
+    return read_part(stream, stored, part).empty() && exr_reaches_its_end(file, stream.tellg(), part.tile_width > 0, stored);
 }
 
 } // namespace bake

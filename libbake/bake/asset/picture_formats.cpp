@@ -1,5 +1,6 @@
 #include "bake/asset/picture_formats.h"
 #include "bake/asset/image_guard.h"
+#include "bake/asset/png_header.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
@@ -30,7 +31,9 @@ void configure_oiio() {
 
 // OIIO's messages may span lines and repeat the file's name; ours are one line.
 std::string one_line(std::string text, const std::string& path) {
-    for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.replace(at, path.size(), "it");
+    const std::string ours = "the file";
+    for (const std::string& name : {'"' + path + '"', path})
+        for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += ours.size()) text.replace(at, name.size(), ours);
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 32) c = ' ';
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
@@ -76,7 +79,7 @@ Window picture_window(const OIIO::ImageSpec& spec) {
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
 
-ImageInfo describe(OIIO::ImageInput& in) {
+ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     const OIIO::ImageSpec& spec = in.spec();
     const Window window = picture_window(spec);
     ImageInfo info;
@@ -89,6 +92,9 @@ ImageInfo describe(OIIO::ImageInput& in) {
     info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
+    // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
+    if (info.format == "png")
+        if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
     return info;
 }
 
@@ -149,7 +155,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
-    info = describe(*in);
+    info = describe(*in, path);
     const OIIO::ImageSpec& spec = in->spec();
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
@@ -241,11 +247,20 @@ OIIO::TypeDesc stored_type(Depth depth) {
 } // namespace
 
 struct FormatWriter {
+    FormatWriter(const std::string& target, const std::string& file, const OIIO::ImageSpec& header, OIIO::TypeDesc rows)
+        : path(target), temporary(file), spec(header), type(rows) {}
+
     std::string path, temporary;
     OIIO::ImageSpec spec;
     OIIO::TypeDesc type; ///< of the rows handed over
-    std::unique_ptr<OIIO::ImageOutput> out = nullptr;
+    std::unique_ptr<OIIO::ImageOutput> out;
     int next_row = 0;
+
+    // libpng complains on stderr about a file that is given up; its reason is told elsewhere.
+    ~FormatWriter() {
+        const MutedStderr muted(out && out->format_name() == std::string("png"));
+        out.reset();
+    }
 
     [[noreturn]] void fail(const std::string& why) {
         throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, temporary) + "); is the disk full?");
@@ -259,8 +274,8 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     configure_oiio();
     const OIIO::TypeDesc stored = stored_type(options.depth);
     const bool integers = options.depth == Depth::u8 || options.depth == Depth::u16;
-    const std::shared_ptr<FormatWriter> writer(new FormatWriter{
-        path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored), integers ? stored : OIIO::TypeDesc::FLOAT});
+    const auto writer = std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
+                                                       integers ? stored : OIIO::TypeDesc::FLOAT);
     writer->out = OIIO::ImageOutput::create(path);
     if (!writer->out) writer->fail(OIIO::geterror());
 
@@ -274,8 +289,10 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
+    // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
+    if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (options.mips) {
-        if (!writer->out->supports("mipmap")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
         spec.attribute("textureformat", "Plain Texture");
     }
@@ -283,12 +300,29 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     return writer;
 }
 
+// TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
+bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
+    const OIIO::ImageSpec& spec = writer.spec;
+    const std::size_t texel = writer.type.size() * spec.nchannels, row_size = texel * spec.width, tile_row = texel * spec.tile_width;
+    std::vector<char> tile(tile_row * spec.tile_height);
+    for (int y = 0; y < rows; y += spec.tile_height)
+        for (int x = 0; x < spec.width; x += spec.tile_width) {
+            std::fill(tile.begin(), tile.end(), '\0');
+            const std::size_t covered = texel * std::min(spec.tile_width, spec.width - x);
+            for (int j = 0; j < std::min(spec.tile_height, rows - y); ++j)
+                std::memcpy(tile.data() + j * tile_row, values + (y + j) * row_size + x * texel, covered);
+            if (!writer.out->write_tile(x, writer.next_row + y, 0, writer.type, tile.data())) return false;
+        }
+    return true;
+}
+
 void write(FormatWriter& writer, const void* values, int rows) {
-    const int end = writer.next_row + rows;
-    const bool written = writer.spec.tile_width
-                             ? writer.out->write_tiles(0, writer.spec.width, writer.next_row, end, 0, 1, writer.type, values)
-                             : writer.out->write_scanlines(writer.next_row, end, 0, writer.type, values);
-    if (!written) writer.fail(writer.out->geterror());
+    OIIO::ImageOutput& out = *writer.out;
+    const int first = writer.next_row, end = first + rows;
+    const bool written = !writer.spec.tile_width  ? out.write_scanlines(first, end, 0, writer.type, values)
+                         : out.supports("mipmap") ? out.write_tiles(0, writer.spec.width, first, end, 0, 1, writer.type, values)
+                                                  : write_whole_tiles(writer, static_cast<const char*>(values), rows);
+    if (!written) writer.fail(out.geterror());
     writer.next_row = end;
 }
 
@@ -297,11 +331,15 @@ void next_level(FormatWriter& writer) {
     spec.width = spec.full_width = std::max(1, spec.width / 2);
     spec.height = spec.full_height = std::max(1, spec.height / 2);
     writer.next_row = 0;
-    if (!writer.out->open(writer.temporary, spec, OIIO::ImageOutput::AppendMIPLevel)) writer.fail(writer.out->geterror());
+    // In TIFF the levels are images of their own, which OIIO reads back as levels.
+    const auto mode = writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
+    if (!writer.out->open(writer.temporary, spec, mode)) writer.fail(writer.out->geterror());
 }
 
 void finish(FormatWriter& writer) {
     if (!writer.out->close()) writer.fail(writer.out->geterror());
+    writer.out.reset(); // close() leaves EXR files with mips open
+    if (!reaches_its_end(writer.temporary)) writer.fail("is cut short");
 }
 
 } // namespace

@@ -4,102 +4,97 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <tiffio.h>
 #include <unistd.h>
 
 namespace bake {
 namespace {
 
-enum Tag : std::uint16_t {
-    subfile = 254, width = 256, height = 257, bits = 258, compression = 259, photometric = 262, strip_offsets = 273,
-    orientation = 274, samples = 277, rows_per_strip = 278, strip_counts = 279, planar = 284, extra_samples = 338,
-    sample_format = 339
-};
-enum FieldType : std::uint16_t { short_field = 3, long_field = 4 };
+// Tags that say nothing about the samples: names and dates. libtiff lists these apart from the tags of the baseline.
+constexpr std::uint32_t remarks[] = {TIFFTAG_DOCUMENTNAME, TIFFTAG_IMAGEDESCRIPTION, TIFFTAG_MAKE, TIFFTAG_MODEL, TIFFTAG_SOFTWARE,
+                                     TIFFTAG_DATETIME, TIFFTAG_ARTIST, TIFFTAG_HOSTCOMPUTER, TIFFTAG_COPYRIGHT};
 
-constexpr std::uint32_t min_is_black = 1, rgb = 2, unsigned_samples = 1, float_samples = 3;
+// Those of the baseline that say more of the samples than is known here.
+constexpr std::uint32_t unusual[] = {TIFFTAG_FILLORDER, TIFFTAG_MINSAMPLEVALUE, TIFFTAG_MAXSAMPLEVALUE, TIFFTAG_SMINSAMPLEVALUE,
+                                     TIFFTAG_SMAXSAMPLEVALUE, TIFFTAG_TRANSFERFUNCTION, TIFFTAG_COLORMAP, TIFFTAG_EXTRASAMPLES,
+                                     TIFFTAG_IMAGEDEPTH, TIFFTAG_SUBIFD, TIFFTAG_XPOSITION, TIFFTAG_YPOSITION, TIFFTAG_PAGENUMBER};
 
-// Tags that say nothing about the samples: names, dates, resolution.
-constexpr std::uint16_t remarks[] = {269, 270, 271, 272, 282, 283, 296, 305, 306, 315, 316, 33432};
+/// Keeps the first thing libtiff says, with the system's reason, and has nothing printed.
+int keep_message(TIFF*, void* said, const char*, const char* format, va_list values) {
+    const int reason = errno;
+    char text[256];
+    std::vsnprintf(text, sizeof text, format, values);
+    auto& kept = *static_cast<std::string*>(said);
+    if (kept.empty()) kept = reason == 0 ? text : std::string(text) + ": " + std::strerror(reason);
+    return 1;
+}
 
-#pragma pack(push, 2)
-struct Entry {
-    std::uint16_t tag, type;
-    std::uint32_t count, value;
-};
-#pragma pack(pop)
-static_assert(sizeof(Entry) == 12);
+/// What libtiff has to say of the file until it is closed goes to `said`. The handlers are the file's own: OpenImageIO's
+/// files keep theirs.
+template <class Open> TIFF* open_quietly(std::string& said, Open&& open) {
+    TIFFOpenOptions* const options = TIFFOpenOptionsAlloc();
+    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_message, &said);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, keep_message, &said);
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options, 1 << 26);
+    errno = 0;
+    TIFF* const tiff = open(options);
+    TIFFOpenOptionsFree(options);
+    return tiff;
+}
 
-/// A file that is closed in the end.
-class ReadFile {
-public:
-    explicit ReadFile(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ~ReadFile() {
-        if (file_ >= 0) close(file_);
+/// The first directory of a file of uncompressed strips; `tiff` is null for others.
+struct Strips {
+    std::string said;
+    TIFF* tiff = nullptr;
+    std::int64_t stored = 0, height = 0, per_strip = 0; ///< bytes of the file; rows
+
+    explicit Strips(const std::string& path) {
+        std::error_code failed;
+        if (!std::filesystem::is_regular_file(path, failed)) return;
+        stored = std::int64_t(std::filesystem::file_size(path, failed));
+        // Not mapped, as the file may shrink, and strips as they are stored.
+        tiff = open_quietly(said, [&](TIFFOpenOptions* options) { return TIFFOpenExt(path.c_str(), "rmc", options); });
+        if (!tiff) return;
+        height = get<std::uint32_t>(TIFFTAG_IMAGELENGTH), per_strip = std::min(get<std::uint32_t>(TIFFTAG_ROWSPERSTRIP), height);
+        if (TIFFIsTiled(tiff) || per_strip < 1 || get<std::uint16_t>(TIFFTAG_COMPRESSION) != COMPRESSION_NONE) close();
     }
-    ReadFile(const ReadFile&) = delete;
-    ReadFile& operator=(const ReadFile&) = delete;
+    ~Strips() { close(); }
+    Strips(const Strips&) = delete;
+    Strips& operator=(const Strips&) = delete;
 
-    bool read(std::int64_t at, void* to, std::int64_t count) const {
-        for (auto* bytes = static_cast<char*>(to); count > 0;) {
-            const ssize_t got = pread(file_, bytes, std::size_t(count), at);
-            if (got <= 0) return false;
-            bytes += got, at += got, count -= got;
-        }
-        return true;
+    void close() {
+        if (tiff) TIFFClose(tiff);
+        tiff = nullptr;
     }
 
-private:
-    int file_;
+    /// The value of a tag or its default; -1 where it has none.
+    template <class Value> std::int64_t get(std::uint32_t tag) const {
+        Value value = 0;
+        return TIFFGetFieldDefaulted(tiff, tag, &value) == 1 ? std::int64_t(value) : -1;
+    }
+
+    bool has(std::uint32_t tag) const {
+        void* values[3]; // as many as any tag asked for has
+        return TIFFGetField(tiff, tag, &values[0], &values[1], &values[2]) == 1;
+    }
+
+    std::uint32_t count() const { return TIFFNumberOfStrips(tiff); }
+
+    /// Bytes that the rows of strip i take.
+    std::int64_t needed(std::uint32_t i) const {
+        const std::int64_t per_plane = (height + per_strip - 1) / per_strip;
+        return std::int64_t(TIFFVStripSize64(tiff, std::uint32_t(std::min(per_strip, height - i % per_plane * per_strip))));
+    }
+
+    bool is_inside(std::uint32_t i) const {
+        const std::uint64_t begin = TIFFGetStrileOffset(tiff, i);
+        return begin <= std::uint64_t(stored) && needed(i) <= stored - std::int64_t(begin);
+    }
 };
-
-/// All the values of one entry; none where it is missing or of another type.
-std::vector<std::uint32_t> values_of(const ReadFile& file, const std::vector<Entry>& entries, std::uint16_t tag) {
-    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.tag == tag; });
-    if (entry == entries.end() || (entry->type != short_field && entry->type != long_field) || entry->count > (1 << 20)) return {};
-    const std::size_t size = entry->type == short_field ? 2 : 4;
-    std::vector<unsigned char> bytes(std::max<std::size_t>(entry->count * size, 4));
-    if (entry->count * size <= 4)
-        std::memcpy(bytes.data(), &entry->value, 4);
-    else if (!file.read(entry->value, bytes.data(), std::int64_t(entry->count * size)))
-        return {};
-    std::vector<std::uint32_t> values(entry->count, 0);
-    for (std::size_t i = 0; i < values.size(); ++i) std::memcpy(&values[i], bytes.data() + i * size, size);
-    return values;
-}
-
-/// The first directory of a little-endian TIFF; nothing for others. `alone`: it is the only one.
-std::vector<Entry> read_entries(const ReadFile& file, bool& alone) {
-    struct { char order[2]; std::uint16_t version; std::uint32_t first; } header;
-    std::uint16_t count = 0;
-    if (!file.read(0, &header, sizeof header) || std::memcmp(header.order, "II", 2) != 0 || header.version != 42) return {};
-    if (!file.read(header.first, &count, sizeof count) || count > 64) return {};
-    std::vector<Entry> entries(count);
-    std::uint32_t next = 0;
-    const std::int64_t end = std::int64_t(header.first) + 2 + std::int64_t(count) * 12;
-    if (!file.read(header.first + 2, entries.data(), std::int64_t(count) * 12) || !file.read(end, &next, 4)) return {};
-    alone = next == 0;
-    return entries;
-}
-
-bool all_known(const std::vector<Entry>& entries) {
-    constexpr std::uint16_t known[] = {subfile, width, height, bits, compression, photometric, strip_offsets, orientation,
-                                       samples, rows_per_strip, strip_counts, planar, sample_format};
-    return std::all_of(entries.begin(), entries.end(), [&](const Entry& e) {
-        return std::count(std::begin(known), std::end(known), e.tag) || std::count(std::begin(remarks), std::end(remarks), e.tag);
-    });
-}
-
-/// The one value of a tag, `otherwise` where it is missing, -1 where it is something else.
-std::int64_t one(const ReadFile& file, const std::vector<Entry>& entries, std::uint16_t tag, std::uint32_t otherwise) {
-    const bool there = std::any_of(entries.begin(), entries.end(), [&](const Entry& e) { return e.tag == tag; });
-    const std::vector<std::uint32_t> values = values_of(file, entries, tag);
-    return values.size() == 1 ? values[0] : there ? -1 : std::int64_t(otherwise);
-}
-
-std::int64_t bytes_per_sample(const PlainTiff& tiff) { return tiff.info.bits / 8; }
 
 template <class Level> void to_floats(const Level* levels, float* values, std::int64_t count) noexcept {
     constexpr float step = 1.0f / static_cast<float>(static_cast<Level>(-1));
@@ -109,60 +104,54 @@ template <class Level> void to_floats(const Level* levels, float* values, std::i
 } // namespace
 
 std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimits& limits) {
-    std::error_code failed;
-    if (std::endian::native != std::endian::little || !std::filesystem::is_regular_file(path, failed)) return {};
-    const auto stored = std::int64_t(std::filesystem::file_size(path, failed));
-    const ReadFile file(path);
-    bool alone = false;
-    const std::vector<Entry> entries = read_entries(file, alone);
-    if (entries.empty() || !alone || !all_known(entries)) return {};
-    const auto one = [&](std::uint16_t tag, std::uint32_t otherwise) { return bake::one(file, entries, tag, otherwise); };
-    const std::int64_t depth = one(bits, 1), format = one(sample_format, unsigned_samples);
-    const bool floats = depth == 32 && format == float_samples, integers = (depth == 8 || depth == 16) && format == unsigned_samples;
-    if (!(floats || integers) || one(subfile, 0) != 0 || one(compression, 1) != 1 || one(photometric, rgb) != min_is_black ||
-        one(orientation, 1) != 1 || one(samples, 1) != 1 || one(planar, 1) != 1)
+    const Strips strips(path);
+    TIFF* const file = strips.tiff;
+    if (std::endian::native != std::endian::little || !file || !strips.said.empty() || TIFFIsByteSwapped(file) ||
+        TIFFIsBigTIFF(file) || !TIFFLastDirectory(file))
         return {};
+    for (int i = 0; i < TIFFGetTagListCount(file); ++i)
+        if (!std::count(std::begin(remarks), std::end(remarks), TIFFGetTagListEntry(file, i))) return {};
+    if (std::any_of(std::begin(unusual), std::end(unusual), [&](std::uint32_t tag) { return strips.has(tag); })) return {};
+
+    const auto one = [&](std::uint32_t tag) { return strips.get<std::uint16_t>(tag); };
+    const std::int64_t depth = one(TIFFTAG_BITSPERSAMPLE), format = one(TIFFTAG_SAMPLEFORMAT);
+    const bool floats = depth == 32 && format == SAMPLEFORMAT_IEEEFP;
+    const bool integers = (depth == 8 || depth == 16) && format == SAMPLEFORMAT_UINT;
+    if (!(floats || integers) || strips.get<std::uint32_t>(TIFFTAG_SUBFILETYPE) > 0 ||
+        one(TIFFTAG_PHOTOMETRIC) != PHOTOMETRIC_MINISBLACK || one(TIFFTAG_ORIENTATION) != ORIENTATION_TOPLEFT ||
+        one(TIFFTAG_SAMPLESPERPIXEL) != 1 || one(TIFFTAG_PLANARCONFIG) != PLANARCONFIG_CONTIG)
+        return {};
+    const std::int64_t w = strips.get<std::uint32_t>(TIFFTAG_IMAGEWIDTH), h = strips.height;
+    if (w < 1 || h < 1 || w > (1 << 20) || h > (1 << 20) || 4 * w * h > limits.max_bytes) return {};
 
     PlainTiff tiff;
-    const std::int64_t w = one(width, 0), h = one(height, 0), strip = std::min(one(rows_per_strip, ~0u), h);
-    if (w < 1 || h < 1 || w > (1 << 20) || h > (1 << 20) || strip < 1 || 4 * w * h > limits.max_bytes) return {};
-    const std::vector<std::uint32_t> offsets = values_of(file, entries, strip_offsets), counts = values_of(file, entries, strip_counts);
-    if (std::int64_t(offsets.size()) != (h + strip - 1) / strip || counts.size() != offsets.size()) return {};
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const std::int64_t needed = std::min(strip, h - std::int64_t(i) * strip) * w * depth / 8;
-        if (counts[i] < needed || std::int64_t(offsets[i]) + needed > stored) return {};
-        tiff.strips.push_back(offsets[i]);
+    for (std::uint32_t i = 0; i < strips.count(); ++i) {
+        if (!strips.is_inside(i) || std::int64_t(TIFFGetStrileByteCount(file, i)) < strips.needed(i)) return {};
+        tiff.strips.push_back(std::int64_t(TIFFGetStrileOffset(file, i)));
     }
-    tiff.rows_per_strip = int(strip);
+    if (!strips.said.empty()) return {};
+    tiff.rows_per_strip = int(strips.per_strip);
     tiff.info = {.format = "tiff", .width = int(w), .height = int(h), .channels = {"Y"},
                  .type = floats ? SampleType::float32 : depth == 16 ? SampleType::u16 : SampleType::u8, .bits = int(depth)};
     return tiff;
 }
 
 bool is_cut_short_tiff(const std::string& path) {
-    std::error_code failed;
-    if (std::endian::native != std::endian::little || !std::filesystem::is_regular_file(path, failed)) return false;
-    const auto stored = std::int64_t(std::filesystem::file_size(path, failed));
-    const ReadFile file(path);
-    bool alone = false;
-    const std::vector<Entry> entries = read_entries(file, alone);
-    const std::vector<std::uint32_t> depths = values_of(file, entries, bits);
-    if (entries.empty() || depths.empty() || one(file, entries, compression, 1) != 1) return false;
-    const std::int64_t h = one(file, entries, height, 0), strip = std::min(one(file, entries, rows_per_strip, ~0u), h);
-    const std::int64_t row_bits = one(file, entries, width, 0) * one(file, entries, samples, 1) * depths[0];
-    const std::vector<std::uint32_t> offsets = values_of(file, entries, strip_offsets), counts = values_of(file, entries, strip_counts);
-    for (std::size_t i = 0; i < std::min(offsets.size(), counts.size()); ++i) {
-        // Some writers claim a whole last strip where there are fewer rows.
-        const std::int64_t needed = std::min(strip, h - std::int64_t(i) * strip) * (row_bits / 8);
-        if (std::int64_t(offsets[i]) + std::min<std::int64_t>(counts[i], needed) > stored) return true;
-    }
+    const Strips strips(path);
+    if (!strips.tiff) return false;
+    for (std::uint32_t i = 0; i < strips.count(); ++i)
+        if (!strips.is_inside(i)) return true;
     return false;
 }
 
 Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff) {
-    const ReadFile file(path);
+    // The strips are read by several threads at once, which one TIFF of libtiff does not allow.
+    const struct File {
+        int number;
+        ~File() { close(number); }
+    } file{open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     const int columns = tiff.info.width;
-    const std::int64_t row_bytes = columns * bytes_per_sample(tiff);
+    const std::int64_t row_bytes = columns * (tiff.info.bits / 8);
     Image<float> image(columns, tiff.info.height, 1);
     // Pieces small enough to stay in the cache between reading and converting.
     for_rows(tiff.info.height, std::max<std::int64_t>(1, (1 << 18) / row_bytes), [&](std::int64_t begin, std::int64_t end) {
@@ -170,9 +159,11 @@ Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff) {
         for (std::int64_t y = begin, last; y < end; y = last) {
             const std::int64_t strip = y / tiff.rows_per_strip;
             last = std::min(end, (strip + 1) * tiff.rows_per_strip);
-            void* const to = levels.empty() ? static_cast<void*>(image.row(int(y))) : levels.data();
-            if (!file.read(tiff.strips[strip] + (y - strip * tiff.rows_per_strip) * row_bytes, to, (last - y) * row_bytes))
-                throw Error(Refusal::unreadable, path + ": cannot be read to its end; was it being written? run again");
+            auto* to = levels.empty() ? reinterpret_cast<unsigned char*>(image.row(int(y))) : levels.data();
+            std::int64_t at = tiff.strips[strip] + (y - strip * tiff.rows_per_strip) * row_bytes;
+            for (std::int64_t left = (last - y) * row_bytes, got; left > 0; to += got, at += got, left -= got)
+                if ((got = pread(file.number, to, std::size_t(left), at)) <= 0)
+                    throw Error(Refusal::unreadable, path + ": cannot be read to its end; was it being written? run again");
             const std::int64_t count = (last - y) * columns;
             if (tiff.info.type == SampleType::u8) to_floats(levels.data(), image.row(int(y)), count);
             if (tiff.info.type == SampleType::u16) to_floats(reinterpret_cast<const std::uint16_t*>(levels.data()), image.row(int(y)), count);
@@ -183,64 +174,26 @@ Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff) {
 
 namespace {
 
-constexpr std::int64_t strip_rows = 64;
+constexpr int strip_rows = 64;
 
 std::int64_t row_bytes_of(const PictureSize& size, Depth depth) {
     return std::int64_t(size.width) * size.channels * (depth == Depth::u8 ? 1 : depth == Depth::u16 ? 2 : 4);
 }
 
-/// Everything before the samples.
-std::vector<unsigned char> make_header(const PictureSize& size, const WriteOptions& options) {
-    const std::int64_t row_bytes = row_bytes_of(size, options.depth), strip_count = (size.height + strip_rows - 1) / strip_rows;
-    const auto strip_bytes = [&](std::int64_t i) { return std::min(strip_rows, size.height - i * strip_rows) * row_bytes; };
-    const auto channels = std::uint32_t(size.channels), colours = channels < 3 ? 1u : 3u;
-    const std::uint32_t depth_bits = options.depth == Depth::u8 ? 8 : options.depth == Depth::u16 ? 16 : 32;
-
-    struct Field { std::uint16_t tag; FieldType type; std::vector<std::uint32_t> values; };
-    std::vector<std::uint32_t> extra; // what the channels beyond grey or rgb are: 2 alpha that colours are not multiplied by, 0 anything
-    for (std::uint32_t c = colours; c < channels; ++c) extra.push_back(options.channels[c] == "A" ? 2 : 0);
-    std::vector<Field> fields = {
-        {width, long_field, {std::uint32_t(size.width)}},
-        {height, long_field, {std::uint32_t(size.height)}},
-        {bits, short_field, std::vector<std::uint32_t>(channels, depth_bits)},
-        {compression, short_field, {1}},
-        {photometric, short_field, {colours == 1 ? min_is_black : rgb}},
-        {strip_offsets, long_field, std::vector<std::uint32_t>(strip_count)},
-        {orientation, short_field, {1}},
-        {samples, short_field, {channels}},
-        {rows_per_strip, long_field, {std::uint32_t(strip_rows)}},
-        {strip_counts, long_field, std::vector<std::uint32_t>(strip_count)},
-        {planar, short_field, {1}},
-        {extra_samples, short_field, extra},
-        {sample_format, short_field, std::vector<std::uint32_t>(channels, depth_bits == 32 ? float_samples : unsigned_samples)}};
-    std::erase_if(fields, [](const Field& field) { return field.values.empty(); });
-
-    const auto size_of = [](const Field& field) { return field.values.size() * (field.type == short_field ? 2 : 4); };
-    const std::size_t directory = 8 + 2 + 12 * fields.size() + 4;
-    std::size_t begin = directory; // of the samples, behind what does not fit the entries
-    for (const Field& field : fields) begin += size_of(field) > 4 ? (size_of(field) + 3) / 4 * 4 : 0;
-    begin = (begin + 15) / 16 * 16;
-    for (Field& field : fields)
-        for (std::int64_t i = 0; i < strip_count; ++i) {
-            if (field.tag == strip_offsets) field.values[i] = std::uint32_t(std::int64_t(begin) + i * strip_rows * row_bytes);
-            if (field.tag == strip_counts) field.values[i] = std::uint32_t(strip_bytes(i));
-        }
-
-    std::vector<unsigned char> header(begin, 0);
-    const auto put = [&](std::size_t at, std::uint32_t value, std::size_t count) { std::memcpy(header.data() + at, &value, count); };
-    std::memcpy(header.data(), "II*\0", 4);
-    put(4, 8, 4);
-    put(8, std::uint32_t(fields.size()), 2);
-    std::size_t entry = 10, beyond = directory;
-    for (const Field& field : fields) {
-        const std::size_t each = field.type == short_field ? 2 : 4;
-        put(entry, field.tag, 2), put(entry + 2, field.type, 2), put(entry + 4, std::uint32_t(field.values.size()), 4);
-        std::size_t at = entry + 8;
-        if (size_of(field) > 4) put(at, std::uint32_t(beyond), 4), at = beyond, beyond += (size_of(field) + 3) / 4 * 4;
-        for (std::size_t i = 0; i < field.values.size(); ++i) put(at + i * each, field.values[i], each);
-        entry += 12;
-    }
-    return header;
+bool describe(TIFF* tiff, const PictureSize& size, const WriteOptions& options) {
+    const int colours = size.channels < 3 ? 1 : 3;
+    std::vector<std::uint16_t> extra; // what the channels beyond grey or rgb are
+    for (int c = colours; c < size.channels; ++c)
+        extra.push_back(options.channels[c] == "A" ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED);
+    const bool floats = options.depth != Depth::u8 && options.depth != Depth::u16;
+    const auto set = [&](std::uint32_t tag, int value) { return TIFFSetField(tiff, tag, value) == 1; };
+    return set(TIFFTAG_IMAGEWIDTH, size.width) && set(TIFFTAG_IMAGELENGTH, size.height) &&
+           set(TIFFTAG_BITSPERSAMPLE, floats ? 32 : options.depth == Depth::u8 ? 8 : 16) &&
+           set(TIFFTAG_SAMPLEFORMAT, floats ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT) &&
+           set(TIFFTAG_COMPRESSION, COMPRESSION_NONE) &&
+           set(TIFFTAG_PHOTOMETRIC, colours == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB) && set(TIFFTAG_SAMPLESPERPIXEL, size.channels) && set(TIFFTAG_ROWSPERSTRIP, strip_rows) &&
+           set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) && set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) &&
+           (extra.empty() || TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, int(extra.size()), extra.data()) == 1);
 }
 
 } // namespace
@@ -255,31 +208,45 @@ bool fits_plain_tiff(const std::string& path, const PictureSize& size, const Wri
 }
 
 PlainTiffWriter::PlainTiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size, const WriteOptions& options)
-    : path_(path), row_bytes_(std::size_t(row_bytes_of(size, options.depth))), file_(open(temporary.c_str(), O_WRONLY | O_CLOEXEC)) {
-    // Not truncated: the file is empty, and ext4 writes a truncated one to the disk before it closes it.
-    const std::vector<unsigned char> header = make_header(size, options);
-    write_bytes(header.data(), header.size());
+    : path_(path), row_bytes_(std::size_t(row_bytes_of(size, options.depth))),
+      // Not truncated: the file is empty, and ext4 writes a truncated one to the disk before it closes it.
+      file_(open(temporary.c_str(), O_RDWR | O_CLOEXEC)) {
+    if (file_ < 0) fail(std::strerror(errno));
+    tiff_ = open_quietly(said_, [&](TIFFOpenOptions* with) { return TIFFFdOpenExt(file_, temporary.c_str(), "wl", with); });
+    if (tiff_ && describe(tiff_, size, options)) return;
+    close_files();
+    fail(said_);
 }
 
-PlainTiffWriter::~PlainTiffWriter() {
-    if (file_ >= 0) close(file_);
+PlainTiffWriter::~PlainTiffWriter() { close_files(); }
+
+bool PlainTiffWriter::close_files() noexcept {
+    if (tiff_) TIFFCleanup(tiff_); // leaves the file open, whose closing may fail
+    const bool closed = file_ < 0 || close(file_) == 0;
+    tiff_ = nullptr, file_ = -1;
+    return closed;
 }
 
-void PlainTiffWriter::write_bytes(const void* bytes, std::size_t count) {
-    for (auto* from = static_cast<const char*>(bytes); count > 0;) {
-        const ssize_t put = ::write(file_, from, count);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
-        from += put, count -= std::size_t(put);
+void PlainTiffWriter::fail(const std::string& why) const {
+    throw Error(Refusal::unwritable, path_ + ": cannot be written (" + why + "); is the disk full?");
+}
+
+void PlainTiffWriter::write(const void* values, int rows) {
+    const auto* from = static_cast<const unsigned char*>(values);
+    for (int part; rows > 0; rows -= part, row_ += part) {
+        part = std::min(rows, strip_rows - row_ % strip_rows);
+        const auto bytes = tmsize_t(part * row_bytes_);
+        errno = 0;
+        // Appends to the strip where it was left. The samples are written from where they are, and not changed.
+        if (TIFFWriteRawStrip(tiff_, std::uint32_t(row_ / strip_rows), const_cast<unsigned char*>(from), bytes) != bytes) fail(said_);
+        from += bytes;
     }
 }
 
-void PlainTiffWriter::write(const void* values, int rows) { write_bytes(values, std::size_t(rows) * row_bytes_); }
-
 void PlainTiffWriter::finish() {
-    const bool closed = close(file_) == 0;
-    file_ = -1;
-    if (!closed) throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
+    errno = 0;
+    if (!TIFFFlush(tiff_)) fail(said_);
+    if (!close_files()) fail(std::strerror(errno));
 }
 
 } // namespace bake

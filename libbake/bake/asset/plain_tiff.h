@@ -1,11 +1,13 @@
 // Plain TIFF: uncompressed strips of samples that lie in the file as they do in memory. Heights and tables are large and
 // their bakes take little longer than a copy of them, so these files are read and written here, at the speed of the disk.
 //
-// TIFF 6.0, Adobe 1992, baseline; little-endian.
+// libtiff reads and writes what is said of the samples; the samples themselves go by it unconverted.
 #pragma once
 #include "bake/asset/image.h"
 #include "bake/asset/picture_formats.h"
 #include <optional>
+
+struct tiff; // libtiff's
 
 namespace bake {
 
@@ -42,11 +44,14 @@ public:
     void finish();
 
 private:
-    void write_bytes(const void* bytes, std::size_t count);
+    bool close_files() noexcept;
+    [[noreturn]] void fail(const std::string& why) const;
 
-    std::string path_;
+    std::string path_, said_; ///< said_: by libtiff
     std::size_t row_bytes_;
+    int row_ = 0;
     int file_;
+    tiff* tiff_ = nullptr;
 };
 
 } // namespace bake

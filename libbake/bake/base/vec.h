@@ -1,5 +1,7 @@
 // Vector types: GLM under the names the papers use.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,10 +19,14 @@ using Vec4f = Vec4<float>;
 using Vec2d = Vec2<double>;
 using Vec3d = Vec3<double>;
 
-/// v / |v|, or zero when |v| is zero or not finite: a kernel never divides by zero.
+/// v / |v|, or zero when |v| is zero or v is not finite: a kernel never divides by zero.
 template <class T> Vec3<T> unit_or_zero(const Vec3<T>& v) noexcept {
     const T length = glm::length(v);
-    return length > T(0) && length * T(0) == T(0) ? v / length : Vec3<T>(T(0));
+    if (length > T(0) && length * T(0) == T(0)) return v / length;
+    if (length == T(0) || !(glm::dot(v, Vec3<T>(T(0))) == T(0))) return Vec3<T>(T(0));
+    // The squares overflowed, v did not: slopes of 1e20 and more.
+    const Vec3<T> shorter = v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return shorter / glm::length(shorter);
 }
 
 } // namespace bake

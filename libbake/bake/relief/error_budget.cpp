@@ -90,7 +90,7 @@ ErrorBudget error_budget(const BudgetInput& in) {
     ErrorBudget budget;
     budget.samples = sum.samples;
     if (sum.samples == 0) return budget;
-    const auto rms_deg = [&](double squares) { return glm::degrees(std::sqrt(std::max(0.0, squares) / sum.samples)); };
+    const auto rms_deg = [&](double squares) { return std::min(180.0, glm::degrees(std::sqrt(std::max(0.0, squares) / sum.samples))); };
     budget.filter_deg = rms_deg(sum.filter - sum.filter_noise);
     budget.quantisation_deg = rms_deg(sum.quantisation);
     budget.encoding_deg = rms_deg(sum.encoding);

@@ -103,20 +103,22 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
+    // Slopes of what is beyond this would leave the range of float.
+    constexpr float largest = 1e12f;
     std::vector<std::int64_t> bad_in_row(values.height());
     for_rows(values.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = begin; y < end; ++y) {
             const float* row = values.row(int(y));
-            for (int x = 0; x < values.width(); ++x) bad_in_row[y] += row[x] * 0 != 0;
+            for (int x = 0; x < values.width(); ++x) bad_in_row[y] += !(std::abs(row[x]) <= largest);
         }
     });
     const auto bad_row = std::find_if(bad_in_row.begin(), bad_in_row.end(), [](std::int64_t bad) { return bad > 0; });
     if (bad_row == bad_in_row.end()) return;
     const auto y = int(bad_row - bad_in_row.begin());
     const float* const row = values.row(y);
-    const auto x = std::find_if(row, row + values.width(), [](float v) { return v * 0 != 0; }) - row;
+    const auto x = std::find_if(row, row + values.width(), [](float v) { return !(std::abs(v) <= largest); }) - row;
     throw Error(Refusal::unsuitable, path + ": " + std::to_string(std::accumulate(bad_row, bad_in_row.end(), std::int64_t(0))) +
-                                         " values are NaN or infinite, the first at texel (" + std::to_string(x) + ", " +
+                                         " values are NaN, infinite or beyond 1e12, the first at texel (" + std::to_string(x) + ", " +
                                          std::to_string(y) + "); repair the height");
 }
 

@@ -20,8 +20,8 @@ struct HeightTexture {
 };
 
 /// Reads a height: never sRGB-decoded; `mean` averages the colour channels and leaves alpha out; luma weighs them by
-/// Rec. 709. Throws as read_image, and Error{Refusal::unsuitable} for a channel the file does not have or for NaN and Inf
-/// (with their count and first place).
+/// Rec. 709. Throws as read_image, and Error{Refusal::unsuitable} for a channel the file does not have or for NaN, Inf and
+/// values beyond 1e12 (with their count and first place).
 HeightTexture read_height(const std::string& path, Grey grey = Grey::mean, const ReadLimits& limits = {});
 
 /// 1 - value everywhere: for textures whose black is high.

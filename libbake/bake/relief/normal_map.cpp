@@ -21,8 +21,11 @@ Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n
     // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
     // determinant has the sign of `sign`.
     const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
-    return unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
+    const Vec3f unit = unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
                               along_n * glm::dot(tangent, tangent) - along_t * skew));
+    // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
+    constexpr float rounding = 1e-6f;
+    return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
 }
 
 namespace {
@@ -216,6 +219,13 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
     }, progress);
     const UvRaster& raster = target.raster;
     report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
+    report.flat_triangles = raster.degenerate;
+    for (const Triangle& t : target.surface.triangles)
+        for (const std::uint32_t corner : t.corner)
+            if (target.surface.mesh->corner_uv[corner] == no_index) {
+                ++report.triangles_without_uv;
+                break;
+            }
     report.degenerate = degenerate;
     report.folded = folded;
     report.padded = pad_texels(map, owned, options.padding);

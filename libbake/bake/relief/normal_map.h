@@ -28,6 +28,8 @@ struct NormalMapOptions {
 struct NormalMapReport {
     std::int64_t covered = 0, border = 0, overlapped = 0; ///< as UvRaster
     std::int64_t outside_faces = 0, crossing_faces = 0;   ///< as UvRaster
+    std::int64_t flat_triangles = 0;                      ///< without area in uv
+    std::int64_t triangles_without_uv = 0;
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
@@ -40,7 +42,8 @@ Vec3f encode_normal(const Vec3f& t, bool directx) noexcept;
 Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept;
 
 /// The coordinates t of a normal in the frame that shaders build: n = t.x T + t.y B + t.z N with B = sign (N x T), T and
-/// N as interpolated, neither unit nor perpendicular. Unit; zero where the frame is singular.
+/// N as interpolated, neither unit nor perpendicular. Unit; zero where the frame is singular. x and y within 1e-6 of 0
+/// are 0.
 Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept;
 
 /// Height and slopes at the texel centres of a map.

@@ -223,6 +223,8 @@ template <class T> TrianglePatch<T> triangle_patch(const MeshSurface& s, std::ui
         patch.p_v[0] = along_v(patch.p);
         patch.facet_n = patch.sigma * unit_or_zero(glm::cross(patch.p_u[0], patch.p_v[0]));
     } else {
+        patch.own_u = along_u(patch.p);
+        patch.own_v = along_v(patch.p);
         patch.m_u = along_u(patch.n);
         patch.m_v = along_v(patch.n);
     }

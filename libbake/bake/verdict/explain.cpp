@@ -73,7 +73,12 @@ RouteStep surface_step(const ExplainInput& in, const BakeTarget& target, const T
     return step;
 }
 
-RouteStep normal_step(const ExplainInput& in, const BakeTarget& target, const Jet<double>& jet, const Height<double>& h) {
+/// The method that is baked: blinn stands in for exact where the surface is inside out.
+NormalMethod baked_method(const ExplainInput& in, const Jet<float>& jet, const Height<float>& h) {
+    return in.options.method == NormalMethod::exact && folds(jet, h.b) ? NormalMethod::blinn : in.options.method;
+}
+
+RouteStep normal_step(NormalMethod baked, const BakeTarget& target, const Jet<double>& jet, const Height<double>& h) {
     const LectureScale<double> scale{target.lecture.u, target.lecture.v};
     RouteStep step{"displaced_normal: N' by each method, unit", {}};
     const Vec3d exact = unit_or_zero(displaced_normal(jet, h, NormalMethod::exact));
@@ -82,7 +87,7 @@ RouteStep normal_step(const ExplainInput& in, const BakeTarget& target, const Je
         const Vec3d n = unit_or_zero(displaced_normal(jet, h, method, scale));
         char words[64];
         std::snprintf(words, sizeof words, "%.4f deg from exact%s", glm::degrees(angle_between(n, exact)),
-                      method == in.options.method ? ", baked" : "");
+                      method == baked ? ", baked" : "");
         step.entries.push_back({std::string(name(method)), list(n), words});
     }
     return step;
@@ -158,10 +163,10 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
     }
     const Jet<float> jet = jet_at(target.surface, hit.triangle, hit.b1, hit.b2);
     route.push_back(surface_step(in, target, hit, jet));
-    route.push_back(normal_step(in, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
-    const bool stand_in = folds(jet, h.b) && in.options.method == NormalMethod::exact;
-    if (stand_in) route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, stand_in ? NormalMethod::blinn : in.options.method, target.lecture));
+    const NormalMethod baked = baked_method(in, jet, h);
+    route.push_back(normal_step(baked, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
+    if (baked != in.options.method) route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, baked, target.lecture));
     const Frame frame = frame_at(target, hit);
     const Vec3f t = in.options.space == Space::object ? normal : to_tangent_space(normal, frame.tangent, frame.n, frame.sign);
     if (t == Vec3f(0)) {

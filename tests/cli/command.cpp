@@ -1,0 +1,114 @@
+#include "cli/command.h"
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace bake::test {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+fs::path source() { return std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : "."; }
+
+} // namespace
+
+Folder::Folder() {
+    std::string name = (fs::temp_directory_path() / "bake_test_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+}
+
+Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+}
+
+std::set<std::string> Folder::names() const {
+    std::set<std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(path)) all.insert(fs::relative(entry.path(), path).string());
+    return all;
+}
+
+std::string contents(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_file(const std::string& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+
+std::size_t lines(const std::string& text) { return std::size_t(std::count(text.begin(), text.end(), '\n')); }
+
+Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, const RunLimits& limits) {
+    const char* bake = std::getenv("BAKE");
+    REQUIRE_MESSAGE(bake, "BAKE names the command to test");
+    // Outside the folder, so that the command's own traces stand alone in it.
+    const Folder streams;
+    const std::string out = limits.stdout_path.empty() ? streams / "out" : limits.stdout_path, err = streams / "err";
+    std::vector<char*> argv{const_cast<char*>(bake)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const std::string where = folder.path.string();
+
+    const double start = now();
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
+        dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+        if (limits.file_bytes >= 0) {
+            const rlimit most{rlim_t(limits.file_bytes), rlim_t(limits.file_bytes)};
+            setrlimit(RLIMIT_FSIZE, &most);
+        }
+        if (chdir(where.c_str()) != 0 || (limits.as_nobody && (setgid(65534) != 0 || setuid(65534) != 0))) _exit(126);
+        execv(bake, argv.data());
+        _exit(127);
+    }
+    REQUIRE(child > 0);
+    int status = 0;
+    rusage used{};
+    bool interrupted = false;
+    while (wait4(child, &status, WNOHANG, &used) == 0) {
+        const double elapsed = now() - start;
+        if (!interrupted && limits.interrupt_after >= 0 && elapsed > limits.interrupt_after) {
+            kill(child, SIGINT);
+            interrupted = true;
+        }
+        if (elapsed > limits.seconds) kill(child, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    Run run;
+    run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    run.seconds = now() - start;
+    run.peak_mib = double(used.ru_maxrss) / 1024;
+    run.out = contents(streams / "out");
+    run.err = contents(err);
+    return run;
+}
+
+void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named, const RunLimits& limits) {
+    std::string line;
+    for (const std::string& argument : arguments) line += argument + " ";
+    CAPTURE(line);
+    const auto before = folder.names();
+    const Run run = run_bake(folder, arguments, limits);
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    CHECK(run.out == "");
+    CHECK(lines(run.err) == 1);
+    CHECK(run.err.starts_with("bake: "));
+    CHECK(run.err.find(named) != std::string::npos);
+    CHECK(folder.names() == before);
+}
+
+fs::path shared_data() {
+    const fs::path data = source() / "../shared/data";
+    return fs::exists(data) ? fs::canonical(data) : fs::path();
+}
+
+fs::path own_meshes() { return fs::absolute(source() / "meshes"); }
+
+} // namespace bake::test

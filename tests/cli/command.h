@@ -1,0 +1,59 @@
+// Runs the command from outside, within limits, and looks at everything it leaves behind.
+#pragma once
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace bake::test {
+namespace fs = std::filesystem;
+
+/// A folder of its own, removed at the end.
+struct Folder {
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string operator/(const std::string& name) const { return (path / name).string(); }
+    /// Names of all that is in it, hidden files too.
+    std::set<std::string> names() const;
+    fs::path path;
+};
+
+std::string contents(const std::string& file);
+void write_file(const std::string& file, const std::string& bytes);
+std::size_t lines(const std::string& text);
+
+struct RunLimits {
+    double seconds = 20;               ///< killed after
+    long long file_bytes = -1;         ///< largest file it may write; -1: any
+    double interrupt_after = -1;       ///< seconds after which SIGINT is sent; -1: never
+    bool as_nobody = false;            ///< without root's rights
+    std::string stdout_path;           ///< where stdout goes instead
+};
+
+struct Run {
+    int code = -1; ///< 128 + signal when killed by one
+    std::string out, err;
+    double seconds = 0;
+    double peak_mib = 0;
+};
+
+/// Runs $BAKE with these arguments in `folder` (its working directory).
+Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, const RunLimits& limits = {});
+
+/// A refusal: this code, nothing on stdout, one line on stderr that starts "bake: " and has `named` in it, and no files
+/// but those that were there.
+void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named,
+                   const RunLimits& limits = {});
+
+/// ../shared/data beside the sources, empty when absent.
+fs::path shared_data();
+/// The project's own meshes/.
+fs::path own_meshes();
+
+} // namespace bake::test
