@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
-#include <memory>
 #include <string>
 
 using namespace bake;
@@ -65,9 +64,9 @@ void row(const std::string& name, const Chart& chart, int size, int threads) {
         raster = {};
         times.push_back(seconds([&] { raster = uv_raster(chart.mesh, chart.triangles, size, size); }));
         writes.push_back(seconds([&] {
-            const auto plain = std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t(size) * size * 3);
+            Image<TexelHit> plain(size, size, 1);
             for_rows(size, 16, [&](std::int64_t begin, std::int64_t end) {
-                std::fill(plain.get() + begin * size * 3, plain.get() + end * size * 3, no_index);
+                std::fill(plain.row(int(begin)), plain.row(int(begin)) + (end - begin) * size, TexelHit{no_index, 0, 0});
             });
         }));
     }

@@ -22,8 +22,6 @@ float as_half(float value) noexcept {
 
 namespace {
 
-constexpr int lattice = 96; ///< samples a side, at most
-
 struct Squares {
     double filter = 0, filter_noise = 0, quantisation = 0, encoding = 0, method = 0;
     int samples = 0;
@@ -67,7 +65,7 @@ ErrorBudget error_budget(const BudgetInput& in) {
     const double sigma = in.step / std::sqrt(12.0);
     const Vec2d noise = glm::abs(scale) * (sigma * own.noise()), difference_noise = glm::abs(scale) * (sigma * noise_of_difference(own, sharp));
 
-    const int rows = std::min(lattice, height), columns = std::min(lattice, width);
+    const int rows = std::min(in.lattice, height), columns = std::min(in.lattice, width);
     std::vector<Squares> of_row(rows);
     for_rows(rows, 4, [&](std::int64_t begin, std::int64_t end) {
         for (auto j = begin; j < end; ++j) {
@@ -103,13 +101,18 @@ ErrorBudget error_budget(const BudgetInput& in) {
 }
 
 std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own) {
-    FilterAdvice best{input.filter, own.total_deg};
+    // A coarse lattice is enough to rank them; the best is measured again as its own bake would be.
     BudgetInput other = input;
+    other.lattice = 32;
+    FilterAdvice best{input.filter, error_budget(other).total_deg};
     for (const Filter filter : all_filters) {
         other.filter = filter;
         const double total_deg = error_budget(other).total_deg;
         if (total_deg < best.total_deg) best = {filter, total_deg};
     }
+    if (best.filter == input.filter) return {};
+    other.filter = best.filter, other.lattice = input.lattice;
+    best.total_deg = error_budget(other).total_deg;
     if (best.total_deg < 0.75 * own.total_deg) return best;
     return {};
 }
