@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 #include <random>
+#include <unistd.h>
 
 using namespace bake;
 namespace fs = std::filesystem;
@@ -29,7 +30,7 @@ Cube random_cube(int n) {
 }
 
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_cube_test_" + std::to_string(std::rand()));
+    fs::path path = fs::temp_directory_path() / ("bake_cube_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
     Folder() { fs::create_directories(path); }
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <initializer_list>
+#include <unistd.h>
 
 using namespace bake;
 using namespace bake::test;
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_scene_io_test_" + std::to_string(std::rand()));
+    fs::path path = fs::temp_directory_path() / ("bake_scene_io_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
     Folder() { fs::create_directories(path); }
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }

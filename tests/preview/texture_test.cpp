@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <unistd.h>
 
 using namespace bake;
 namespace fs = std::filesystem;
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_texture_test_" + std::to_string(std::rand()));
+    fs::path path = fs::temp_directory_path() / ("bake_texture_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
     Folder() { fs::create_directories(path); }
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }

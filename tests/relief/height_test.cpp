@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <random>
+#include <unistd.h>
 
 using namespace bake;
 using oracle::pi;
@@ -20,7 +21,7 @@ Image<double> wave_picture(int width, int height) {
 
 constexpr Interpolation all_interpolations[] = {Interpolation::bilinear, Interpolation::catmull_rom, Interpolation::c2};
 
-std::string temporary(const char* name) { return (std::filesystem::temp_directory_path() / name).string(); }
+std::string temporary(const char* name) { return (std::filesystem::temp_directory_path() / ("bake_" + std::to_string(getpid()) + "_" + name)).string(); }
 
 } // namespace
 
