@@ -1,4 +1,4 @@
-// What every verb of the command shares. Precompiled: CLI11 is slow to parse.
+// What every verb of the command shares.
 #pragma once
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
