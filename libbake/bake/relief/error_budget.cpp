@@ -103,7 +103,7 @@ ErrorBudget error_budget(const BudgetInput& in) {
 std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own) {
     // A coarse lattice is enough to rank them; the best is measured again as its own bake would be.
     BudgetInput other = input;
-    other.lattice = 32;
+    other.lattice = 24;
     FilterAdvice best{input.filter, error_budget(other).total_deg};
     for (const Filter filter : all_filters) {
         other.filter = filter;
