@@ -10,6 +10,31 @@ namespace bake {
 /// A corner without normal or uv, a face without material or group.
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
+/// Values beside the mesh's own, named as in the file: curvatures, colours, second uvs.
+struct Attribute {
+    std::string name;
+    int components = 1;        ///< 1 to 4
+    std::vector<float> values; ///< corners * components
+};
+
+/// How a subdivision surface rounds its cage: sharpness 0 is smooth, 10 and more infinitely sharp.
+struct SubdivisionTags {
+    struct Crease {
+        std::uint32_t a, b; ///< positions at the ends of an edge
+        float sharpness;
+    };
+    struct Corner {
+        std::uint32_t position;
+        float sharpness;
+    };
+    /// As OpenSubdiv names them: whether boundaries are followed, and their corners kept sharp.
+    enum class Boundary { none, edge_only, edge_and_corner };
+
+    std::vector<Crease> creases;
+    std::vector<Corner> corners;
+    Boundary boundary = Boundary::edge_only;
+};
+
 /// Face f has the corners [face_begin[f], face_begin[f + 1]), counter-clockwise seen from outside, at least three.
 /// corner_normal is empty when no face has normals, corner_uv when none has uvs; a single corner without has no_index.
 /// Readers guarantee: every index is in range or no_index where that is allowed, every value is finite.
@@ -26,6 +51,10 @@ struct Mesh {
     std::vector<std::string> materials, groups; ///< names in order of first use
     std::vector<std::uint32_t> face_material;   ///< faces or none; index in materials or no_index
     std::vector<std::uint32_t> face_group;      ///< faces or none; index in groups or no_index
+
+    std::vector<Vec4f> tangents;       ///< corners or none: unit T, and the sign of B = sign (N x T)
+    std::vector<Attribute> attributes; ///< what else the corners carry
+    SubdivisionTags tags;              ///< where the mesh is a subdivision cage
 
     std::size_t faces() const noexcept { return face_begin.size() - 1; }
     std::size_t corners() const noexcept { return corner_position.size(); }
