@@ -8,9 +8,13 @@
 
 namespace bake {
 
+/// The jet runs along two parameters of the surface's own choice (called u and v in Jet): those of the uv chart on
+/// meshes, those of the patch on subdivision limits and shapes. How the uv goes along them is beside it, so that nobody
+/// divides by the area of a chart: b_s = b_u uv_s.x + b_v uv_s.y, and likewise b_t.
 struct SurfacePoint {
-    Jet<double> jet; ///< along the UV chart. p and n always hold; the rest is zero, sigma too, where the chart has no area
-    Vec2d uv{0};
+    Jet<double> jet;           ///< sigma 0 where there is no normal; then only p holds
+    Vec2d uv{0};               ///< zero without uvs
+    Vec2d uv_s{0}, uv_t{0};    ///< derivatives of uv along the jet's first and second parameter
 };
 
 /// How patches hang together. Two patches share an edge where their faces do; an edge whose ends are one vertex has no
