@@ -32,7 +32,7 @@ struct Reader {
         return static_cast<std::size_t>(value);
     }
     Vec3d point() {
-        const auto& v = take(3, "a point 'x y z' is expected here");
+        const auto& v = take(3, "no point; 'x y z' belongs here");
         return {v[0], v[1], v[2]};
     }
 };
@@ -66,15 +66,15 @@ Key key_of(const std::array<Vec3d, 4>& c, bool reversed) {
 
 std::vector<BezierPatch> read_bezier(const std::string& path) {
     Reader in{path, read_number_lines(path)};
-    const std::size_t patches = in.count("the number of patches is expected here, alone on its line");
-    if (in.next == in.lines.size()) in.refuse("patches are expected after their number");
+    const std::size_t patches = in.count("no number of patches; it belongs here, alone on its line");
+    if (in.next == in.lines.size()) in.refuse("no patches; they belong after their number");
     const std::size_t form = in.lines[in.next].values.size();
     std::vector<BezierPatch> out;
     if (form == 16) {
         std::vector<std::size_t> at;
         for (std::size_t i = 0; i < patches; ++i, at.push_back(in.next - 1))
-            in.take(16, "a patch of 16 indices on one line is expected here");
-        const std::size_t points = in.count("the number of points is expected here, alone on its line");
+            in.take(16, "no patch; 16 indices on one line belong here");
+        const std::size_t points = in.count("no number of points; it belongs here, alone on its line");
         std::vector<Vec3d> list;
         for (std::size_t i = 0; i < points; ++i) list.push_back(in.point());
         const bool from_zero = std::any_of(at.begin(), at.end(), [&](std::size_t line) {
@@ -95,7 +95,7 @@ std::vector<BezierPatch> read_bezier(const std::string& path) {
         in.next = behind;
     } else if (form == 2 || form == 3) {
         for (std::size_t i = 0; i < patches; ++i) {
-            if (form == 2 && in.take(2, "a patch's degrees '3 3' are expected here") != std::vector<double>{3, 3}) {
+            if (form == 2 && in.take(2, "no degrees; every patch begins with '3 3' here") != std::vector<double>{3, 3}) {
                 --in.next;
                 in.refuse("only bicubic patches can be read; their degrees are '3 3'");
             }
@@ -103,9 +103,9 @@ std::vector<BezierPatch> read_bezier(const std::string& path) {
             for (Vec3d& p : patch.points) p = in.point();
         }
     } else {
-        in.refuse("expected a point 'x y z', the degrees '3 3' or 16 indices");
+        in.refuse("no patch; a point 'x y z', the degrees '3 3' or 16 indices belong here");
     }
-    if (in.next < in.lines.size()) in.refuse("nothing is expected here; is the number of patches right?");
+    if (in.next < in.lines.size()) in.refuse("more than the patches it names; is their number right?");
     return out;
 }
 

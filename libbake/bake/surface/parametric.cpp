@@ -78,7 +78,7 @@ ParametricSurface::ParametricSurface(std::string_view text) {
     const auto refuse = [&](const std::string& what) { throw Error{Refusal::usage, head + what}; };
     const std::size_t colon = text.find(':');
     const ShapeKind& kind = kind_named(text.substr(0, colon), head);
-    auto shape = std::make_shared<Shape>();
+    auto shape = std::make_shared<AnalyticShape>();
     shape->name = kind.name;
     shape->kind = &kind;
     for (const ShapeKey& key : kind.keys) shape->values.push_back(key.value);

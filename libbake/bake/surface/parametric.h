@@ -3,6 +3,7 @@
 // u and v both run from 0 to 1 (p_u is per unit of u); y is up. All charts of closed shapes have N = p_u x p_v outward.
 #pragma once
 #include "bake/asset/mesh.h"
+#include "bake/surface/closure.h"
 #include "bake/surface/jet.h"
 #include <memory>
 #include <string>
@@ -14,12 +15,7 @@ namespace bake {
 /// A point where p_u x p_v = 0: does the normal have a limit there?
 enum class Pole { none, with_normal, without_normal };
 
-/// How the edges of the unit square meet in space.
-enum class Closure {
-    open,     ///< they do not
-    periodic, ///< u (or v) = 0 and 1 are the same curve
-    twisted,  ///< the same curve run the other way: Moebius strip, Klein bottle
-};
+struct AnalyticShape; // parametric_shapes.h
 
 /// One analytic surface, by name and values: cheap to copy, immutable.
 class ParametricSurface {
@@ -50,12 +46,11 @@ public:
     /// (one per meridian of a cone's apex); zero where that vanishes too.
     Vec3d side_normal(double u, double v, int patch = 0) const noexcept;
 
-    struct Shape; ///< parametric_shapes.h
-    const Shape& shape() const noexcept { return *shape_; }
+    const AnalyticShape& shape() const noexcept { return *shape_; }
 
 private:
     Vec3d limit_normal(double u, double v, int patch) const noexcept;
-    std::shared_ptr<const Shape> shape_;
+    std::shared_ptr<const AnalyticShape> shape_;
 };
 
 /// Names of all shapes, with their keys and defaults: one line each, for --help.

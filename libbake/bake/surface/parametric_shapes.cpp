@@ -5,11 +5,9 @@
 namespace bake {
 namespace {
 
-using Shape = ParametricSurface::Shape;
-
 /// The formula of a shape as its derivatives.
 template <TaylorPoint (*point)(const double*, const Taylor&, const Taylor&)>
-Jet2<double> exact(const Shape& shape, double u, double v, int) {
+Jet2<double> exact(const AnalyticShape& shape, double u, double v, int) {
     return derivatives_of(point(shape.values.data(), {.f = u, .u = 1}, {.f = v, .v = 1}));
 }
 
@@ -96,13 +94,13 @@ TaylorPoint superellipsoid(const double* key, const Taylor& u, const Taylor& v) 
     return {key[0] * (up.cos * round.cos), key[1] * up.sin, -key[2] * (up.cos * round.sin)};
 }
 
-Jet2<double> revolution(const Shape& shape, double u, double v, int) {
+Jet2<double> revolution(const AnalyticShape& shape, double u, double v, int) {
     const ProfilePoint at = profile_at(shape.profile, v);
     const Taylor radius{.f = at.p.x, .v = at.d.x, .vv = at.dd.x}, height{.f = at.p.y, .v = at.d.y, .vv = at.dd.y};
     return derivatives_of(turned(radius, height, {.f = u, .u = 1}));
 }
 
-Jet2<double> bezier(const Shape& shape, double u, double v, int patch) {
+Jet2<double> bezier(const AnalyticShape& shape, double u, double v, int patch) {
     return bezier_derivatives(shape.patches[static_cast<std::size_t>(patch)], u, v);
 }
 

@@ -1,7 +1,7 @@
 // The shapes behind ParametricSurface: a table of names, keys and point functions.
 #pragma once
 #include "bake/surface/bezier.h"
-#include "bake/surface/parametric.h"
+#include "bake/surface/closure.h"
 #include "bake/surface/profile.h"
 #include <span>
 
@@ -14,6 +14,8 @@ struct ShapeKey {
     const char* what;
 };
 
+struct AnalyticShape;
+
 /// One kind of shape. Values come in the order of the keys.
 struct ShapeKind {
     const char* name;
@@ -24,11 +26,11 @@ struct ShapeKind {
     bool closed, orientable;
     int columns, rows;
     const char* (*fault)(const double* value); ///< what values do not go together, or null; itself null: any do
-    Jet2<double> (*derivatives)(const ParametricSurface::Shape& shape, double u, double v, int patch);
+    Jet2<double> (*derivatives)(const AnalyticShape& shape, double u, double v, int patch);
 };
 std::span<const ShapeKind> shape_kinds();
 
-struct ParametricSurface::Shape {
+struct AnalyticShape {
     std::string name;
     const ShapeKind* kind = nullptr;
     std::vector<double> values;

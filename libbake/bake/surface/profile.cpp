@@ -90,7 +90,7 @@ Profile read_profile(const std::string& path, bool pointed) {
     Profile profile;
     for (const NumberLine& line : lines) {
         const std::string where = "line " + std::to_string(line.line);
-        if (line.values.size() != 2) refuse(where + ": two numbers 'radius height' are expected");
+        if (line.values.size() != 2) refuse(where + ": not two numbers; 'radius height' is expected");
         const Vec2d p{line.values[0], line.values[1]};
         if (p.x < 0) refuse(where + ": a negative radius; the axis is at radius 0");
         if (!profile.points.empty() && p == profile.points.back()) refuse(where + ": the point before again; take one out");
@@ -98,9 +98,9 @@ Profile read_profile(const std::string& path, bool pointed) {
     }
     auto& points = profile.points;
     const std::size_t n = points.size();
-    if (n < 2) refuse("a profile needs two lines 'radius height' or more");
+    if (n < 2) refuse("fewer than two points; a profile has a line 'radius height' for each");
     profile.loop = n > 3 && points.front() == points.back();
-    if (n == 3 && points.front() == points.back()) refuse("a loop needs three different points or more");
+    if (n == 3 && points.front() == points.back()) refuse("the curve goes back the way it came; a loop needs three different points or more");
 
     double area = 0;
     for (std::size_t i = 0; i + 1 < n; ++i) area += (points[i].x + points[i + 1].x) * (points[i + 1].y - points[i].y);

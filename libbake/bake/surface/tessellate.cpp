@@ -1,5 +1,6 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/surface/parametric.h"
 #include "bake/surface/parametric_shapes.h"
 
 namespace bake {
@@ -112,8 +113,9 @@ struct BezierSharing {
             }
         for (std::size_t p = 0; p < borders.corner.size(); ++p)
             for (std::size_t k = 0; k < 4; ++k) {
-                const std::uint32_t border = borders.border[p][k];
-                positions[borders.corner[p][k]] = Vec3f(borders.curve[border][borders.reversed[p][k] ? 3 : 0]);
+                const std::size_t side = k < 2 ? 0 : 2; // along u, below or above
+                const bool end = (k == 1 || k == 2) != borders.reversed[p][side];
+                positions[borders.corner[p][k]] = Vec3f(borders.curve[borders.border[p][side]][end ? 3 : 0]);
             }
     }
 };
