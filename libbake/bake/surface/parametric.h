@@ -46,16 +46,23 @@ public:
     /// (else zero), and sigma, n_u, n_v are 0.
     Jet<double> jet(double u, double v, int patch = 0) const noexcept;
     Pole pole(double u, double v, int patch = 0) const noexcept;
+    /// The outward unit normal where there is one; at a pole what it tends to along the parameter that runs into it
+    /// (one per meridian of a cone's apex); zero where that vanishes too.
+    Vec3d side_normal(double u, double v, int patch = 0) const noexcept;
+
+    struct Shape; ///< parametric_shapes.h
+    const Shape& shape() const noexcept { return *shape_; }
 
 private:
-    struct Shape;
+    Vec3d limit_normal(double u, double v, int patch) const noexcept;
     std::shared_ptr<const Shape> shape_;
 };
 
 /// Names of all shapes, with their keys and defaults: one line each, for --help.
 std::string parametric_shapes();
 
-/// columns x rows quads over every patch: uv = parameters, exact normals, positions shared at closures and poles. Quads
+/// columns x rows quads over every patch, patch by patch and row by row: face (patch rows + j) columns + i has the
+/// corners (i,j) (i+1,j) (i+1,j+1) (i,j+1). uv = parameters, exact normals, positions shared at closures and poles. Quads
 /// at a pole keep four corners, two of which share their position, so that each keeps its own uv
 /// (see without_repeats()). Bezier patches share the positions of common borders when these are bit-equal.
 /// Throws Error{Refusal::usage} for fewer than one column or row, or 3 of them along a periodic direction.
