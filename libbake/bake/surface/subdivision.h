@@ -26,7 +26,7 @@ struct SubdivisionOptions {
     Scheme scheme = Scheme::catmark;
     UvSmoothing uv = UvSmoothing::inside;
     /// Times that the neighbourhood of extraordinary vertices and creases is split before an approximation takes its
-    /// place, 1 to 15. Parameters that are multiples of 2^-isolation are exact; elsewhere see docs/surface.md.
+    /// place, 1 to 10. Parameters that are multiples of 2^-isolation are exact; elsewhere see docs/surface.md.
     int isolation = 10;
 };
 
@@ -62,6 +62,9 @@ public:
     /// All points of the lattice (i / rate, j / rate), i first: (rate + 1)^2 for a quad patch, those with i + j <= rate
     /// for a triangle. The same bits as evaluate() gives, faster.
     void evaluate_lattice(std::uint32_t patch, int rate, Derivatives order, std::span<LimitPoint> out) const noexcept;
+    /// Its rows j in [row_begin, row_end) only, for callers who work in bands.
+    void evaluate_rows(std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
+                       std::span<LimitPoint> out) const noexcept;
 
 private:
     struct Limit;
