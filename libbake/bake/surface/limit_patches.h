@@ -6,7 +6,9 @@
 //   quad      sum c[m][n] a^m b^n, m and n up to 3             a = scale s + origin.x, b = scale t + origin.y
 //   triangle  sum c[m][n] a^m b^n, m + n up to 4               scale is negative in triangles turned by 180 degrees
 #pragma once
-#include "bake/surface/subdivision.h"
+#include "bake/surface/subdivision_types.h"
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace bake {

@@ -3,14 +3,14 @@
 //
 // Gregory patches stand in for the surface where the splitting ends. Their four or three pairs of inner points are
 // averaged, which makes them polynomials with the same corners, tangents and borders.
+#include "bake/surface/subdivision.h"
+#include "bake/base/error.h"
 #include "bake/surface/limit_patches.h"
 #include "bake/surface/subdivision_refiner.h"
-#include "bake/base/error.h"
-#include "bake/base/parallel.h"
 #include <cassert>
 #include <cmath>
 #include <new>
-#include <numeric>
+#include <limits>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
 

@@ -1,6 +1,7 @@
 // The cage as OpenSubdiv takes it. Within its room only: subdivision*.cpp.
 #pragma once
-#include "bake/surface/subdivision.h"
+#include "bake/asset/mesh.h"
+#include "bake/surface/subdivision_types.h"
 #include <memory>
 #include <opensubdiv/far/topologyRefiner.h>
 
