@@ -23,17 +23,6 @@ struct MeshBase {
     std::vector<Corners> corners; ///< patches
 };
 
-/// Bit-equal positions become the first of them.
-void weld_positions(Mesh& mesh) {
-    const std::size_t count = mesh.positions.size();
-    const Weld weld = weld_corners(mesh.positions, std::vector<Vec3f>(count), std::vector<Vec2f>(count));
-    if (weld.vertices == count) return;
-    std::vector<std::uint32_t> first(weld.vertices, no_index);
-    for (std::uint32_t p = 0; p < count; ++p)
-        if (first[weld.vertex[p]] == no_index) first[weld.vertex[p]] = p;
-    for (std::uint32_t& p : mesh.corner_position) p = first[weld.vertex[p]];
-}
-
 /// Triangles and quads as they are, the triangles of larger polygons.
 MeshBase make_mesh_base(const Mesh& mesh, Patches& patches) {
     MeshBase base{make_mesh_surface(mesh), {}};
