@@ -126,27 +126,30 @@ void PatchCells::refine() {
     }
     out.vertices = next_vertex, out.edges = next_edge;
     out.seam.resize(next_edge), out.crease.resize(next_edge);
+    out.sharp_vertex = base.sharp_vertex;
+    out.sharp_vertex.resize(next_vertex);
 }
 
 namespace {
 
-template <class Ends> std::vector<CellSide> lowest(const PatchComplex& complex, std::uint32_t count, const Ends& ends) {
-    std::vector<CellSide> owner(count, {no_index, 0});
+template <class Number>
+std::vector<std::uint32_t> lowest(const PatchComplex& complex, std::uint32_t count, const Number& number) {
+    std::vector<std::uint32_t> owner(count, no_index);
     for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
         for (int i = 0; i < complex.patches[p].sides(); ++i) {
-            CellSide& o = owner[ends(complex.patches[p], i)];
-            if (o.cell == no_index) o = {p, std::uint8_t(i)};
+            std::uint32_t& o = owner[number(complex.patches[p], i)];
+            if (o == no_index) o = 4 * p + std::uint32_t(i);
         }
     return owner;
 }
 
 } // namespace
 
-std::vector<CellSide> edge_owners(const PatchComplex& complex) {
+std::vector<std::uint32_t> edge_owners(const PatchComplex& complex) {
     return lowest(complex, complex.edges, [](const PatchComplex::Patch& p, int i) { return p.edge[i]; });
 }
 
-std::vector<CellSide> vertex_owners(const PatchComplex& complex) {
+std::vector<std::uint32_t> vertex_owners(const PatchComplex& complex) {
     return lowest(complex, complex.vertices, [](const PatchComplex::Patch& p, int i) { return p.vertex[i]; });
 }
 

@@ -8,12 +8,6 @@
 
 namespace bake {
 
-/// A side that belongs to an edge: the lowest cell's, which answers for the points there.
-struct CellSide {
-    std::uint32_t cell;
-    std::uint8_t side;
-};
-
 class PatchCells {
 public:
     /// `complex` must outlive it. `split` 1 and more; at 1 cells are patches and nothing is copied.
@@ -38,10 +32,10 @@ private:
     PatchComplex refined_;
 };
 
-/// Per edge of a complex its lowest patch; cell no_index for an edge of none.
-std::vector<CellSide> edge_owners(const PatchComplex& complex);
-/// Per vertex its lowest patch, `side` being the corner.
-std::vector<CellSide> vertex_owners(const PatchComplex& complex);
+/// Per edge of a complex the lowest patch on it, which answers for the points there: 4 patch + side.
+std::vector<std::uint32_t> edge_owners(const PatchComplex& complex);
+/// Per vertex: 4 patch + corner.
+std::vector<std::uint32_t> vertex_owners(const PatchComplex& complex);
 
 /// A side both of whose ends are one vertex has no length.
 inline bool is_point(const PatchComplex::Patch& patch, int side) noexcept {
