@@ -130,7 +130,69 @@ Disagreement edge_disagreement(const BaseSurface& base, std::initializer_list<do
     return worst;
 }
 
+/// uvs that are x and y, so that there is a chart (and on the sides none).
+Mesh with_chart(Mesh mesh) {
+    for (const Vec3f& p : mesh.positions) mesh.uvs.emplace_back(p.x + 0.3f * p.z, p.y - 0.2f * p.z);
+    mesh.corner_uv = mesh.corner_position;
+    return mesh;
+}
+
+/// Largest error of p_u, p_v, n_u, n_v, uv_s and uv_t against central differences at inner points of the patches.
+double jet_error(const BaseSurface& base) {
+    const double h = 1e-5;
+    double worst = 0;
+    for (std::uint32_t i = 0; i < base.complex().patches.size(); ++i)
+        for (const auto& [s, t] : {std::pair(0.3, 0.4), {0.55, 0.2}}) {
+            const SurfacePoint point = at(base, i, s, t);
+            const SurfacePoint right = at(base, i, s + h, t), left = at(base, i, s - h, t), up = at(base, i, s, t + h), down = at(base, i, s, t - h);
+            const auto off = [&](const auto& want, const auto& high, const auto& low) {
+                worst = std::max(worst, glm::length((high - low) / (2 * h) - want));
+            };
+            off(point.jet.p_u, right.jet.p, left.jet.p), off(point.jet.p_v, up.jet.p, down.jet.p);
+            off(point.jet.n_u, right.jet.n, left.jet.n), off(point.jet.n_v, up.jet.n, down.jet.n);
+            off(point.uv_s, right.uv, left.uv), off(point.uv_t, up.uv, down.uv);
+            worst = std::max(worst, glm::length(point.jet.n - point.jet.sigma * unit_or_zero(glm::cross(point.jet.p_u, point.jet.p_v))));
+        }
+    return worst;
+}
+
 } // namespace
+
+TEST_SUITE("oracle") {
+
+TEST_CASE("base_surface: jets of limits and shapes are the numeric derivatives of their points, on whole patches and quarters") {
+    // A house: with triangles among its faces, every quad is four patches.
+    Mesh mixed = cube();
+    mixed.positions.emplace_back(0.5, 0.5, 1.4);
+    mixed = polygons(mixed.positions, {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}});
+    const Mesh quads = with_chart(cube());
+    mixed = with_chart(std::move(mixed));
+    Mesh triangles = with_chart(polygons({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                                         {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}));
+    // Central differences over 2e-5: third derivatives of order 100 times 1e-10 (more in the pieces of an octahedron), and rounding of
+    // 1e-16 over 1e-5.
+    CHECK(jet_error(BaseSurface(quads, {})) < 1e-7);
+    CHECK(jet_error(BaseSurface(mixed, {})) < 1e-7);
+    CHECK(jet_error(BaseSurface(triangles, {.scheme = Scheme::loop})) < 1e-6);
+    CHECK(jet_error(BaseSurface(ParametricSurface("torus"), 12, 8)) < 1e-7);
+    CHECK(jet_error(BaseSurface(ParametricSurface("saddle"), 2, 3)) < 1e-7);
+}
+
+TEST_CASE("base_surface: a shape's points are the shape's, patch by patch") {
+    const ParametricSurface shape("torus:R=2,r=0.7");
+    const BaseSurface base(shape, 12, 8);
+    for (std::uint32_t i = 0; i < 96; i += 7) {
+        const SurfacePoint point = at(base, i, 0.25, 0.75);
+        const Jet<double> want = shape.jet(point.uv.x, point.uv.y);
+        CHECK(glm::length(point.jet.p - want.p) < 1e-15);
+        CHECK(glm::length(point.jet.n_u * 12.0 - want.n_u) < 1e-12);
+        CHECK(std::abs(point.jet.p.y) <= 0.7 + 1e-12);
+        const auto& face = base.complex().patches[i].face;
+        const Vec3d corner(base.mesh().positions[base.mesh().corner_position[base.mesh().face_begin[face]]]);
+        CHECK(glm::length(at(base, i, 0, 0).jet.p - corner) < 1e-6); // the mesh has floats
+    }
+}
+}
 
 TEST_SUITE("unit") {
 
@@ -246,13 +308,90 @@ TEST_CASE("base_surface: without a chart the jet runs along the patch, and says 
     CHECK(point.uv_s == Vec2d(0));
 }
 
+TEST_CASE("base_surface: a cage's limit has the cage's complex; with other faces than quads, its corners'") {
+    const BaseSurface whole(cube(), {});
+    check_consistent(whole.complex());
+    CHECK(whole.complex().patches.size() == 6);
+    CHECK(whole.complex().edges == 12);
+    CHECK(euler(whole.complex()) == 2);
+    Mesh prism = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}});
+    const BaseSurface corners(prism, {});
+    check_consistent(corners.complex());
+    CHECK(corners.complex().patches.size() == 18);
+    CHECK(corners.complex().vertices == 6 + 9 + 5);
+    CHECK(euler(corners.complex()) == 2);
+    CHECK(boundary_edges(corners.complex()) == 0);
+    for (const BaseSurface* base : {&whole, &corners}) {
+        const Disagreement d = edge_disagreement(*base);
+        CHECK(d.p < 1e-14);
+        CHECK(d.n < 1e-9); // of the limit evaluator
+    }
+    // The limit of a cage pushed apart has its faces where the patches say.
+    for (std::uint32_t i = 0; i < 18; ++i) {
+        const std::uint32_t face = corners.complex().patches[i].face;
+        CHECK((at(corners, i, 0.5, 0.5).jet.n.z < -0.5) == (face == 0));
+        CHECK((at(corners, i, 0.5, 0.5).jet.n.z > 0.5) == (face == 1));
+    }
+}
+
+TEST_CASE("base_surface: infinitely sharp edges of a cage are creases, semi-sharp ones are not") {
+    for (const float sharpness : {0.0f, 2.0f, 10.0f}) {
+        Mesh mesh = cube();
+        for (const auto& [a, b] : {std::pair(4u, 5u), {5u, 6u}, {6u, 7u}, {7u, 4u}}) mesh.tags.creases.push_back({a, b, sharpness});
+        const BaseSurface base(mesh, {});
+        CHECK(std::count(base.complex().crease.begin(), base.complex().crease.end(), true) == (sharpness == 10 ? 4 : 0));
+        CHECK(std::count(base.complex().sharp_vertex.begin(), base.complex().sharp_vertex.end(), true) == (sharpness == 10 ? 4 : 0));
+        // The top's sides are one smooth curve at its corners: no tangents there, but a normal.
+        if (sharpness == 10) CHECK(angle_deg(at(base, 1, 1, 0).jet.n, {0, 0, 1}) < 1e-6);
+    }
+}
+
+TEST_CASE("base_surface: shapes close where they should, with seams at the borders of the chart") {
+    const auto seams = [](const BaseSurface& base) { return std::count(base.complex().seam.begin(), base.complex().seam.end(), true); };
+    const BaseSurface torus(ParametricSurface("torus"), 12, 8);
+    check_consistent(torus.complex());
+    CHECK(euler(torus.complex()) == 0);
+    CHECK(boundary_edges(torus.complex()) == 0);
+    CHECK(seams(torus) == 12 + 8);
+    const BaseSurface sphere(ParametricSurface("sphere"), 12, 8);
+    check_consistent(sphere.complex());
+    CHECK(euler(sphere.complex()) == 2);
+    CHECK(boundary_edges(sphere.complex()) == 24); // the poles' edges, which have no length
+    CHECK(seams(sphere) == 8);
+    CHECK(edge_disagreement(sphere).p < 1e-14);
+    const BaseSurface strip(ParametricSurface("moebius"), 12, 4);
+    check_consistent(strip.complex());
+    CHECK(euler(strip.complex()) == 0);
+    CHECK(boundary_edges(strip.complex()) == 24);
+    CHECK(std::count(strip.complex().crease.begin(), strip.complex().crease.end(), true) == 4); // n turns over there
+    CHECK(edge_disagreement(strip).p < 1e-14);
+}
+
+TEST_CASE("base_surface: a pole keeps its limit normal, and the tip of a cone one per meridian") {
+    const BaseSurface sphere(ParametricSurface("sphere"), 12, 8);
+    int poles = 0;
+    for (std::uint32_t i = 0; i < sphere.complex().patches.size(); ++i)
+        for (const Vec2d& st : {Vec2d(0, 0), Vec2d(0.3, 1)}) {
+            const SurfacePoint point = at(sphere, i, st.x, st.y);
+            CHECK(glm::length(point.jet.n) == doctest::Approx(1));
+            CHECK(angle_deg(point.jet.n, point.jet.p) < 1e-6);
+            if (point.jet.sigma != 0) continue;
+            ++poles;
+            CHECK(std::abs(point.jet.n.y) == doctest::Approx(1));
+        }
+    CHECK(poles == 24);
+    const BaseSurface cone(ParametricSurface("cone"), 12, 3);
+    CHECK(std::count(cone.complex().sharp_vertex.begin(), cone.complex().sharp_vertex.end(), true) >= 1);
+}
+
 TEST_CASE("base_surface: the lattice is evaluate() at its places, row by row") {
     Mesh mesh = cube();
     mesh.corner_position.insert(mesh.corner_position.end(), {0, 1, 5});
     mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
-    const BaseSurface base(mesh);
-    for (const std::uint32_t patch : {0u, 6u}) {
-        const int rate = 3, sides = base.complex().patches[patch].sides();
+    const BaseSurface bases[] = {BaseSurface(mesh), BaseSurface(cube(), {}), BaseSurface(ParametricSurface("torus"), 6, 5)};
+    for (const auto& [which, patch, rate] : {std::tuple(0, 0u, 3), {0, 6u, 11}, {1, 2u, 8}, {1, 3u, 40}, {2, 7u, 9}}) {
+        const BaseSurface& base = bases[which];
+        const int sides = base.complex().patches[patch].sides();
         std::vector<Vec2d> st;
         for (int j = 0; j <= rate; ++j)
             for (int i = 0; i <= (sides == 3 ? rate - j : rate); ++i) st.emplace_back(double(i) / rate, double(j) / rate);
@@ -326,6 +465,24 @@ TEST_CASE("base_surface: Spot is a closed complex of genus 0, cage and triangles
         CHECK(d.p < 1e-15);
         CHECK(d.n < 1e-12);
     }
+}
+
+TEST_CASE("base_surface: Spot's cage and mixed cages have closed limits whose patches agree at their edges") {
+    if (test::shared_data().empty()) {
+        MESSAGE("no shared data");
+        return;
+    }
+    const BaseSurface spot(read_mesh(test::shared_data() / "meshes/spot/spot_control_mesh.obj"), {});
+    check_consistent(spot.complex());
+    CHECK(euler(spot.complex()) == 2);
+    CHECK(boundary_edges(spot.complex()) == 0);
+    const Disagreement d = edge_disagreement(spot, {0.0, 0.5});
+    CHECK(d.p < 1e-14);
+    CHECK(d.n < 1e-6);
+    CHECK(d.uv < 1e-7);
+    const BaseSurface car(read_mesh(test::shared_data() / "meshes/opensubdiv/catmark_car.obj"), {});
+    check_consistent(car.complex());
+    CHECK(edge_disagreement(car, {0.0, 0.5}).p < 1e-12);
 }
 
 TEST_CASE("base_surface: the teapot is a consistent complex") {

@@ -23,17 +23,6 @@ struct MeshBase {
     std::vector<Corners> corners; ///< patches
 };
 
-/// Bit-equal positions become the first of them.
-void weld_positions(Mesh& mesh) {
-    const std::size_t count = mesh.positions.size();
-    const Weld weld = weld_corners(mesh.positions, std::vector<Vec3f>(count), std::vector<Vec2f>(count));
-    if (weld.vertices == count) return;
-    std::vector<std::uint32_t> first(weld.vertices, no_index);
-    for (std::uint32_t p = 0; p < count; ++p)
-        if (first[weld.vertex[p]] == no_index) first[weld.vertex[p]] = p;
-    for (std::uint32_t& p : mesh.corner_position) p = first[weld.vertex[p]];
-}
-
 /// Triangles and quads as they are, the triangles of larger polygons.
 MeshBase make_mesh_base(const Mesh& mesh, Patches& patches) {
     MeshBase base{make_mesh_surface(mesh), {}};
@@ -131,9 +120,19 @@ LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, P
                                                                  : whole_patches(cage, std::move(surface), patches);
 }
 
-SurfacePoint point_of(const LimitPoint& limit) noexcept {
+/// Where p_s and p_t run along one line, as at a corner whose two sides are one smooth crease, their cross product is
+/// rounding; the normal there is what it tends to from the inside of the patch.
+SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Jet2<double> s{limit.p, limit.p_s, limit.p_t, limit.p_ss, limit.p_st, limit.p_tt};
-    return {jet_of(s), limit.uv, limit.uv_s, limit.uv_t};
+    SurfacePoint point{jet_of(s), limit.uv, limit.uv_s, limit.uv_t};
+    const double area = glm::length(glm::cross(s.p_u, s.p_v)), square = glm::length(s.p_u) * glm::length(s.p_v);
+    if (area > 1e-9 * square) return point;
+    const Vec3d along_s = glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv);
+    const Vec3d along_t = glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv);
+    const Vec2d inwards = Vec2d(1.0 / 3, 1.0 / 3) - st;
+    point.jet.n = unit_or_zero(inwards.x * along_s + inwards.y * along_t);
+    point.jet.sigma = 0;
+    return point;
 }
 
 /// The derivatives along the axes of a quarter.
@@ -160,7 +159,7 @@ void evaluate(const LimitBase& base, std::uint32_t patch, std::span<const Vec2d>
         }
         base.surface.evaluate(base.limit[patch], places, Derivatives::second, {points, places.size()});
         for (std::size_t i = 0; i < places.size(); ++i) {
-            out[done + i] = point_of(points[i]);
+            out[done + i] = point_of(points[i], places[i]);
             if (quarter) turn(*quarter, out[done + i]);
         }
     }
@@ -190,6 +189,7 @@ void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d>
         point = {base.shape.jet(uv.x, uv.y, int(patch) / cells), uv, {du, 0}, {0, dv}};
         point.jet.p_u *= du, point.jet.n_u *= du;
         point.jet.p_v *= dv, point.jet.n_v *= dv;
+        if (point.jet.n == Vec3d(0)) point.jet.n = base.shape.side_normal(uv.x, uv.y, int(patch) / cells);
     }
 }
 
@@ -267,7 +267,9 @@ void BaseSurface::evaluate_lattice(std::uint32_t patch, int rate, std::span<Surf
         thread_local std::vector<LimitPoint> points;
         points.resize(quad ? std::size_t(rate + 1) * std::size_t(rate + 1) : std::size_t(rate + 1) * std::size_t(rate + 2) / 2);
         limit->surface.evaluate_lattice(limit->limit[patch], rate, Derivatives::second, points);
-        for (std::size_t i = 0; i < points.size(); ++i) out[i] = point_of(points[i]);
+        std::size_t at = 0;
+        for (int j = 0; j <= rate; ++j)
+            for (int i = 0; i <= (quad ? rate : rate - j); ++i, ++at) out[at] = point_of(points[at], {double(i) / rate, double(j) / rate});
         return;
     }
     Vec2d st[chunk];

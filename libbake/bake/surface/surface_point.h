@@ -9,7 +9,8 @@ namespace bake {
 /// goes along them is beside it, so that nobody divides by the area of a chart: b_s = b_u uv_s.x + b_v uv_s.y, and
 /// likewise b_t.
 /// Where there is no tangent plane along these parameters sigma is 0 and the derivatives hold nothing; n is still the
-/// limit normal where there is one (at the pole of a sphere), else zero. p and uv always hold.
+/// limit normal where there is one (at the pole of a sphere), that of its own meridian at the tip of a cone, zero where
+/// there is nothing. p and uv always hold.
 struct SurfacePoint {
     Jet<double> jet;
     Vec2d uv{0};            ///< zero without uvs
