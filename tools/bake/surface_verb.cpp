@@ -1,4 +1,5 @@
 #include "bake/asset/mesh_io.h"
+#include "bake/base/parallel.h"
 #include "bake/surface/surface_map.h"
 #include "bake/surface/surface_summary.h"
 #include "options.h"
@@ -94,7 +95,7 @@ Loaded load(const SurfaceArgs& args) {
         if (!args.resolution.empty()) std::tie(columns, rows) = parse_resolution(args.resolution);
         const std::string patches = shape.patches() > 1 ? format(" on each of %d patches", shape.patches()) : "";
         return {BaseSurface(shape, columns, rows), SurfaceKind::shape, 1,
-                format("%s, %d x %d cells", shape.help().c_str(), columns, rows) + patches};
+                format("%s; %d x %d cells", shape.help().substr(shape.name().size() + 2).c_str(), columns, rows) + patches};
     }
     Mesh mesh = read_mesh(args.mesh);
     if (!args.scheme) {
@@ -136,7 +137,8 @@ void print(const std::string& title, const Loaded& loaded, const SurfaceMesh& me
     for (std::size_t i = 0; i < std::min(places_shown, s.degenerate.size()); ++i) {
         const DegeneratePoint& d = s.degenerate[i];
         const std::string uv = has_uv ? format(", uv (%.5g, %.5g)", double(d.uv.x), double(d.uv.y)) : "";
-        std::printf("  (%.5g, %.5g, %.5g)%s, face %zu: %s\n", double(d.p.x), double(d.p.y), double(d.p.z), uv.c_str(), d.face, describe(d.what));
+        const auto p = Vec3d(d.p) + 0.0; // no -0
+        std::printf("  (%.5g, %.5g, %.5g)%s, face %zu: %s\n", p.x, p.y, p.z, uv.c_str(), d.face, describe(d.what));
     }
     if (s.degenerate.size() > places_shown) std::printf("  and %zu more; --json lists them\n", s.degenerate.size() - places_shown);
 }
@@ -209,11 +211,13 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         progress.start("maps", options.height);
         const std::vector<Image<float>> maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
         watch.lap("maps");
-        for (std::size_t q = 0; q < maps.size(); ++q) {
-            writers[q]->write(maps[q].data(), maps[q].height());
-            writers[q]->finish();
-            object["maps"][name(quantities[q])] = map_file(args, quantities[q]);
-        }
+        for_rows(static_cast<std::int64_t>(maps.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+            for (auto q = static_cast<std::size_t>(begin); q < static_cast<std::size_t>(end); ++q) {
+                writers[q]->write(maps[q].data(), maps[q].height());
+                writers[q]->finish();
+            }
+        });
+        for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args, q);
         object["texels"] = to_json(report);
     }
     progress.finish();

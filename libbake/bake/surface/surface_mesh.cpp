@@ -30,6 +30,9 @@ SurfaceValues surface_values(const SurfacePoint& point, bool has_uv) noexcept {
 
 namespace {
 
+/// What patches say of a point they share differs by less than this, unless there is a crease or a seam.
+constexpr float same_normal = 1e-3f, same_uv = 1e-6f;
+
 constexpr Vec2d quad_corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle_corner[] = {{0, 0}, {1, 0}, {0, 1}};
 
 SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const Vec2d& st, const SurfacePoint& point) noexcept {
@@ -64,24 +67,18 @@ template <class T> void keep_used(std::vector<T>& values, std::vector<std::uint3
     values = std::move(out);
 }
 
-/// One normal per corner, equal ones at a position shared.
-void set_normals(Mesh& mesh, const std::vector<SurfaceSample>& samples, const std::vector<std::uint32_t>& corner_sample) {
-    mesh.normals.clear();
-    mesh.corner_normal.clear();
-    std::vector<std::uint32_t> last(mesh.positions.size(), no_index), before;
-    for (std::size_t c = 0; c < mesh.corners(); ++c) {
-        const Vec3f& n = samples[corner_sample[c]].n;
-        std::uint32_t& head = last[mesh.corner_position[c]];
+/// Per point, the first of its group with the same value up to `tolerance`. Groups are numbered below the points' number.
+template <class Value>
+std::vector<std::uint32_t> first_alike(std::size_t points, const std::vector<std::uint32_t>& group, float tolerance, const Value& value) {
+    std::vector<std::uint32_t> out(points), last(points, no_index), before(points);
+    for (std::uint32_t i = 0; i < points; ++i) {
+        std::uint32_t& head = last[group[i]];
         std::uint32_t at = head;
-        while (at != no_index && mesh.normals[at] != n) at = before[at];
-        if (at == no_index) {
-            at = static_cast<std::uint32_t>(mesh.normals.size());
-            mesh.normals.push_back(n);
-            before.push_back(head);
-            head = at;
-        }
-        mesh.corner_normal.push_back(at);
+        while (at != no_index && glm::length(value(i) - value(at)) > tolerance) at = before[at];
+        if (at == no_index) at = i, before[i] = head, head = i;
+        out[i] = at;
     }
+    return out;
 }
 
 /// Meshes and shapes: quads are one patch, other polygons one per triangle, in the order of the faces.
@@ -116,8 +113,12 @@ void as_it_is(const BaseSurface& surface, SurfaceMesh& out) {
         }
     });
     if (out.kind != SurfaceKind::mesh) return; // tessellate() has exact normals
-    set_normals(out.mesh, out.samples, out.corner_sample);
-    keep_used(out.mesh.positions, out.mesh.corner_position);
+    keep_used(out.mesh.positions, out.mesh.corner_position); // no more positions than corners are left
+    const auto normal = [&](std::uint32_t c) { return out.samples[c].n; };
+    out.mesh.corner_normal = first_alike(mesh.corners(), out.mesh.corner_position, 0, normal);
+    out.mesh.normals.clear();
+    for (const SurfaceSample& sample : out.samples) out.mesh.normals.push_back(sample.n);
+    keep_used(out.mesh.normals, out.mesh.corner_normal);
 }
 
 /// Numbers of the points of one patch's lattice.
@@ -205,11 +206,10 @@ void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progr
 
     // Points that are one share what is equal up to rounding.
     const std::vector<std::uint32_t> first = first_points(complex, begin, rate);
-    std::vector<std::uint32_t> normal(first), uv(first);
-    for (std::uint32_t i = 0; i < begin.back(); ++i) {
-        if (glm::length(out.samples[i].n - out.samples[first[i]].n) > 1e-4f) normal[i] = i;
-        if (has_uv && glm::length(mesh.uvs[i] - mesh.uvs[first[i]]) > 1e-6f) uv[i] = i;
-    }
+    const auto normal_at = [&](std::uint32_t i) { return out.samples[i].n; };
+    const auto uv_at = [&](std::uint32_t i) { return mesh.uvs[i]; };
+    const std::vector<std::uint32_t> normal = first_alike(first.size(), first, same_normal, normal_at);
+    const std::vector<std::uint32_t> uv = has_uv ? first_alike(first.size(), first, same_uv, uv_at) : std::vector<std::uint32_t>();
     mesh.normals.resize(begin.back());
     for (std::uint32_t i = 0; i < begin.back(); ++i) mesh.normals[i] = out.samples[i].n;
 

@@ -13,7 +13,7 @@ enum class SurfaceKind { mesh, limit, shape };
 /// What is wrong at a point.
 enum class Degenerate : unsigned char {
     none,
-    pole,           ///< no tangent plane along the parameters, but a limit normal
+    pole,           ///< no tangent plane along the parameters, but a normal: the limit, or that of the meridian
     without_normal, ///< neither
     no_chart,       ///< a normal, but no area in uv: p_u and p_v do not exist
 };

@@ -40,16 +40,26 @@ SurfaceSummary summarise(const SurfaceMesh& surface) {
     out.length_u = length_u.range(), out.length_v = length_v.range();
     out.mean_curvature = mean.range(), out.gauss_curvature = gauss.range();
 
+    // A pole whose samples have several normals has none.
+    std::vector<std::uint32_t> pole(mesh.positions.size(), no_index);
+    std::vector<bool> tip(mesh.positions.size());
+    for (std::size_t c = 0; c < mesh.corners(); ++c) {
+        const std::uint32_t at = mesh.corner_position[c], sample = surface.corner_sample[c];
+        if (surface.samples[sample].degenerate != Degenerate::pole) continue;
+        if (pole[at] == no_index) pole[at] = sample;
+        if (glm::length(surface.samples[sample].n - surface.samples[pole[at]].n) > 1e-3f) tip[at] = true;
+    }
     std::vector<unsigned char> seen(mesh.positions.size());
     for (std::size_t f = 0; f < mesh.faces(); ++f)
         for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
-            const SurfaceSample& s = surface.samples[surface.corner_sample[c]];
-            const auto bit = static_cast<unsigned char>(1u << static_cast<unsigned>(s.degenerate));
+            Degenerate what = surface.samples[surface.corner_sample[c]].degenerate;
+            if (tip[mesh.corner_position[c]] && what == Degenerate::pole) what = Degenerate::without_normal;
+            const auto bit = static_cast<unsigned char>(1u << static_cast<unsigned>(what));
             unsigned char& here = seen[mesh.corner_position[c]];
-            if (s.degenerate == Degenerate::none || (here & bit)) continue;
+            if (what == Degenerate::none || (here & bit)) continue;
             here |= bit;
             const std::uint32_t uv = mesh.corner_uv.empty() ? no_index : mesh.corner_uv[c];
-            out.degenerate.push_back({s.degenerate, mesh.positions[mesh.corner_position[c]], uv == no_index ? Vec2f(0) : mesh.uvs[uv], f});
+            out.degenerate.push_back({what, mesh.positions[mesh.corner_position[c]], uv == no_index ? Vec2f(0) : mesh.uvs[uv], f});
         }
     return out;
 }
