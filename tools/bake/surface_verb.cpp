@@ -1,4 +1,5 @@
 #include "bake/asset/mesh_io.h"
+#include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/surface/surface_map.h"
 #include "bake/surface/surface_summary.h"
@@ -175,6 +176,39 @@ void warn(const CommonArgs& common, const std::string& title, const SurfaceMapRe
     say(r.degenerate, "texels lie on a pole or have no chart; what does not exist there is their neighbours'");
 }
 
+/// The maps that are asked for and their files, opened before the work so that a long bake does not fail at its end.
+struct MapFiles {
+    std::vector<MapQuantity> quantities;
+    std::vector<std::unique_ptr<ImageWriter>> writers;
+    SurfaceMapOptions options;
+};
+
+MapFiles open_maps(const SurfaceArgs& args) {
+    MapFiles files;
+    files.options.padding = args.padding;
+    std::tie(files.options.width, files.options.height) = parse_size(args.size);
+    if (args.maps_out.empty()) return files;
+    files.quantities.assign(std::begin(all_map_quantities), std::end(all_map_quantities));
+    if (!args.maps.empty()) files.quantities = parse_maps(args.maps);
+    for (const MapQuantity q : files.quantities) {
+        const std::vector<std::string> names = channels(q) == 1   ? std::vector<std::string>{"Y"}
+                                               : channels(q) == 3 ? std::vector<std::string>{"R", "G", "B"}
+                                                                  : std::vector<std::string>{"R", "G", "B", "sign"};
+        files.writers.push_back(std::make_unique<ImageWriter>(map_file(args, q), files.options.width, files.options.height, channels(q),
+                                                              WriteOptions{.depth = Depth::float32, .channels = names}));
+    }
+    return files;
+}
+
+void write_maps(MapFiles& files, const std::vector<Image<float>>& maps) {
+    for_rows(static_cast<std::int64_t>(maps.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (auto q = static_cast<std::size_t>(begin); q < static_cast<std::size_t>(end); ++q) {
+            files.writers[q]->write(maps[q].data(), maps[q].height());
+            files.writers[q]->finish();
+        }
+    });
+}
+
 int run(const SurfaceArgs& args, const CommonArgs& common) {
     check_usage(args);
     check_not_the_mesh(args.out, args.mesh);
@@ -184,57 +218,38 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     const Loaded loaded = load(args);
     watch.lap("read");
 
-    // Opened before the work, so that a long bake does not fail at its end.
-    SurfaceMapOptions options{.padding = args.padding};
-    std::tie(options.width, options.height) = parse_size(args.size);
-    std::vector<MapQuantity> quantities;
-    std::vector<std::unique_ptr<ImageWriter>> writers;
-    if (!args.maps_out.empty()) {
-        quantities = args.maps.empty() ? std::vector<MapQuantity>(std::begin(all_map_quantities), std::end(all_map_quantities)) : parse_maps(args.maps);
-        for (const MapQuantity q : quantities) {
-            std::vector<std::string> channel = {"R", "G", "B", "sign"};
-            channel.resize(static_cast<std::size_t>(channels(q)));
-            if (channels(q) == 1) channel = {"Y"};
-            writers.push_back(std::make_unique<ImageWriter>(map_file(args, q), options.width, options.height, channels(q),
-                                                            WriteOptions{.depth = Depth::float32, .channels = channel}));
-        }
-    }
+    if (!args.out.empty()) const OutputFile writable(args.out);
+    MapFiles files = open_maps(args);
     progress.start("surface", static_cast<std::int64_t>(loaded.surface.complex().patches.size()));
-    SurfaceMesh mesh = surface_mesh(loaded.surface, loaded.kind, loaded.rate, &progress);
+    const SurfaceMesh mesh = surface_mesh(loaded.surface, loaded.kind, loaded.rate, &progress);
     const SurfaceSummary summary = summarise(mesh);
     watch.lap("surface");
-
-    nlohmann::json object = {{"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
-    object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
+    std::vector<Image<float>> maps;
     SurfaceMapReport report;
-    if (!quantities.empty()) {
-        progress.start("maps", options.height);
-        const std::vector<Image<float>> maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
+    if (!files.quantities.empty()) {
+        progress.start("maps", files.options.height);
+        maps = surface_maps(loaded.surface, mesh, files.quantities, files.options, title, report, &progress);
         watch.lap("maps");
-        for_rows(static_cast<std::int64_t>(maps.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-            for (auto q = static_cast<std::size_t>(begin); q < static_cast<std::size_t>(end); ++q) {
-                writers[q]->write(maps[q].data(), maps[q].height());
-                writers[q]->finish();
-            }
-        });
-        for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args, q);
-        object["texels"] = to_json(report);
     }
     progress.finish();
-    if (!args.out.empty()) {
-        write_mesh(args.out, without_repeats(mesh.mesh));
-        object["out"] = args.out;
-    }
+    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
+    write_maps(files, maps);
     watch.lap("write");
-    object["seconds"] = watch.to_json();
+
     if (common.json) {
+        nlohmann::json object = {{"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
+        object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
+        if (!args.out.empty()) object["out"] = args.out;
+        for (const MapQuantity q : files.quantities) object["maps"][name(q)] = map_file(args, q);
+        if (!maps.empty()) object["texels"] = to_json(report);
+        object["seconds"] = watch.to_json();
         std::printf("%s\n", object.dump(2).c_str());
         return 0;
     }
     print(title, loaded, mesh, summary);
-    if (!quantities.empty()) print(report, options);
+    if (!maps.empty()) print(report, files.options);
     std::printf("%s\n", watch.to_text().c_str());
-    if (!quantities.empty()) warn(common, title, report);
+    warn(common, title, report);
     return 0;
 }
 
