@@ -96,7 +96,7 @@ Loaded load(const SurfaceArgs& args) {
         if (!args.resolution.empty()) std::tie(columns, rows) = parse_resolution(args.resolution);
         const std::string patches = shape.patches() > 1 ? format(" on each of %d patches", shape.patches()) : "";
         return {BaseSurface(shape, columns, rows), SurfaceKind::shape, 1,
-                format("%s; %d x %d cells", shape.help().substr(shape.name().size() + 2).c_str(), columns, rows) + patches};
+                format("%s; %d x %d cells", shape.help().c_str(), columns, rows) + patches};
     }
     Mesh mesh = read_mesh(args.mesh);
     if (!args.scheme) {
@@ -131,7 +131,7 @@ std::vector<std::pair<const char*, ValueRange>> ranges(const SurfaceSummary& s, 
 
 void print(const std::string& title, const Loaded& loaded, const SurfaceMesh& mesh, const SurfaceSummary& s) {
     const bool has_uv = !mesh.mesh.corner_uv.empty();
-    std::printf("%s: %s\n%-16s %14s %14s %14s\n", title.c_str(), loaded.what.c_str(), "", "min", "max", "mean");
+    std::printf("%s%s\n%-16s %14s %14s %14s\n", loaded.kind == SurfaceKind::shape ? "" : (title + ": ").c_str(), loaded.what.c_str(), "", "min", "max", "mean");
     for (const auto& [label, range] : ranges(s, has_uv)) std::printf("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
     std::printf("area %.7g, %zu faces, %zu vertices\n", s.area, mesh.mesh.faces(), mesh.mesh.positions.size());
     std::printf("degenerate points: %zu\n", s.degenerate.size());
