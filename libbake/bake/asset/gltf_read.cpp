@@ -131,6 +131,7 @@ struct Primitive {
     int mode = TINYGLTF_MODE_TRIANGLES;
     std::uint32_t material = no_index;
     std::string group;
+    std::map<std::string, int> attributes; ///< accessors: primitives with the same ones share their vertices
 
     std::size_t index_count() const { return indexed ? indices.count : position.count; }
     /// More than there are where a strip repeats indices.
@@ -171,6 +172,7 @@ std::optional<Primitive> primitive_of(const GltfDocument& document, const tinygl
         out.group = from.extras.Get("group").Get<std::string>();
     const auto position = from.attributes.find("POSITION");
     if (position == from.attributes.end()) return {}; // drawn by an extension, or not at all
+    out.attributes = from.attributes;
     out.position = accessor_of(document, model, position->second, "POSITION", path);
     const auto expect = [&](const GltfAccessor& a, const std::string& use, int least, int most) {
         if (a.components < least || a.components > most) refuse(path, "its " + use + " has " + std::to_string(a.components) + " components");
@@ -394,13 +396,15 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
     for (const GltfPlacement& place : placed) {
         const GltfSourceNode& node = nodes[place.node];
         GltfVertices vertices;
+        std::map<std::map<std::string, int>, std::uint32_t> first_vertex;
         for (const Primitive& primitive : meshes[static_cast<std::size_t>(node.mesh)]) {
             const std::vector<std::uint32_t> index = triangles_of(primitive, path);
             if (index.empty()) continue;
-            const auto first = static_cast<std::uint32_t>(vertices.positions.size());
             if (vertices.positions.size() + primitive.position.count >= no_index) refuse_too_large(no_index, path);
-            append(primitive, options.flip_v, path, vertices);
-            for (const std::uint32_t i : index) vertices.corners.push_back(first + i);
+            const auto [first, added] =
+                first_vertex.try_emplace(primitive.attributes, static_cast<std::uint32_t>(vertices.positions.size()));
+            if (added) append(primitive, options.flip_v, path, vertices);
+            for (const std::uint32_t i : index) vertices.corners.push_back(first->second + i);
             vertices.face_material.resize(vertices.corners.size() / 3, primitive.material);
             vertices.face_group.resize(vertices.corners.size() / 3, group_named(out.mesh, primitive.group));
         }
