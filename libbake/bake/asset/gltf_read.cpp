@@ -4,9 +4,11 @@
 #include "bake/asset/gltf_vertices.h"
 #include "bake/asset/text_line.h"
 #include "bake/base/error.h"
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <map>
 #include <new>
-#include <set>
 #include <tiny_gltf.h>
 #include <unistd.h>
 
@@ -357,6 +359,18 @@ void refuse_too_large(std::size_t triangles, const std::string& path) {
                                              " triangles, more than fit here; split the scene");
 }
 
+/// What flatten() makes of the node stays within the floats.
+void refuse_beyond_floats(const GltfVertices& vertices, const GltfNode& node, const std::string& path) {
+    Vec3d most(0);
+    for (const Vec3f& p : vertices.positions) most = glm::max(most, glm::abs(Vec3d(p)));
+    for (int row = 0; row < 3; ++row) {
+        double sum = std::abs(double(node.to_world[12 + row]));
+        for (int column = 0; column < 3; ++column) sum += std::abs(double(node.to_world[4 * column + row])) * most[column];
+        if (sum > double(std::numeric_limits<float>::max()))
+            refuse(path, "its node " + shown(node.name) + " places a position beyond all floats");
+    }
+}
+
 } // namespace
 
 Gltf read_gltf(const std::string& path, const GltfOptions& options) {
@@ -411,6 +425,7 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
         if (vertices.corners.empty()) continue;
         GltfNode to{node.name, out.mesh.faces(), 0, {}};
         std::copy(place.to_world.begin(), place.to_world.end(), to.to_world);
+        refuse_beyond_floats(vertices, to, path);
         append_welded(std::move(vertices), out.mesh);
         to.end_face = out.mesh.faces();
         out.nodes.push_back(std::move(to));
