@@ -40,7 +40,7 @@ std::vector<Weighed<V>> last_values(const Far::TopologyRefiner& refiner, std::ve
 
 Mesh refined(const Mesh& cage, const SubdivisionOptions& options, int levels) {
     UvValues uvs = uv_values(cage);
-    const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(cage, uvs, options);
+    const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(refiner_input(cage, uvs), cage.tags.boundary, options);
     Far::TopologyRefiner::UniformOptions uniform(levels);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);
