@@ -143,7 +143,8 @@ double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const 
         const double limit2 = std::max(gap2 * farthest.distance2, least2);
         OverlayRoom room;
         for (std::int64_t i = begin; i < end; ++i)
-            if (pieces[i].upper2 > limit2 && overlay_within(other, pieces[i], limit2, room)) pieces[i].upper2 = limit2;
+            if (pieces[i].upper2 > limit2 && overlay_within(other, pieces[i].p, pieces[i].near, limit2, room))
+                pieces[i].upper2 = limit2;
     });
     std::size_t left = options.most_cuts;
     double upper2 = 0; // of what needs no more cuts

@@ -72,37 +72,32 @@ bool lay(const TriangleTree& other, std::uint32_t place, const Vec3d& normal, do
     return true;
 }
 
-bool covered(const TriangleTree& other, const Piece& piece, const Vec3d& normal, double limit2, OverlayRoom& room,
-             int depth) {
-    const Vec3d low = {std::min({piece.p[0].x, piece.p[1].x, piece.p[2].x}),
-                       std::min({piece.p[0].y, piece.p[1].y, piece.p[2].y}),
-                       std::min({piece.p[0].z, piece.p[1].z, piece.p[2].z})};
-    const Vec3d high = {std::max({piece.p[0].x, piece.p[1].x, piece.p[2].x}),
-                        std::max({piece.p[0].y, piece.p[1].y, piece.p[2].y}),
-                        std::max({piece.p[0].z, piece.p[1].z, piece.p[2].z})};
+using Corners = std::array<Vec3d, 3>;
+
+bool covered(const TriangleTree& other, const Corners& p, const std::array<std::uint32_t, 4>& first,
+             const Vec3d& normal, double limit2, OverlayRoom& room, int depth) {
+    Vec3d low = p[0], high = p[0];
+    for (int k = 0; k < 3; ++k) {
+        low[k] = std::min({p[0][k], p[1][k], p[2][k]});
+        high[k] = std::max({p[0][k], p[1][k], p[2][k]});
+    }
     const double limit = std::sqrt(limit2);
-    room.near.assign(piece.near.begin(), piece.near.end());
+    room.near.assign(first.begin(), first.end());
     other.touching(Vec3f(low - limit), Vec3f(high + limit), 0, [&](std::uint32_t place) {
-        if (room.near.size() < 2 * most_near) room.near.push_back(place);
+        if (room.near.size() <= most_near) room.near.push_back(place);
     });
     if (room.near.size() > most_near) {
         const Vec3d extent = high - low;
         if (depth == deepest || std::max({extent.x, extent.y, extent.z}) < limit) return false;
-        const Vec3d m[3] = {0.5 * (piece.p[1] + piece.p[2]), 0.5 * (piece.p[2] + piece.p[0]),
-                            0.5 * (piece.p[0] + piece.p[1])};
-        for (int k = 0; k < 4; ++k) {
-            Piece part = piece;
-            if (k == 3)
-                part.p = {m[0], m[1], m[2]};
-            else
-                part.p[(k + 1) % 3] = m[(k + 2) % 3], part.p[(k + 2) % 3] = m[(k + 1) % 3];
-            if (!covered(other, part, normal, limit2, room, depth + 1)) return false;
-        }
+        const Vec3d m[3] = {0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0]), 0.5 * (p[0] + p[1])};
+        for (const Corners& part : {Corners{m[0], m[1], m[2]}, Corners{p[0], m[2], m[1]}, Corners{m[2], p[1], m[0]},
+                                    Corners{m[1], m[0], p[2]}})
+            if (!covered(other, part, first, normal, limit2, room, depth + 1)) return false;
         return true;
     }
     Polygon whole;
     whole.corners = 3;
-    std::copy(piece.p.begin(), piece.p.end(), whole.p.begin());
+    std::copy(p.begin(), p.end(), whole.p.begin());
     room.open.assign(1, whole);
     for (const std::uint32_t place : room.near) {
         if (!lay(other, place, normal, limit2, room)) return false;
@@ -113,9 +108,10 @@ bool covered(const TriangleTree& other, const Piece& piece, const Vec3d& normal,
 
 } // namespace
 
-bool overlay_within(const TriangleTree& other, const Piece& piece, double limit2, OverlayRoom& room) {
-    const Vec3d normal = unit_or_zero(glm::cross(piece.p[1] - piece.p[0], piece.p[2] - piece.p[0]));
-    return normal != Vec3d(0) && covered(other, piece, normal, limit2, room, 0);
+bool overlay_within(const TriangleTree& other, const Corners& p, const std::array<std::uint32_t, 4>& first,
+                    double limit2, OverlayRoom& room) {
+    const Vec3d normal = unit_or_zero(glm::cross(p[1] - p[0], p[2] - p[0]));
+    return normal != Vec3d(0) && covered(other, p, first, normal, limit2, room, 0);
 }
 
 } // namespace bake
