@@ -4,6 +4,7 @@
 #include "bake/surface/limit_patches.h"
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 namespace bake {
 namespace {
@@ -27,52 +28,48 @@ template <int Degree> std::int32_t leaf_at(const LimitPatches& limit, std::int32
 }
 
 // Coefficients in a of Size numbers and their derivatives, at k[.][at], k[.][at + Size] and so on.
-template <int Degree, int Size>
-void collapse(const double* c, double b, double scale, Derivatives order, Row<Degree>& row, int at) noexcept {
+template <int Degree, int Size, Derivatives Order>
+void collapse(const double* c, double b, double scale, Row<Degree>& row, int at) noexcept {
+    constexpr bool firsts = Order != Derivatives::none, seconds = Order == Derivatives::second;
     double value[Degree + 3][Size] = {}, first[Degree + 3][Size] = {}, second[Degree + 3][Size] = {};
     for (int m = 0; m <= Degree; ++m) {
         const int top = Degree == 3 ? 3 : 4 - m; // exponent of b
         for (int i = 0; i < Size; ++i) {
             double v = c[top * Size + i], d = 0, dd = 0;
             for (int n = top - 1; n >= 0; --n) {
-                dd = dd * b + d;
-                d = d * b + v;
+                if constexpr (seconds) dd = dd * b + d;
+                if constexpr (firsts) d = d * b + v;
                 v = v * b + c[n * Size + i];
             }
             value[m][i] = v;
-            first[m][i] = d;
-            second[m][i] = 2 * dd;
+            if constexpr (firsts) first[m][i] = d;
+            if constexpr (seconds) second[m][i] = 2 * dd;
         }
         c += (top + 1) * Size;
     }
     for (int m = 0; m <= Degree; ++m) {
         double* k = row.k[m] + at;
         for (int i = 0; i < Size; ++i) k[i] = value[m][i];
-        if (order == Derivatives::none) continue;
-        for (int i = 0; i < Size; ++i) {
-            k[Size + i] = scale * (m + 1) * value[m + 1][i];
-            k[2 * Size + i] = scale * first[m][i];
-        }
-        if (order == Derivatives::first) continue;
-        for (int i = 0; i < Size; ++i) {
-            k[3 * Size + i] = scale * scale * ((m + 1) * (m + 2)) * value[m + 2][i];
-            k[4 * Size + i] = scale * scale * (m + 1) * first[m + 1][i];
-            k[5 * Size + i] = scale * scale * second[m][i];
-        }
+        if constexpr (firsts)
+            for (int i = 0; i < Size; ++i) {
+                k[Size + i] = scale * (m + 1) * value[m + 1][i];
+                k[2 * Size + i] = scale * first[m][i];
+            }
+        if constexpr (seconds)
+            for (int i = 0; i < Size; ++i) {
+                k[3 * Size + i] = scale * scale * ((m + 1) * (m + 2)) * value[m + 2][i];
+                k[4 * Size + i] = scale * scale * (m + 1) * first[m + 1][i];
+                k[5 * Size + i] = scale * scale * second[m][i];
+            }
     }
 }
 
-template <int Degree>
-void row_of(const LimitPatches& limit, std::int32_t leaf, double b, Derivatives order, Row<Degree>& row) noexcept {
+template <int Degree, Derivatives Order>
+void row_of(const LimitPatches& limit, std::int32_t leaf, double b, Row<Degree>& row) noexcept {
     const std::size_t first = std::size_t(leaf) * std::size_t(limit.terms());
     const double scale = limit.leaves[std::size_t(leaf)].scale;
-    collapse<Degree, 3>(&limit.position[first * 3], b, scale, order, row, 0);
-    if (limit.has_uv) {
-        collapse<Degree, 2>(&limit.uv[first * 2], b, scale, order, row, uv_begin);
-        return;
-    }
-    for (auto& k : row.k)
-        for (int i = uv_begin; i < numbers; ++i) k[i] = 0;
+    collapse<Degree, 3, Order>(&limit.position[first * 3], b, scale, row, 0);
+    if (limit.has_uv) collapse<Degree, 2, Order>(&limit.uv[first * 2], b, scale, row, uv_begin);
 }
 
 template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, double a, double* out) noexcept {
@@ -83,46 +80,39 @@ template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, do
     }
 }
 
-template <int Degree> void point_of(const Row<Degree>& row, double a, Derivatives order, LimitPoint& point) noexcept {
+template <int Degree, Derivatives Order> void point_of(const Row<Degree>& row, double a, LimitPoint& point) noexcept {
     double* out = &point.p.x;
-    switch (order) {
-    case Derivatives::none:
-        horner<Degree, 0, 3>(row, a, out);
-        horner<Degree, uv_begin, uv_begin + 2>(row, a, out);
-        break;
-    case Derivatives::first:
-        horner<Degree, 0, 9>(row, a, out);
-        horner<Degree, uv_begin, uv_begin + 6>(row, a, out);
-        break;
-    case Derivatives::second: horner<Degree, 0, numbers>(row, a, out); break;
+    if constexpr (Order == Derivatives::second) {
+        horner<Degree, 0, numbers>(row, a, out);
+    } else {
+        constexpr int vectors = Order == Derivatives::none ? 1 : 3;
+        horner<Degree, 0, 3 * vectors>(row, a, out);
+        horner<Degree, uv_begin, uv_begin + 2 * vectors>(row, a, out);
     }
 }
 
-template <int Degree>
-void evaluate_points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
-                     std::span<LimitPoint> out) noexcept {
+template <int Degree, Derivatives Order>
+void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
-    Row<Degree> row;
+    Row<Degree> row{}; // without uvs theirs stay zero
     std::int32_t row_leaf = -1;
     double row_b = 0;
-    for (std::size_t i = 0; i < st.size(); ++i) {
-        const double s = st[i].x, t = st[i].y;
-        const std::int32_t index = leaf_at<Degree>(limit, root, s, t);
+    for (const Vec2d& at : st) {
+        const std::int32_t index = leaf_at<Degree>(limit, root, at.x, at.y);
         const LimitLeaf& leaf = limit.leaves[std::size_t(index)];
-        const double b = t * leaf.scale + leaf.origin.y;
-        if (index != row_leaf || b != row_b) row_of<Degree>(limit, index, b, order, row);
+        const double b = at.y * leaf.scale + leaf.origin.y;
+        if (index != row_leaf || b != row_b) row_of<Degree, Order>(limit, index, b, row);
         row_leaf = index;
         row_b = b;
-        point_of<Degree>(row, s * leaf.scale + leaf.origin.x, order, out[i]);
+        point_of<Degree, Order>(row, at.x * leaf.scale + leaf.origin.x, *out++);
     }
 }
 
-template <int Degree>
-void evaluate_lattice_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end,
-                           Derivatives order, LimitPoint* out) noexcept {
+template <int Degree, Derivatives Order>
+void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
     const double steps = rate;
-    Row<Degree> row;
+    Row<Degree> row{};
     for (int j = row_begin; j < row_end; ++j) {
         const double t = j / steps;
         const int last = Degree == 3 ? rate : rate - j;
@@ -137,10 +127,25 @@ void evaluate_lattice_rows(const LimitPatches& limit, std::uint32_t patch, int r
             int end = std::min(std::max(int(guess), i + 1), last + 1);
             while (end > i + 1 && leaf_of(end - 1) != index) --end;
             while (end <= last && leaf_of(end) == index) ++end;
-            row_of<Degree>(limit, index, b, order, row);
-            for (; i < end; ++i) point_of<Degree>(row, (i / steps) * leaf.scale + leaf.origin.x, order, *out++);
+            row_of<Degree, Order>(limit, index, b, row);
+            for (; i < end; ++i) point_of<Degree, Order>(row, (i / steps) * leaf.scale + leaf.origin.x, *out++);
         }
     }
+}
+
+// The one switch: work(degree, order) as constants.
+template <class Work> void choose(const LimitPatches& limit, Derivatives order, const Work& work) noexcept {
+    const auto with_order = [&](auto degree) {
+        switch (order) {
+        case Derivatives::none: work(degree, std::integral_constant<Derivatives, Derivatives::none>()); break;
+        case Derivatives::first: work(degree, std::integral_constant<Derivatives, Derivatives::first>()); break;
+        case Derivatives::second: work(degree, std::integral_constant<Derivatives, Derivatives::second>()); break;
+        }
+    };
+    if (limit.triangles)
+        with_order(std::integral_constant<int, 4>());
+    else
+        with_order(std::integral_constant<int, 3>());
 }
 
 } // namespace
@@ -148,19 +153,17 @@ void evaluate_lattice_rows(const LimitPatches& limit, std::uint32_t patch, int r
 void evaluate(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
               std::span<LimitPoint> out) noexcept {
     assert(patch < limit.patches.size() && out.size() >= st.size());
-    if (limit.triangles)
-        evaluate_points<4>(limit, patch, st, order, out);
-    else
-        evaluate_points<3>(limit, patch, st, order, out);
+    choose(limit, order, [&](auto degree, auto constant) {
+        points<decltype(degree)::value, decltype(constant)::value>(limit, patch, st, out.data());
+    });
 }
 
 void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
                    std::span<LimitPoint> out) noexcept {
     assert(patch < limit.patches.size() && rate > 0 && row_begin >= 0 && row_end <= rate + 1);
-    if (limit.triangles)
-        evaluate_lattice_rows<4>(limit, patch, rate, row_begin, row_end, order, out.data());
-    else
-        evaluate_lattice_rows<3>(limit, patch, rate, row_begin, row_end, order, out.data());
+    choose(limit, order, [&](auto degree, auto constant) {
+        rows<decltype(degree)::value, decltype(constant)::value>(limit, patch, rate, row_begin, row_end, out.data());
+    });
 }
 
 } // namespace bake
