@@ -10,6 +10,7 @@
 #include "bench/bench.h"
 #include "oracle/limit_masks.h"
 #include "oracle/surfaces.h"
+#include <memory>
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTableFactory.h>
@@ -23,23 +24,37 @@ namespace {
 
 constexpr int rate = 16, levels = 4; // of the lattice, and of the oracle that has its points
 
-// Points and first derivatives of all patches, (rate + 1)^2 each, row after row.
+// Points and first derivatives of the patches that are looked at, (rate + 1)^2 each, row after row. 32 patches, evenly
+// spread over the cage: a round takes about a millisecond, so that neighbours on a shared machine seldom fall into it.
 using Samples = std::vector<LimitPoint>;
+constexpr std::size_t per_patch = (rate + 1) * (rate + 1);
+
+std::vector<std::uint32_t> some_patches(std::uint32_t all) {
+    std::vector<std::uint32_t> patches;
+    const std::uint32_t count = std::min(all, 32u);
+    for (std::uint32_t i = 0; i < count; ++i) patches.push_back(std::uint32_t(std::uint64_t(i) * all / count));
+    return patches;
+}
+
+Vec2d lattice_point(std::size_t i) { return Vec2d(double(i % (rate + 1)) / rate, double(i / (rate + 1)) / rate); }
 
 struct Errors {
     bench::Errors normal_deg;
     double position = 0; ///< largest, of the diagonal
 };
 
-Errors errors_of(const Samples& samples, const oracle::Cage& fine, double diagonal, bool normals) {
+Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patches, const oracle::Cage& fine,
+                 double diagonal, bool normals) {
     const oracle::LimitMasks masks(fine);
     std::vector<float> angles;
     Errors errors;
     for (std::uint32_t f = 0; f < fine.faces.size(); ++f)
         for (std::uint32_t k = 0; k < 4; ++k) {
             const oracle::Cage::Face& face = fine.faces[f];
+            const auto found = std::lower_bound(patches.begin(), patches.end(), face.patch);
+            if (found == patches.end() || *found != face.patch) continue;
             const Vec2d at = double(rate) * face.st[k];
-            const auto index = std::size_t(face.patch) * (rate + 1) * (rate + 1) + std::size_t(at.y) * (rate + 1) + std::size_t(at.x);
+            const auto index = std::size_t(found - patches.begin()) * per_patch + std::size_t(at.y) * (rate + 1) + std::size_t(at.x);
             const oracle::Limit limit = masks.at(f, k);
             errors.position = std::max(errors.position, glm::distance(samples[index].p, limit.p) / diagonal);
             if (normals && limit.normal && glm::length(*limit.normal) > 1e-12 * diagonal * diagonal)
@@ -82,51 +97,62 @@ std::unique_ptr<Far::TopologyRefiner> refiner_of(const Mesh& cage) {
 // Bfr: a surface per face, its patch points ready.
 class BfrSurfaces {
 public:
-    BfrSurfaces(const Mesh& cage, const Far::TopologyRefiner& refiner, int level) {
+    BfrSurfaces(const Mesh& cage, const Far::TopologyRefiner& refiner, int level) : faces_(cage.faces()) {
         Bfr::SurfaceFactory::Options options;
         if (level > 0) options.SetApproxLevelSmooth(level).SetApproxLevelSharp(level);
         const Bfr::RefinerSurfaceFactory<> factory(refiner, options);
         std::vector<double> positions;
         for (const Vec3f& p : cage.positions)
             for (int k = 0; k < 3; ++k) positions.push_back(double(p[k]));
-        for (int f = 0; f < int(cage.faces()); ++f) {
-            faces_.emplace_back();
-            Face& face = faces_.back();
-            factory.InitVertexSurface(f, &face.surface);
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            Face& face = faces_[f];
+            factory.InitVertexSurface(int(f), &face.surface);
             face.points.resize(std::size_t(face.surface.GetNumPatchPoints() * 3));
             face.surface.PreparePatchPoints(positions.data(), {3, 3}, face.points.data(), {3, 3});
+        }
+    }
+    /// Where the lattice lies in each patch.
+    void place(const SubdivisionSurface& surface, const std::vector<std::uint32_t>& patches) {
+        for (const std::uint32_t patch : patches) {
+            const Face& face = faces_[surface.face(patch)];
             const Bfr::Parameterization& parameters = face.surface.GetParameterization();
-            for (int sub = 0; sub < (parameters.HasSubFaces() ? parameters.GetFaceSize() : 1); ++sub)
-                for (int j = 0; j <= rate; ++j)
-                    for (int i = 0; i <= rate; ++i) {
-                        double st[2] = {double(i) / rate, double(j) / rate}, uv[2] = {st[0], st[1]};
-                        if (parameters.HasSubFaces()) parameters.ConvertNormalizedSubFaceToCoord(sub, st, uv);
-                        face.at.insert(face.at.end(), {uv[0], uv[1]});
-                    }
+            places_.push_back({&face, {}});
+            for (std::size_t i = 0; i < per_patch; ++i) {
+                Vec2d st = lattice_point(i), uv = st;
+                if (parameters.HasSubFaces()) parameters.ConvertNormalizedSubFaceToCoord(int(surface.corner(patch)), &st.x, &uv.x);
+                places_.back().at.push_back(uv);
+            }
         }
     }
     void evaluate(bool derivatives, Samples& out) const {
         LimitPoint* p = out.data();
-        for (const Face& face : faces_)
-            for (std::size_t i = 0; i < face.at.size(); i += 2, ++p)
+        for (const Place& place : places_)
+            for (const Vec2d& at : place.at) {
                 if (derivatives)
-                    face.surface.Evaluate(&face.at[i], face.points.data(), {3, 3}, &p->p.x, &p->p_s.x, &p->p_t.x);
+                    place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x, &p->p_s.x, &p->p_t.x);
                 else
-                    face.surface.Evaluate(&face.at[i], face.points.data(), {3, 3}, &p->p.x);
+                    place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x);
+                ++p;
+            }
     }
 
 private:
     struct Face {
         Bfr::Surface<double> surface;
-        std::vector<double> points, at;
+        std::vector<double> points;
+    };
+    struct Place {
+        const Face* face;
+        std::vector<Vec2d> at;
     };
     std::vector<Face> faces_;
+    std::vector<Place> places_;
 };
 
 // Far: the patch by its map, the weights of its points, their sum.
 class FarTable {
 public:
-    FarTable(const Mesh& cage, Far::TopologyRefiner& refiner, int level, std::uint32_t patches) : patches_(patches) {
+    FarTable(const Mesh& cage, Far::TopologyRefiner& refiner, int level) {
         Far::PatchTableFactory::Options options{unsigned(level)};
         options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
         options.SetPatchPrecision<double>();
@@ -147,30 +173,28 @@ public:
         if (table_->GetNumLocalPoints() > 0)
             table_->GetLocalPointStencilTable<double>()->UpdateValues(points_.data(), points_.data() + refiner.GetNumVerticesTotal());
     }
-    void evaluate(bool derivatives, Samples& out) const {
+    void evaluate(const std::vector<std::uint32_t>& patches, bool derivatives, Samples& out) const {
         LimitPoint* p = out.data();
         double w[20], ds[20], dt[20];
-        for (std::uint32_t patch = 0; patch < patches_; ++patch)
-            for (int j = 0; j <= rate; ++j)
-                for (int i = 0; i <= rate; ++i, ++p) {
-                    const double s = double(i) / rate, t = double(j) / rate;
-                    const Far::PatchMap::Handle* handle = map_->FindPatch(int(patch), s, t);
-                    table_->EvaluateBasis(*handle, s, t, w, derivatives ? ds : nullptr, derivatives ? dt : nullptr);
-                    const Far::ConstIndexArray index = table_->GetPatchVertices(*handle);
-                    *p = {};
-                    for (int k = 0; k < index.size(); ++k) {
-                        const Vec3d& q = points_[std::size_t(index[k])].p;
-                        p->p += w[k] * q;
-                        if (derivatives) p->p_s += ds[k] * q, p->p_t += dt[k] * q;
-                    }
+        for (const std::uint32_t patch : patches)
+            for (std::size_t i = 0; i < per_patch; ++i, ++p) {
+                const Vec2d st = lattice_point(i);
+                const Far::PatchMap::Handle* handle = map_->FindPatch(int(patch), st.x, st.y);
+                table_->EvaluateBasis(*handle, st.x, st.y, w, derivatives ? ds : nullptr, derivatives ? dt : nullptr);
+                const Far::ConstIndexArray index = table_->GetPatchVertices(*handle);
+                p->p = p->p_s = p->p_t = Vec3d(0);
+                for (int k = 0; k < index.size(); ++k) {
+                    const Vec3d& q = points_[std::size_t(index[k])].p;
+                    p->p += w[k] * q;
+                    if (derivatives) p->p_s += ds[k] * q, p->p_t += dt[k] * q;
                 }
+            }
     }
 
 private:
     std::unique_ptr<Far::PatchTable> table_;
     std::unique_ptr<Far::PatchMap> map_;
     std::vector<Value> points_;
-    std::uint32_t patches_;
 };
 
 double case_of(const std::string& name, const std::string& file) {
@@ -188,34 +212,34 @@ double case_of(const std::string& name, const std::string& file) {
     const double make_ours = bench::seconds([&] { ours = std::make_unique<SubdivisionSurface>(cage); });
     const double make_bfr = bench::seconds([&] { bfr = std::make_unique<BfrSurfaces>(cage, *refiner, 0); });
     const double make_fine = bench::seconds([&] { fine_bfr = std::make_unique<BfrSurfaces>(cage, *refiner, 10); });
-    const double make_far = bench::seconds([&] { far = std::make_unique<FarTable>(cage, *far_refiner, 10, ours->patches()); });
+    const double make_far = bench::seconds([&] { far = std::make_unique<FarTable>(cage, *far_refiner, 10); });
 
-    const std::size_t per_patch = (rate + 1) * (rate + 1), count = per_patch * ours->patches();
+    const std::vector<std::uint32_t> patches = some_patches(ours->patches());
+    const std::size_t count = per_patch * patches.size();
+    bfr->place(*ours, patches);
+    fine_bfr->place(*ours, patches);
     std::vector<Vec2d> lattice;
-    for (int j = 0; j <= rate; ++j)
-        for (int i = 0; i <= rate; ++i) lattice.emplace_back(double(i) / rate, double(j) / rate);
+    for (std::size_t i = 0; i < per_patch; ++i) lattice.push_back(lattice_point(i));
     std::vector<Samples> out(5, Samples(count));
     double speed_up = 0;
     for (const bool derivatives : {false, true}) {
         const Derivatives order = derivatives ? Derivatives::first : Derivatives::none;
-        const auto patch_of = [&](Samples& samples, std::uint32_t patch) {
-            return std::span(samples).subspan(patch * per_patch, per_patch);
-        };
+        const auto patch_of = [&](Samples& samples, std::size_t i) { return std::span(samples).subspan(i * per_patch, per_patch); };
         const std::vector<std::function<void()>> works = {
             [&] { bfr->evaluate(derivatives, out[0]); },
             [&] { fine_bfr->evaluate(derivatives, out[1]); },
-            [&] { far->evaluate(derivatives, out[2]); },
+            [&] { far->evaluate(patches, derivatives, out[2]); },
             [&] {
-                for (std::uint32_t p = 0; p < ours->patches(); ++p) ours->evaluate(p, lattice, order, patch_of(out[3], p));
+                for (std::size_t i = 0; i < patches.size(); ++i) ours->evaluate(patches[i], lattice, order, patch_of(out[3], i));
             },
             [&] {
-                for (std::uint32_t p = 0; p < ours->patches(); ++p) ours->evaluate_lattice(p, rate, order, patch_of(out[4], p));
+                for (std::size_t i = 0; i < patches.size(); ++i) ours->evaluate_lattice(patches[i], rate, order, patch_of(out[4], i));
             }};
-        const std::vector<bench::Times> times = bench::in_turn(21, works);
+        const std::vector<bench::Times> times = bench::in_turn(51, works);
         const char* names[] = {"bfr", "bfr_level10", "far_level10", "points", "lattice"};
         const double made[] = {make_bfr, make_fine, make_far, make_ours, make_ours};
         for (std::size_t i = 0; i < works.size(); ++i) {
-            const Errors errors = errors_of(out[i], fine, size, derivatives);
+            const Errors errors = errors_of(out[i], patches, fine, size, derivatives);
             bench::print_row("subdivision", name + (derivatives ? "_P_Du_Dv_" : "_P_") + names[i], std::int64_t(count),
                              times[i].median() / double(count) * 1e9, errors.normal_deg, times[i].ratio_to(times[0]), "bfr",
                              bench::text("position error %.2g of the diagonal; %.1f M points/s; made in %.1f ms", errors.position,
@@ -224,10 +248,10 @@ double case_of(const std::string& name, const std::string& file) {
         if (derivatives) speed_up = 1 / times[4].ratio_to(times[0]);
     }
     std::vector<LimitPoint> patch(per_patch);
-    const bench::Times second = bench::in_turn(21, {[&] {
-                                    for (std::uint32_t p = 0; p < ours->patches(); ++p)
-                                        ours->evaluate_lattice(p, rate, Derivatives::second, patch);
-                                }})[0];
+    const auto lattices = [&] {
+        for (const std::uint32_t p : patches) ours->evaluate_lattice(p, rate, Derivatives::second, patch);
+    };
+    const bench::Times second = bench::in_turn(51, {lattices})[0];
     std::printf("# %s: second derivatives too, lattice by lattice in the cache: %.1f ns per point\n", name.c_str(),
                 second.median() / double(count) * 1e9);
     return speed_up;

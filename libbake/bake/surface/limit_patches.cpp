@@ -31,35 +31,33 @@ template <int Degree> std::int32_t leaf_at(const LimitPatches& limit, std::int32
 template <int Degree, int Size, Derivatives Order>
 void collapse(const double* c, double b, double scale, Row<Degree>& row, int at) noexcept {
     constexpr bool firsts = Order != Derivatives::none, seconds = Order == Derivatives::second;
-    double value[Degree + 3][Size] = {}, first[Degree + 3][Size] = {}, second[Degree + 3][Size] = {};
-    for (int m = 0; m <= Degree; ++m) {
-        const int top = Degree == 3 ? 3 : 4 - m; // exponent of b
-        for (int i = 0; i < Size; ++i) {
-            double v = c[top * Size + i], d = 0, dd = 0;
-            for (int n = top - 1; n >= 0; --n) {
-                if constexpr (seconds) dd = dd * b + d;
-                if constexpr (firsts) d = d * b + v;
-                v = v * b + c[n * Size + i];
-            }
-            value[m][i] = v;
-            if constexpr (firsts) first[m][i] = d;
-            if constexpr (seconds) second[m][i] = 2 * dd;
+    constexpr int width = (Degree + 3) * Size; // exponents of a, two of them zeros for the derivatives
+    double value[width] = {}, first[width] = {}, second[width] = {};
+    // Horner in b, all exponents of a side by side. A triangle has fewer of them the higher b's.
+    const double* end = c + (Degree == 3 ? 16 : 15) * Size;
+    for (int n = Degree; n >= 0; --n) {
+        const int count = (Degree == 3 ? 4 : 5 - n) * Size;
+        end -= count;
+        for (int i = 0; i < count; ++i) {
+            if constexpr (seconds) second[i] = second[i] * b + first[i];
+            if constexpr (firsts) first[i] = first[i] * b + value[i];
+            value[i] = value[i] * b + end[i];
         }
-        c += (top + 1) * Size;
     }
     for (int m = 0; m <= Degree; ++m) {
         double* k = row.k[m] + at;
-        for (int i = 0; i < Size; ++i) k[i] = value[m][i];
+        const double *v = value + m * Size, *d = first + m * Size, *dd = second + m * Size;
+        for (int i = 0; i < Size; ++i) k[i] = v[i];
         if constexpr (firsts)
             for (int i = 0; i < Size; ++i) {
-                k[Size + i] = scale * (m + 1) * value[m + 1][i];
-                k[2 * Size + i] = scale * first[m][i];
+                k[Size + i] = scale * (m + 1) * v[Size + i];
+                k[2 * Size + i] = scale * d[i];
             }
         if constexpr (seconds)
             for (int i = 0; i < Size; ++i) {
-                k[3 * Size + i] = scale * scale * ((m + 1) * (m + 2)) * value[m + 2][i];
-                k[4 * Size + i] = scale * scale * (m + 1) * first[m + 1][i];
-                k[5 * Size + i] = scale * scale * second[m][i];
+                k[3 * Size + i] = scale * scale * ((m + 1) * (m + 2)) * v[2 * Size + i];
+                k[4 * Size + i] = scale * scale * (m + 1) * d[Size + i];
+                k[5 * Size + i] = 2 * scale * scale * dd[i];
             }
     }
 }
@@ -70,6 +68,12 @@ void row_of(const LimitPatches& limit, std::int32_t leaf, double b, Row<Degree>&
     const double scale = limit.leaves[std::size_t(leaf)].scale;
     collapse<Degree, 3, Order>(&limit.position[first * 3], b, scale, row, 0);
     if (limit.has_uv) collapse<Degree, 2, Order>(&limit.uv[first * 2], b, scale, row, uv_begin);
+}
+
+// Without uvs theirs are zero in all rows.
+template <int Degree> void no_uv_in(const LimitPatches& limit, Row<Degree>& row) noexcept {
+    if (!limit.has_uv)
+        for (auto& k : row.k) std::fill(k + uv_begin, k + numbers, 0.0);
 }
 
 template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, double a, double* out) noexcept {
@@ -94,7 +98,8 @@ template <int Degree, Derivatives Order> void point_of(const Row<Degree>& row, d
 template <int Degree, Derivatives Order>
 void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
-    Row<Degree> row{}; // without uvs theirs stay zero
+    Row<Degree> row;
+    no_uv_in(limit, row);
     std::int32_t row_leaf = -1;
     double row_b = 0;
     for (const Vec2d& at : st) {
@@ -108,27 +113,41 @@ void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2
     }
 }
 
+// The first point of a lattice row behind a leaf: past its far side for quads, in whose trees all numbers are exact. On
+// slanting lines rounding may put a point to either leaf, so triangles look again.
+template <int Degree, class LeafOf>
+int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps, int i, int last, const LeafOf& leaf_of) noexcept {
+    const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? 1 : 1 - b;
+    const double line = (end_a - leaf.origin.x) / leaf.scale;
+    int end = std::clamp(int(line * steps), i + 1, last + 1);
+    if constexpr (Degree == 3) {
+        if (line == 1) return last + 1;
+        while (end > i + 1 && (end - 1) / steps >= line) --end;
+        while (end <= last && end / steps < line) ++end;
+    } else {
+        while (end > i + 1 && leaf_of(end - 1) != index) --end;
+        while (end <= last && leaf_of(end) == index) ++end;
+    }
+    return end;
+}
+
 template <int Degree, Derivatives Order>
 void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
     const double steps = rate;
-    Row<Degree> row{};
+    Row<Degree> row;
+    no_uv_in(limit, row);
     for (int j = row_begin; j < row_end; ++j) {
         const double t = j / steps;
         const int last = Degree == 3 ? rate : rate - j;
         const auto leaf_of = [&](int i) { return leaf_at<Degree>(limit, root, i / steps, t); };
         for (int i = 0; i <= last;) {
             const std::int32_t index = leaf_of(i);
-            const LimitLeaf& leaf = limit.leaves[std::size_t(index)];
+            const LimitLeaf leaf = limit.leaves[std::size_t(index)];
             const double b = t * leaf.scale + leaf.origin.y;
-            // Where the leaf ends, by its far side; rounding may put a point on that side to either leaf.
-            const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? 1 : 1 - b;
-            const double guess = (end_a - leaf.origin.x) / leaf.scale * steps;
-            int end = std::min(std::max(int(guess), i + 1), last + 1);
-            while (end > i + 1 && leaf_of(end - 1) != index) --end;
-            while (end <= last && leaf_of(end) == index) ++end;
             row_of<Degree, Order>(limit, index, b, row);
-            for (; i < end; ++i) point_of<Degree, Order>(row, (i / steps) * leaf.scale + leaf.origin.x, *out++);
+            for (const int end = end_in_row<Degree>(leaf, index, b, steps, i, last, leaf_of); i < end; ++i)
+                point_of<Degree, Order>(row, (i / steps) * leaf.scale + leaf.origin.x, *out++);
         }
     }
 }
