@@ -62,18 +62,12 @@ void collapse(const double* c, double b, double scale, Row<Degree>& row, int at)
     }
 }
 
-template <int Degree, Derivatives Order>
+template <int Degree, Derivatives Order, bool Uv>
 void row_of(const LimitPatches& limit, std::int32_t leaf, double b, Row<Degree>& row) noexcept {
     const std::size_t first = std::size_t(leaf) * std::size_t(limit.terms());
     const double scale = limit.leaves[std::size_t(leaf)].scale;
     collapse<Degree, 3, Order>(&limit.position[first * 3], b, scale, row, 0);
-    if (limit.has_uv) collapse<Degree, 2, Order>(&limit.uv[first * 2], b, scale, row, uv_begin);
-}
-
-// Without uvs theirs are zero in all rows.
-template <int Degree> void no_uv_in(const LimitPatches& limit, Row<Degree>& row) noexcept {
-    if (!limit.has_uv)
-        for (auto& k : row.k) std::fill(k + uv_begin, k + numbers, 0.0);
+    if constexpr (Uv) collapse<Degree, 2, Order>(&limit.uv[first * 2], b, scale, row, uv_begin);
 }
 
 template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, double a, double* out) noexcept {
@@ -84,39 +78,42 @@ template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, do
     }
 }
 
-template <int Degree, Derivatives Order> void point_of(const Row<Degree>& row, double a, LimitPoint& point) noexcept {
+template <int Degree, Derivatives Order, bool Uv> void point_of(const Row<Degree>& row, double a, LimitPoint& point) noexcept {
+    constexpr int vectors = Order == Derivatives::none ? 1 : Order == Derivatives::first ? 3 : 6;
     double* out = &point.p.x;
-    if constexpr (Order == Derivatives::second) {
+    if constexpr (Uv && Order == Derivatives::second) {
         horner<Degree, 0, numbers>(row, a, out);
-    } else {
-        constexpr int vectors = Order == Derivatives::none ? 1 : 3;
-        horner<Degree, 0, 3 * vectors>(row, a, out);
-        horner<Degree, uv_begin, uv_begin + 2 * vectors>(row, a, out);
+        return;
     }
+    horner<Degree, 0, 3 * vectors>(row, a, out);
+    if constexpr (Uv)
+        horner<Degree, uv_begin, uv_begin + 2 * vectors>(row, a, out);
+    else
+        std::fill(out + uv_begin, out + uv_begin + 2 * vectors, 0.0);
 }
 
-template <int Degree, Derivatives Order>
+template <int Degree, Derivatives Order, bool Uv>
 void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
     Row<Degree> row;
-    no_uv_in(limit, row);
     std::int32_t row_leaf = -1;
     double row_b = 0;
     for (const Vec2d& at : st) {
         const std::int32_t index = leaf_at<Degree>(limit, root, at.x, at.y);
         const LimitLeaf& leaf = limit.leaves[std::size_t(index)];
         const double b = at.y * leaf.scale + leaf.origin.y;
-        if (index != row_leaf || b != row_b) row_of<Degree, Order>(limit, index, b, row);
+        if (index != row_leaf || b != row_b) row_of<Degree, Order, Uv>(limit, index, b, row);
         row_leaf = index;
         row_b = b;
-        point_of<Degree, Order>(row, at.x * leaf.scale + leaf.origin.x, *out++);
+        point_of<Degree, Order, Uv>(row, at.x * leaf.scale + leaf.origin.x, *out++);
     }
 }
 
 // The first point of a lattice row behind a leaf: past its far side for quads, in whose trees all numbers are exact. On
 // slanting lines rounding may put a point to either leaf, so triangles look again.
 template <int Degree, class LeafOf>
-int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps, int i, int last, const LeafOf& leaf_of) noexcept {
+int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps, int i, int last,
+               const LeafOf& leaf_of) noexcept {
     const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? 1 : 1 - b;
     const double line = (end_a - leaf.origin.x) / leaf.scale;
     int end = std::clamp(int(line * steps), i + 1, last + 1);
@@ -131,12 +128,11 @@ int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps
     return end;
 }
 
-template <int Degree, Derivatives Order>
+template <int Degree, Derivatives Order, bool Uv>
 void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
     const double steps = rate;
     Row<Degree> row;
-    no_uv_in(limit, row);
     for (int j = row_begin; j < row_end; ++j) {
         const double t = j / steps;
         const int last = Degree == 3 ? rate : rate - j;
@@ -145,26 +141,27 @@ void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begi
             const std::int32_t index = leaf_of(i);
             const LimitLeaf leaf = limit.leaves[std::size_t(index)];
             const double b = t * leaf.scale + leaf.origin.y;
-            row_of<Degree, Order>(limit, index, b, row);
+            row_of<Degree, Order, Uv>(limit, index, b, row);
             for (const int end = end_in_row<Degree>(leaf, index, b, steps, i, last, leaf_of); i < end; ++i)
-                point_of<Degree, Order>(row, (i / steps) * leaf.scale + leaf.origin.x, *out++);
+                point_of<Degree, Order, Uv>(row, (i / steps) * leaf.scale + leaf.origin.x, *out++);
         }
     }
 }
 
-// The one switch: work(degree, order) as constants.
+// The one switch: work(degree, order, uvs) as constants.
 template <class Work> void choose(const LimitPatches& limit, Derivatives order, const Work& work) noexcept {
+    using std::integral_constant;
+    const auto with_uv = [&](auto degree, auto constant) {
+        limit.has_uv ? work(degree, constant, std::true_type()) : work(degree, constant, std::false_type());
+    };
     const auto with_order = [&](auto degree) {
         switch (order) {
-        case Derivatives::none: work(degree, std::integral_constant<Derivatives, Derivatives::none>()); break;
-        case Derivatives::first: work(degree, std::integral_constant<Derivatives, Derivatives::first>()); break;
-        case Derivatives::second: work(degree, std::integral_constant<Derivatives, Derivatives::second>()); break;
+        case Derivatives::none: with_uv(degree, integral_constant<Derivatives, Derivatives::none>()); break;
+        case Derivatives::first: with_uv(degree, integral_constant<Derivatives, Derivatives::first>()); break;
+        case Derivatives::second: with_uv(degree, integral_constant<Derivatives, Derivatives::second>()); break;
         }
     };
-    if (limit.triangles)
-        with_order(std::integral_constant<int, 4>());
-    else
-        with_order(std::integral_constant<int, 3>());
+    limit.triangles ? with_order(integral_constant<int, 4>()) : with_order(integral_constant<int, 3>());
 }
 
 } // namespace
@@ -172,16 +169,16 @@ template <class Work> void choose(const LimitPatches& limit, Derivatives order, 
 void evaluate(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
               std::span<LimitPoint> out) noexcept {
     assert(patch < limit.patches.size() && out.size() >= st.size());
-    choose(limit, order, [&](auto degree, auto constant) {
-        points<decltype(degree)::value, decltype(constant)::value>(limit, patch, st, out.data());
+    choose(limit, order, [&](auto degree, auto derivatives, auto uvs) {
+        points<degree(), derivatives(), uvs()>(limit, patch, st, out.data());
     });
 }
 
 void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
                    std::span<LimitPoint> out) noexcept {
     assert(patch < limit.patches.size() && rate > 0 && row_begin >= 0 && row_end <= rate + 1);
-    choose(limit, order, [&](auto degree, auto constant) {
-        rows<decltype(degree)::value, decltype(constant)::value>(limit, patch, rate, row_begin, row_end, out.data());
+    choose(limit, order, [&](auto degree, auto derivatives, auto uvs) {
+        rows<degree(), derivatives(), uvs()>(limit, patch, rate, row_begin, row_end, out.data());
     });
 }
 
