@@ -220,7 +220,8 @@ TEST_SUITE("stability") {
     TEST_CASE("read_mesh: our own meshes in trouble are read whole or refused with their line") {
         const auto folder = source_folder() / "meshes/trouble";
         for (const char* name : {"mirrored_uvs", "overlapping_uvs", "nonmanifold_edge", "zero_area_face", "missing_uvs",
-                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge"}) {
+                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge", "nonmanifold_vertex", "flipped_face",
+                                 "duplicate_face", "crease_without_edge"}) {
             const auto path = folder / (std::string(name) + ".obj");
             CHECK_MESSAGE(read_mesh(path.string()).faces() == lines_of_word(path, "f"), name);
         }
