@@ -306,6 +306,23 @@ TEST_CASE("tangent_space: a mesh's triangles, quads and larger faces share one s
     mesh.corner_uv.clear();
     CHECK(corner_tangents(mesh, triangles, normals) == std::vector<Vec4f>(12, Vec4f(1, 0, 0, 1)));
 }
+
+TEST_CASE("tangent_space: add_tangents gives a mesh those of its corners, and normals where it has none; without uvs nothing") {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.face_begin = {0, 4};
+    mesh.corner_position = {0, 1, 2, 3};
+    Mesh bare = mesh;
+    add_tangents(bare);
+    CHECK(bare.tangents.empty());
+    CHECK(bare.corner_normal.empty());
+    mesh.uvs = {{0, 0}, {0, -1}, {1, -1}, {1, 0}}; // u along y, v along -x
+    mesh.corner_uv = mesh.corner_position;
+    add_tangents(mesh);
+    CHECK(mesh.corner_normal == mesh.corner_position);
+    for (const Vec3f& n : mesh.normals) CHECK(n == Vec3f(0, 0, 1));
+    CHECK(mesh.tangents == std::vector<Vec4f>(4, Vec4f(0, 1, 0, 1)));
+}
 }
 
 TEST_SUITE("stability") {
