@@ -230,6 +230,8 @@ TEST_SUITE("stability") {
         CHECK(outcome_of(folder / "index_zero.obj").reason.substr(0, 17) == "index_zero.obj:5:");
         CHECK(outcome_of(folder / "index_out_of_range.obj").reason.substr(0, 25) == "index_out_of_range.obj:5:");
         CHECK(outcome_of(folder / "cut_short.ply").reason.find("cut short") != std::string::npos);
+        CHECK(outcome_of(folder / "looped_nodes.gltf").reason.find("its node 0 is met twice") != std::string::npos);
+        CHECK(outcome_of(folder / "index_out_of_range.gltf").reason.find("has index 3 of 3 positions") != std::string::npos);
         CHECK(outcome_of(folder / "huge_counts.ply").reason.find("4000000000 rows of 'vertex'") != std::string::npos);
     }
 
