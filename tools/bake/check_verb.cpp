@@ -1,4 +1,5 @@
 // bake check: what is in each file given, and what is wrong with it.
+#include "options.h"
 #include "verb.h"
 #include "bake/verdict/inspect.h"
 #include <cstdio>
@@ -77,7 +78,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
-    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply) and images to look at");
+    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to look at");
     const auto pair = sub.add_option("--pair", args->pairs,
                                      "A height texture and the normal map said to be of it; may be given again")
                           ->allow_extra_args(false) // a file may follow
@@ -88,6 +89,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                    "Grey of the pair's height: mean, r, g, b, a or luma; mean unless given")
         ->transform(CLI::CheckedTransformer(greys, CLI::ignore_case).description(""))
         ->type_name("CHANNEL");
+    add_mesh_options(sub, args->options.read);
     sub.add_option("--overlap-size", args->options.uv.overlap_size,
                    "Samples along a UV tile that overlaps are measured with; 0: not measured")
         ->check(CLI::Range(0, 8192))

@@ -55,6 +55,7 @@ struct DisplaceOptions {
     Seam seam = Seam::average;
     std::uint64_t max_bytes = 0; ///< refuse what would need more; 0: what the machine has
     bool measure_error = false;  ///< fill report.error: distance of the result from the displaced surface
+    bool margin = false;         ///< fill Displaced::margin
 };
 
 /// What it needs, known before the work: exact for points and faces, close from above for bytes.
@@ -77,7 +78,7 @@ struct DisplaceReport {
     Vec3d fold_worst{0};
     Vec2d fold_worst_uv{0};
 
-    std::uint64_t no_chart = 0;  ///< points without area in uv: displaced, with a normal from the displaced faces
+    std::uint64_t no_tangents = 0; ///< points without tangent plane (poles): displaced, with a normal from the faces there
     std::uint64_t no_normal = 0; ///< points without base normal: left where they are
 
     double error_max = 0, error_rms = 0; ///< with measure_error, at the faces' own parameters
@@ -87,7 +88,7 @@ struct DisplaceReport {
 struct Displaced {
     Mesh mesh; ///< quads where the rates let them, triangles elsewhere; uvs, groups and materials of the base
     DisplaceReport report;
-    std::vector<float> margin; ///< positions: smallest 1 + b a_i there
+    std::vector<float> margin; ///< positions, or none: smallest 1 + b a_i there
 };
 
 /// What displace() will make, without making it.

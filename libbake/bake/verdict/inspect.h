@@ -1,5 +1,6 @@
 // What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
 #pragma once
+#include "bake/asset/mesh_io.h"
 #include "bake/relief/height.h"
 #include "bake/surface/mesh_audit.h"
 #include "bake/surface/mesh_check.h"
@@ -7,6 +8,7 @@
 #include "bake/surface/uv_check.h"
 #include "bake/verdict/image_check.h"
 #include "bake/verdict/pair_check.h"
+#include <optional>
 
 namespace bake {
 
@@ -17,6 +19,7 @@ struct Findings {
 
 struct InspectOptions {
     bool audit = false; ///< meshes: self intersections and orientation too, by CGAL, which is slow
+    MeshOptions read; ///< meshes: how they are read
     MeshCheckOptions mesh;
     UvCheckOptions uv;
     Grey height_channel = Grey::mean; ///< pairs: the grey of the height
@@ -24,8 +27,17 @@ struct InspectOptions {
     double limit = 0; ///< distances: warn when the upper bound is larger; 0: none
 };
 
+/// What a glTF holds beside its mesh.
+struct GltfParts {
+    std::size_t nodes = 0;           ///< that place a mesh
+    std::size_t normal_textures = 0; ///< materials that have one
+    std::size_t images = 0, missing_images = 0;
+    bool tangents = false;
+};
+
 struct MeshReport {
     std::string file;
+    std::optional<GltfParts> gltf;
     MeshCheck check;
     UvCheck uv;
     bool audited = false;

@@ -97,6 +97,11 @@ std::string to_text(const MeshReport& report) {
                                face_sizes(c).c_str(), c.corners, c.triangles));
     if (c.materials > 0 || c.groups > 0)
         text += row("parts", plural(c.groups, "group", "groups") + ", " + plural(c.materials, "material", "materials"));
+    if (const auto& gltf = report.gltf)
+        text += row("glTF", plural(gltf->nodes, "node", "nodes") + ", " +
+                                plural(gltf->normal_textures, "normal texture", "normal textures") + ", " +
+                                plural(gltf->images, "image", "images") +
+                                (gltf->tangents ? ", tangents of its own" : ", no tangents"));
     text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x,
                                  c.box.min.y, c.box.min.z, c.box.max.x, c.box.max.y, c.box.max.z, c.diagonal, c.area));
     text += row("topology", plural(t.components, "component", "components") +
