@@ -164,7 +164,7 @@ TEST_SUITE("unit") {
         CHECK(outcome_of(folder.file("pipe.ply")).reason.find("not a regular file") != std::string::npos);
         const Outcome off = outcome_of(folder.write("a.off", "OFF\n"));
         CHECK(off.code == 3);
-        CHECK(off.reason.find(".obj or .ply") != std::string::npos);
+        CHECK(off.reason.find(".obj, .ply, .gltf or .glb") != std::string::npos);
         CHECK(outcome_of(folder.write("points.obj", "v 1 2 3\n")).code == 4);
         CHECK(outcome_of(folder.write("empty.obj", "")).code == 4);
         CHECK(outcome_of(folder.write("T.OBJ", square + "f 1 2 3")).code == 0);

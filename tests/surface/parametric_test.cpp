@@ -342,7 +342,7 @@ TEST_CASE("parametric: help names every shape with its keys") {
     for (const char* name : {"plane", "disc", "sphere", "ellipsoid", "cylinder", "cone", "torus", "helicoid", "saddle", "moebius",
                              "klein", "superellipsoid", "revolution:profile=FILE", "bezier:file=FILE"})
         CHECK(help.find(name) != std::string::npos);
-    CHECK(ParametricSurface("torus:R=2").help().find("R = 2") != std::string::npos);
+    CHECK(ParametricSurface("torus:R=2").help().find("R=2 (radius of the ring)") != std::string::npos);
     CHECK(ParametricSurface("torus:R=2").name() == "torus");
     const Shapes shapes;
     for (const std::string& text : shapes.all()) {

@@ -14,6 +14,10 @@ CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
 }
 
+void add_mesh_options(CLI::App& sub, MeshOptions& options) {
+    sub.add_flag("--flip-v", options.flip_v, "Turn the mesh's v over: for files whose v does not run as their format says");
+}
+
 void add_height_options(CLI::App& sub, HeightArgs& args) {
     std::vector<std::pair<std::string, Filter>> filters = {{"auto", Filter::automatic}};
     for (const Filter filter : all_filters) filters.emplace_back(name(filter), filter);

@@ -1,6 +1,7 @@
 // Options that several verbs share, and how their values are written.
 #pragma once
 #include "bake/asset/image_io.h"
+#include "bake/asset/mesh_io.h"
 #include "bake/base/text.h"
 #include "bake/relief/bump_table.h"
 #include "bake/relief/error_budget.h"
@@ -33,6 +34,9 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
     };
     return sub.add_option_function<std::string>(flag, set, help)->check(one_of(names))->type_name(joined)->default_str(current);
 }
+
+/// How a mesh is read, given the same way by every verb that reads one.
+void add_mesh_options(CLI::App& sub, MeshOptions& options);
 
 /// How a height texture is read, given the same way by every verb that reads one.
 struct HeightArgs {

@@ -26,7 +26,7 @@ std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* 
     if (group.size() <= few) {
         for (std::uint32_t i = 0; i < group.size(); ++i) {
             std::uint32_t k = 0;
-            while (k < leaders.size() && !(key(group[leaders[k]]) == key(group[i]) && same(group[leaders[k]], group[i]))) ++k;
+            while (k < leaders.size() && !same(group[leaders[k]], group[i])) ++k;
             if (k == leaders.size()) leaders.push_back(i);
             number[i] = k;
         }
@@ -53,9 +53,10 @@ std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* 
 
 } // namespace detail
 
-/// Two of the corners [0, corners) are equal where position(c) is, key(c) is, and same(a, b) says so. Numbers are in order
-/// of position, then of first appearance. position(c) is below `positions`; key(c) is a std::uint64_t, equal for corners
-/// that are the same. Most positions being of one kind of corner, the others alone are sorted.
+/// Two of the corners [0, corners) are equal where position(c) is, and same(a, b) says so. Numbers are in order of
+/// position, then of first appearance. position(c) is below `positions`; key(c) is a std::uint64_t, equal for corners
+/// that are the same, so that many at one position need not be compared all with all. Most positions being of one kind
+/// of corner, the others alone are sorted.
 template <class Position, class Key, class Same>
 DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Position&& position, Key&& key, Same&& same) {
     constexpr std::uint32_t none = 0xffffffffu;
@@ -71,7 +72,7 @@ DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Pos
         auto& here = found[static_cast<std::size_t>(begin / grain)];
         for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
             const std::uint32_t l = leader[position(c)];
-            if (l != c && !(key(l) == key(c) && same(l, c))) here.push_back(c);
+            if (l != c && !same(l, c)) here.push_back(c);
         }
     });
     std::size_t differ = 0;

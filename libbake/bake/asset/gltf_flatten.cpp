@@ -33,8 +33,7 @@ template <class Vec, class Apply>
 void turn_values(std::vector<Vec>& values, const std::vector<Vec>& source, std::vector<bool>& taken,
                  std::vector<std::uint32_t>& corner_value, std::uint32_t begin, std::uint32_t end, Apply&& apply) {
     std::unordered_map<std::uint32_t, std::uint32_t> copies;
-    std::vector<std::uint32_t> mine; // taken by this node itself
-    std::vector<std::uint32_t> place;
+    std::vector<std::uint32_t> mine;
     for (std::uint32_t c = begin; c < end; ++c) {
         const std::uint32_t i = corner_value[c];
         if (i != no_index) mine.push_back(i);
@@ -98,10 +97,11 @@ Mesh flatten(Gltf gltf) {
         const std::uint32_t begin = mesh.face_begin[node.first_face], end = mesh.face_begin[node.end_face];
         turn_values(mesh.positions, positions, position_taken, mesh.corner_position, begin, end,
                     [&](const Vec3f& p) { return Vec3f(place.linear * Vec3d(p) + place.move); });
-        if (place.moves_only) continue;
+        // Also where nothing turns: the node may share its normals with one that does.
         if (!mesh.corner_normal.empty())
             turn_values(mesh.normals, normals, normal_taken, mesh.corner_normal, begin, end,
-                        [&](const Vec3f& n) { return Vec3f(unit_or_zero(place.normal * Vec3d(n))); });
+                        [&](const Vec3f& n) { return place.moves_only ? n : Vec3f(unit_or_zero(place.normal * Vec3d(n))); });
+        if (place.moves_only) continue;
         for (std::uint32_t c = begin; c < end && !mesh.tangents.empty(); ++c) {
             Vec4f& t = mesh.tangents[c];
             t = Vec4f(Vec3f(unit_or_zero(place.linear * Vec3d(t))), place.mirrors ? -t.w : t.w);

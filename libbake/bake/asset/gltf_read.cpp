@@ -4,9 +4,11 @@
 #include "bake/asset/gltf_vertices.h"
 #include "bake/asset/text_line.h"
 #include "bake/base/error.h"
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <map>
 #include <new>
-#include <set>
 #include <tiny_gltf.h>
 #include <unistd.h>
 
@@ -131,6 +133,7 @@ struct Primitive {
     int mode = TINYGLTF_MODE_TRIANGLES;
     std::uint32_t material = no_index;
     std::string group;
+    std::map<std::string, int> attributes; ///< accessors: primitives with the same ones share their vertices
 
     std::size_t index_count() const { return indexed ? indices.count : position.count; }
     /// More than there are where a strip repeats indices.
@@ -171,6 +174,7 @@ std::optional<Primitive> primitive_of(const GltfDocument& document, const tinygl
         out.group = from.extras.Get("group").Get<std::string>();
     const auto position = from.attributes.find("POSITION");
     if (position == from.attributes.end()) return {}; // drawn by an extension, or not at all
+    out.attributes = from.attributes;
     out.position = accessor_of(document, model, position->second, "POSITION", path);
     const auto expect = [&](const GltfAccessor& a, const std::string& use, int least, int most) {
         if (a.components < least || a.components > most) refuse(path, "its " + use + " has " + std::to_string(a.components) + " components");
@@ -355,6 +359,18 @@ void refuse_too_large(std::size_t triangles, const std::string& path) {
                                              " triangles, more than fit here; split the scene");
 }
 
+/// What flatten() makes of the node stays within the floats.
+void refuse_beyond_floats(const GltfVertices& vertices, const GltfNode& node, const std::string& path) {
+    Vec3d most(0);
+    for (const Vec3f& p : vertices.positions) most = glm::max(most, glm::abs(Vec3d(p)));
+    for (int row = 0; row < 3; ++row) {
+        double sum = std::abs(double(node.to_world[12 + row]));
+        for (int column = 0; column < 3; ++column) sum += std::abs(double(node.to_world[4 * column + row])) * most[column];
+        if (sum > double(std::numeric_limits<float>::max()))
+            refuse(path, "its node " + shown(node.name) + " places a position beyond all floats");
+    }
+}
+
 } // namespace
 
 Gltf read_gltf(const std::string& path, const GltfOptions& options) {
@@ -394,19 +410,22 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
     for (const GltfPlacement& place : placed) {
         const GltfSourceNode& node = nodes[place.node];
         GltfVertices vertices;
+        std::map<std::map<std::string, int>, std::uint32_t> first_vertex;
         for (const Primitive& primitive : meshes[static_cast<std::size_t>(node.mesh)]) {
             const std::vector<std::uint32_t> index = triangles_of(primitive, path);
             if (index.empty()) continue;
-            const auto first = static_cast<std::uint32_t>(vertices.positions.size());
             if (vertices.positions.size() + primitive.position.count >= no_index) refuse_too_large(no_index, path);
-            append(primitive, options.flip_v, path, vertices);
-            for (const std::uint32_t i : index) vertices.corners.push_back(first + i);
+            const auto [first, added] =
+                first_vertex.try_emplace(primitive.attributes, static_cast<std::uint32_t>(vertices.positions.size()));
+            if (added) append(primitive, options.flip_v, path, vertices);
+            for (const std::uint32_t i : index) vertices.corners.push_back(first->second + i);
             vertices.face_material.resize(vertices.corners.size() / 3, primitive.material);
             vertices.face_group.resize(vertices.corners.size() / 3, group_named(out.mesh, primitive.group));
         }
         if (vertices.corners.empty()) continue;
         GltfNode to{node.name, out.mesh.faces(), 0, {}};
         std::copy(place.to_world.begin(), place.to_world.end(), to.to_world);
+        refuse_beyond_floats(vertices, to, path);
         append_welded(std::move(vertices), out.mesh);
         to.end_face = out.mesh.faces();
         out.nodes.push_back(std::move(to));

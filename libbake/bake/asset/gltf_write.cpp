@@ -229,9 +229,8 @@ void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, cons
     to[key] = std::move(info);
 }
 
-void add_materials(Layout& layout, const Gltf& gltf, const Images& images, std::uint32_t uv_sets) {
-    for (std::size_t i = 0; i < gltf.materials.size(); ++i) {
-        const GltfMaterial& from = gltf.materials[i];
+void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, const Images& images, std::uint32_t uv_sets) {
+    for (const GltfMaterial& from : materials) {
         json pbr = json::object(), object = json::object();
         if (!from.name.empty()) object["name"] = utf8(from.name);
         const Vec4f& c = from.base_color_factor;
@@ -326,7 +325,9 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
     const Images images = add_images(layout, gltf, path, binary, done);
     std::uint32_t uv_sets = mesh.corner_uv.empty() ? 0 : 1;
     for (const Semantic& s : semantics) uv_sets += s.flip_v ? 1 : 0;
-    add_materials(layout, gltf, images, uv_sets);
+    std::vector<GltfMaterial> materials = gltf.materials;
+    for (std::size_t i = materials.size(); i < mesh.materials.size(); ++i) materials.push_back({.name = mesh.materials[i]});
+    add_materials(layout, materials, images, uv_sets);
     layout.root["buffers"][0]["byteLength"] = layout.bytes;
     if (binary) write_glb(path, layout);
     else write_beside(path, layout, images);
@@ -352,9 +353,7 @@ GltfWritten write_gltf(const std::string& path, const Gltf& gltf) {
 }
 
 GltfWritten write_gltf(const std::string& path, const Mesh& mesh) {
-    Gltf gltf;
-    for (const std::string& name : mesh.materials) gltf.materials.push_back({.name = name});
-    return write_scene(path, gltf, mesh);
+    return write_scene(path, {}, mesh);
 }
 
 } // namespace bake

@@ -65,7 +65,7 @@ DistinctCorners distinct_corners(const Mesh& mesh, std::size_t first_face, std::
     DistinctCorners out;
     if (mesh.tangents.empty() && mesh.attributes.empty()) {
         out = distinct_corners(positions.size(), range, position, indices,
-                               [](std::uint32_t, std::uint32_t) { return true; });
+                               [indices](std::uint32_t i, std::uint32_t j) { return indices(i) == indices(j); });
     } else {
         const auto key = [&](std::uint32_t c) noexcept {
             std::uint64_t hash = mixed(0, indices(c));

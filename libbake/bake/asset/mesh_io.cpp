@@ -28,17 +28,9 @@ Error unknown_format(Refusal refusal, const std::string& path) {
                               " is not a mesh format known here; use .obj, .ply, .gltf or .glb");
 }
 
-Mesh read_scene(const std::string& path, const MeshOptions& options) {
-    Mesh mesh = flatten(read_gltf(path, {.flip_v = !options.flip_v}));
-    for (const Vec3f& p : mesh.positions)
-        if (!(glm::dot(p, Vec3f(0)) == 0))
-            throw Error(Refusal::unreadable, path + ": its nodes place a position beyond all floats; export it again");
-    return mesh;
-}
-
 Mesh read_format(Format format, const std::string& path, const MeshOptions& options) {
     try {
-        if (format == Format::gltf) return read_scene(path, options);
+        if (format == Format::gltf) return flatten(read_gltf(path, {.flip_v = !options.flip_v}));
         Mesh mesh = format == Format::obj ? read_obj(path) : read_ply(path);
         for (Vec2f& uv : mesh.uvs)
             if (options.flip_v) uv.y = 1 - uv.y;
@@ -49,6 +41,8 @@ Mesh read_format(Format format, const std::string& path, const MeshOptions& opti
 }
 
 } // namespace
+
+bool is_gltf(const std::string& path) { return format_of(path) == Format::gltf; }
 
 Mesh read_mesh(const std::string& path, const MeshOptions& options) {
     const Format format = format_of(path);

@@ -97,7 +97,7 @@ void weld_texcoord(PlyBody& body) {
     };
     DistinctCorners distinct = distinct_corners(
         mesh.corners(), mesh.positions.size(), [&mesh](std::uint32_t c) { return mesh.corner_position[c]; }, key,
-        [](std::uint32_t, std::uint32_t) { return true; });
+        [key](std::uint32_t a, std::uint32_t b) { return key(a) == key(b); });
     mesh.corner_uv = std::move(distinct.corner);
     mesh.uvs.resize(distinct.first.size());
     for (std::size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i] = body.texcoord[distinct.first[i]];

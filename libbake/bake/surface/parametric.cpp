@@ -142,9 +142,9 @@ std::pair<int, int> ParametricSurface::default_resolution() const noexcept {
 }
 
 std::string ParametricSurface::help() const {
-    std::string out = shape_->name + ": " + shape_->kind->what;
+    std::string out = shape_->name + ", " + shape_->kind->what;
     for (std::size_t i = 0; i < shape_->values.size(); ++i)
-        out += format("; %s = %g %s", shape_->kind->keys[i].name, shape_->values[i], shape_->kind->keys[i].what);
+        out += format("%s %s=%g (%s)", i == 0 ? ":" : ",", shape_->kind->keys[i].name, shape_->values[i], shape_->kind->keys[i].what);
     return out;
 }
 

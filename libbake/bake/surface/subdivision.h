@@ -49,6 +49,11 @@ private:
     std::unique_ptr<Limit> limit_;
 };
 
+/// The cage after so many levels of subdivision, at most 15: not yet the limit. Uvs, materials, groups and tags are kept
+/// (tags as sharp as the levels leave them, so that refining goes on as if in one go), normals and attributes are not.
+/// check_cage() comes first. Throws Error{Refusal::unsuitable} when it needs more memory than there is.
+Mesh refine(const Mesh& cage, const SubdivisionOptions& options, int levels);
+
 /// Derivatives along the UV chart instead of the patch's own parameters; needs Derivatives::second. All derivatives
 /// zero where the chart has no area.
 Jet2<double> chart_derivatives(const LimitPoint& point) noexcept;

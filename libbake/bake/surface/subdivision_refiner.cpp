@@ -28,59 +28,61 @@ UvValues uv_values(const Mesh& cage) {
     return uvs;
 }
 
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const Mesh& cage, const UvValues& uvs,
-                                                               const SubdivisionOptions& options) {
-    using namespace OpenSubdiv;
-    std::vector<int> sizes(cage.faces());
-    for (std::size_t f = 0; f < cage.faces(); ++f) sizes[f] = int(cage.face_begin[f + 1] - cage.face_begin[f]);
-    std::vector<int> creases, corners;
-    std::vector<float> crease_weights, corner_weights;
+RefinerInput refiner_input(const Mesh& cage, const UvValues& uvs) {
+    RefinerInput input;
+    input.positions = int(cage.positions.size());
+    input.uvs = int(uvs.values.size());
+    for (std::size_t f = 0; f < cage.faces(); ++f) input.sizes.push_back(int(cage.face_begin[f + 1] - cage.face_begin[f]));
+    input.corner_position.assign(cage.corner_position.begin(), cage.corner_position.end());
+    input.corner_uv = uvs.corner;
     for (const SubdivisionTags::Crease& crease : cage.tags.creases) {
-        creases.insert(creases.end(), {int(crease.a), int(crease.b)});
-        crease_weights.push_back(std::clamp(crease.sharpness, 0.0f, 10.0f));
+        input.creases.insert(input.creases.end(), {int(crease.a), int(crease.b)});
+        input.crease_weights.push_back(std::clamp(crease.sharpness, 0.0f, 10.0f));
     }
     for (const SubdivisionTags::Corner& corner : cage.tags.corners) {
-        corners.push_back(int(corner.position));
-        corner_weights.push_back(std::clamp(corner.sharpness, 0.0f, 10.0f));
+        input.corners.push_back(int(corner.position));
+        input.corner_weights.push_back(std::clamp(corner.sharpness, 0.0f, 10.0f));
     }
+    return input;
+}
 
-    Far::TopologyDescriptor cage_of;
-    cage_of.numVertices = int(cage.positions.size());
-    cage_of.numFaces = int(cage.faces());
-    cage_of.numVertsPerFace = sizes.data();
-    cage_of.vertIndicesPerFace = reinterpret_cast<const int*>(cage.corner_position.data());
-    cage_of.numCreases = int(crease_weights.size());
-    cage_of.creaseVertexIndexPairs = creases.data();
-    cage_of.creaseWeights = crease_weights.data();
-    cage_of.numCorners = int(corner_weights.size());
-    cage_of.cornerVertexIndices = corners.data();
-    cage_of.cornerWeights = corner_weights.data();
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>
+make_refiner(const RefinerInput& input, SubdivisionTags::Boundary boundary, const SubdivisionOptions& options) {
+    using namespace OpenSubdiv;
+    Far::TopologyDescriptor cage;
+    cage.numVertices = input.positions;
+    cage.numFaces = int(input.sizes.size());
+    cage.numVertsPerFace = input.sizes.data();
+    cage.vertIndicesPerFace = input.corner_position.data();
+    cage.numCreases = int(input.crease_weights.size());
+    cage.creaseVertexIndexPairs = input.creases.data();
+    cage.creaseWeights = input.crease_weights.data();
+    cage.numCorners = int(input.corner_weights.size());
+    cage.cornerVertexIndices = input.corners.data();
+    cage.cornerWeights = input.corner_weights.data();
     Far::TopologyDescriptor::FVarChannel channel;
-    channel.numValues = int(uvs.values.size());
-    channel.valueIndices = uvs.corner.data();
-    if (!uvs.corner.empty()) {
-        cage_of.numFVarChannels = 1;
-        cage_of.fvarChannels = &channel;
-    }
+    channel.numValues = input.uvs;
+    channel.valueIndices = input.corner_uv.data();
+    cage.numFVarChannels = input.corner_uv.empty() ? 0 : 1;
+    cage.fvarChannels = &channel;
 
-    Sdc::Options rules;
-    switch (cage.tags.boundary) {
-    case SubdivisionTags::Boundary::none: rules.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_NONE); break;
-    case SubdivisionTags::Boundary::edge_only:
-        rules.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
-        break;
+    using Rules = Sdc::Options;
+    Rules rules;
+    switch (boundary) {
+    case SubdivisionTags::Boundary::none: rules.SetVtxBoundaryInterpolation(Rules::VTX_BOUNDARY_NONE); break;
+    case SubdivisionTags::Boundary::edge_only: rules.SetVtxBoundaryInterpolation(Rules::VTX_BOUNDARY_EDGE_ONLY); break;
     case SubdivisionTags::Boundary::edge_and_corner:
-        rules.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+        rules.SetVtxBoundaryInterpolation(Rules::VTX_BOUNDARY_EDGE_AND_CORNER);
         break;
     }
     switch (options.uv) {
-    case UvSmoothing::none: rules.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_ALL); break;
-    case UvSmoothing::inside: rules.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_BOUNDARIES); break;
-    case UvSmoothing::all: rules.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_NONE); break;
+    case UvSmoothing::none: rules.SetFVarLinearInterpolation(Rules::FVAR_LINEAR_ALL); break;
+    case UvSmoothing::inside: rules.SetFVarLinearInterpolation(Rules::FVAR_LINEAR_BOUNDARIES); break;
+    case UvSmoothing::all: rules.SetFVarLinearInterpolation(Rules::FVAR_LINEAR_NONE); break;
     }
     const Sdc::SchemeType scheme = options.scheme == Scheme::loop ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK;
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(cage_of, Factory::Options(scheme, rules)));
+    std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(cage, Factory::Options(scheme, rules)));
     assert(refiner); // check_cage came first
     return refiner;
 }

@@ -22,8 +22,17 @@ struct UvValues {
 };
 UvValues uv_values(const Mesh& cage);
 
-/// The cage's topology, tags and, when there are any, uvs as face-varying channel 0.
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const Mesh& cage, const UvValues& uvs,
-                                                               const SubdivisionOptions& options);
+/// Topology and tags as OpenSubdiv takes them. Sharpness 10 is infinite.
+struct RefinerInput {
+    int positions = 0, uvs = 0;
+    std::vector<int> sizes, corner_position, corner_uv; ///< corner_uv: none without uvs
+    std::vector<int> creases, corners;                  ///< creases in pairs
+    std::vector<float> crease_weights, corner_weights;
+};
+RefinerInput refiner_input(const Mesh& cage, const UvValues& uvs);
+
+/// Not yet refined; uvs are face-varying channel 0.
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>
+make_refiner(const RefinerInput& input, SubdivisionTags::Boundary boundary, const SubdivisionOptions& options);
 
 } // namespace bake
