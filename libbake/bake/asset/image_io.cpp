@@ -1,5 +1,6 @@
 #include "bake/asset/image_io.h"
 #include "bake/asset/picture_formats.h"
+#include "bake/asset/plain_png.h"
 #include "bake/asset/plain_tiff.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
@@ -47,12 +48,19 @@ const char* name(SampleType type) noexcept {
 
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
     if (const auto tiff = find_plain_tiff(path, limits)) return tiff->info;
+    if (const auto png = find_plain_png(path, limits)) return *png;
     return picture_formats().read_info(path, limits);
 }
 
 Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
     ImageInfo info;
     Image<float> image;
+    if (const auto png = find_plain_png(path, limits)) {
+        if (auto read = read_plain_png(path, *png)) {
+            if (info_out) *info_out = *png;
+            return std::move(*read);
+        }
+    }
     if (const auto tiff = find_plain_tiff(path, limits)) {
         info = tiff->info;
         image = read_plain_tiff(path, *tiff);
