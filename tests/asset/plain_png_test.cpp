@@ -10,18 +10,25 @@ using namespace bake::test;
 
 namespace {
 
-std::optional<Image<float>> read_plain(const std::string& path) {
-    const auto info = find_plain_png(path, {});
-    return info ? read_plain_png(path, *info) : std::nullopt;
-}
-
 bool same(const Image<float>& a, const Image<float>& b) {
     return a.width() == b.width() && a.height() == b.height() && a.channels() == b.channels() &&
            std::equal(a.data(), a.data() + a.size(), b.data());
 }
 
-// The same file with a chunk that we do not know: OpenImageIO reads it.
-std::string with_unknown_chunk(const std::string& bytes) { return bytes.substr(0, 33) + png_chunk("abCd", "?") + bytes.substr(33); }
+/// What OpenImageIO makes of the file. A histogram without palette does not belong into a PNG: that is left to it.
+Image<float> by_openimageio(const Folder& folder, const std::string& path, ImageInfo& info) {
+    const std::string bytes = contents(path), other = folder / "other.png";
+    write_file(other, bytes.substr(0, 33) + png_chunk("hIST", "??") + bytes.substr(33));
+    CHECK_FALSE(read_plain_png(other, {}));
+    return read_image(other, &info);
+}
+
+void check_same_info(const ImageInfo& a, const ImageInfo& b) {
+    CHECK(a.channels == b.channels);
+    CHECK(a.alpha_channel == b.alpha_channel);
+    CHECK(a.bits == b.bits);
+    CHECK(a.srgb_tagged == b.srgb_tagged);
+}
 
 } // namespace
 
@@ -30,25 +37,24 @@ TEST_SUITE("unit") {
         const Folder folder;
         const std::string path = folder / "a.png";
         write_file(path, png_bytes(2, 2, 8, 0, {std::string("\x00\xff", 2), "\x80\x01"}));
-        const auto grey = read_plain(path);
+        const auto grey = read_plain_png(path, {});
         REQUIRE(grey);
-        CHECK(grey->channels() == 1);
-        CHECK(grey->at(0, 0) == 0);
-        CHECK(grey->at(1, 0) == 1);
-        CHECK(grey->at(0, 1) == doctest::Approx(128 / 255.0));
-        CHECK(find_plain_png(path, {})->channels == std::vector<std::string>{"Y"});
-        CHECK_FALSE(find_plain_png(path, {})->srgb_tagged);
+        CHECK(grey->image.channels() == 1);
+        CHECK(grey->image.at(0, 0) == 0);
+        CHECK(grey->image.at(1, 0) == 1);
+        CHECK(grey->image.at(0, 1) == doctest::Approx(128 / 255.0));
+        CHECK(grey->info.channels == std::vector<std::string>{"Y"});
+        CHECK_FALSE(grey->info.srgb_tagged);
 
         write_file(path, png_bytes(1, 1, 16, 6, {std::string("\x01\x00\xff\xff\x00\x01\x80\x00", 8)}, srgb_tag()));
-        const auto colour = read_plain(path);
+        const auto colour = read_plain_png(path, {});
         REQUIRE(colour);
-        CHECK(colour->at(0, 0, 0) == doctest::Approx(256 / 65535.0));
-        CHECK(colour->at(0, 0, 1) == 1);
-        CHECK(colour->at(0, 0, 2) == doctest::Approx(1 / 65535.0));
-        const ImageInfo info = *find_plain_png(path, {});
-        CHECK(info.bits == 16);
-        CHECK(info.alpha_channel == 3);
-        CHECK(info.srgb_tagged);
+        CHECK(colour->image.at(0, 0, 0) == doctest::Approx(256 / 65535.0));
+        CHECK(colour->image.at(0, 0, 1) == 1);
+        CHECK(colour->image.at(0, 0, 2) == doctest::Approx(1 / 65535.0));
+        CHECK(colour->info.bits == 16);
+        CHECK(colour->info.alpha_channel == 3);
+        CHECK(colour->info.srgb_tagged);
     }
 
     TEST_CASE("plain_png: what is not plain, or does not add up, is left to OpenImageIO") {
@@ -56,7 +62,7 @@ TEST_SUITE("unit") {
         const std::string path = folder / "a.png", rows = std::string("\x01\x02", 2);
         const auto given = [&](const std::string& bytes) {
             write_file(path, bytes);
-            return read_plain(path).has_value();
+            return read_plain_png(path, {}).has_value();
         };
         const std::string good = png_bytes(2, 1, 8, 0, {rows});
         CHECK(given(good));
@@ -64,11 +70,9 @@ TEST_SUITE("unit") {
         CHECK_FALSE(given(png_bytes(8, 1, 4, 0, {std::string(4, '\1')})));                              // 4 bits
         CHECK_FALSE(given(png_bytes(2, 1, 8, 3, {rows}, png_chunk("PLTE", std::string(9, '\1')))));      // palette
         CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("tRNS", std::string(2, '\1')))));      // transparency
-        CHECK_FALSE(given(with_unknown_chunk(good)));
         CHECK_FALSE(given(good.substr(0, good.size() - 12)));  // no end
         CHECK_FALSE(given(good.substr(0, 40)));
         CHECK_FALSE(given(png_bytes(2, 2, 8, 0, {rows})));           // too few rows
-        CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows, rows})));     // too many
         CHECK_FALSE(given(png_bytes(0, 1, 8, 0, {rows})));
         CHECK_FALSE(given(png_bytes(1 << 19, 1 << 19, 8, 0, {rows}))); // more than its bytes can hold
         std::string interlaced = png_bytes(2, 1, 8, 0, {rows});
@@ -79,9 +83,9 @@ TEST_SUITE("unit") {
             damaged[i] = char(damaged[i] ^ 4);
             CHECK_FALSE(given(damaged));
         }
-        CHECK_FALSE(find_plain_png(folder / "absent.png", {}));
+        CHECK_FALSE(read_plain_png(folder / "absent.png", {}));
         write_file(path, good);
-        CHECK_FALSE(find_plain_png(path, {.max_bytes = 7}));
+        CHECK_FALSE(read_plain_png(path, {.max_bytes = 7}));
     }
 }
 
@@ -96,18 +100,13 @@ TEST_SUITE("oracle") {
                 for (int y = 0; y < image.height(); ++y)
                     for (int x = 0; x < image.width() * channels; ++x)
                         image.row(y)[x] = 0.5f + 0.3f * std::sin(0.1f * float(x)) * std::cos(0.07f * float(y * y)) + float(random() % 100) * 0.001f;
-                const std::string path = folder / "a.png", other = folder / "b.png";
+                const std::string path = folder / "a.png";
                 write_image(path, image, {.depth = depth});
-                const auto plain = read_plain(path);
+                const auto plain = read_plain_png(path, {});
                 REQUIRE(plain);
-                write_file(other, with_unknown_chunk(contents(path)));
                 ImageInfo info;
-                CHECK(same(*plain, read_image(other, &info)));
-                const ImageInfo own = *find_plain_png(path, {});
-                CHECK(own.channels == info.channels);
-                CHECK(own.alpha_channel == info.alpha_channel);
-                CHECK(own.bits == info.bits);
-                CHECK(own.srgb_tagged == info.srgb_tagged);
+                CHECK(same(plain->image, by_openimageio(folder, path, info)));
+                check_same_info(plain->info, info);
             }
     }
 }
@@ -122,19 +121,13 @@ TEST_SUITE("real") {
         int plain_files = 0;
         for (const auto& entry : fs::recursive_directory_iterator(shared_data())) {
             if (entry.path().extension() != ".png" || entry.file_size() > 1500000) continue;
-            const auto plain = read_plain(entry.path().string());
+            const auto plain = read_plain_png(entry.path().string(), {});
             if (!plain) continue;
             ++plain_files;
             CAPTURE(entry.path().string());
-            const std::string other = folder / "b.png";
-            write_file(other, with_unknown_chunk(contents(entry.path().string())));
             ImageInfo info;
-            CHECK(same(*plain, read_image(other, &info)));
-            const ImageInfo own = *find_plain_png(entry.path().string(), {});
-            CHECK(own.channels == info.channels);
-            CHECK(own.srgb_tagged == info.srgb_tagged);
-            CHECK(own.bits == info.bits);
-            CHECK(own.alpha_channel == info.alpha_channel);
+            CHECK(same(plain->image, by_openimageio(folder, entry.path().string(), info)));
+            check_same_info(plain->info, info);
         }
         CHECK(plain_files > 10);
     }

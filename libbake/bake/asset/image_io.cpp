@@ -48,22 +48,18 @@ const char* name(SampleType type) noexcept {
 
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
     if (const auto tiff = find_plain_tiff(path, limits)) return tiff->info;
-    if (const auto png = find_plain_png(path, limits)) return *png;
     return picture_formats().read_info(path, limits);
 }
 
 Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
     ImageInfo info;
     Image<float> image;
-    if (const auto png = find_plain_png(path, limits)) {
-        if (auto read = read_plain_png(path, *png)) {
-            if (info_out) *info_out = *png;
-            return std::move(*read);
-        }
-    }
     if (const auto tiff = find_plain_tiff(path, limits)) {
         info = tiff->info;
         image = read_plain_tiff(path, *tiff);
+    } else if (auto png = read_plain_png(path, limits)) {
+        info = std::move(png->info);
+        image = std::move(png->image);
     } else {
         if (is_cut_short_tiff(path)) throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
         image = picture_formats().read(path, info, limits);

@@ -1,180 +1,121 @@
-// PNG Specification (Third Edition): 5 datastream structure, 9 filtering, 10 compression by zlib, which is our only help.
 #include "bake/asset/plain_png.h"
 #include "bake/asset/file_bytes.h"
 #include <algorithm>
-#include <cmath>
+#include <csetjmp>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <new>
-#include <zlib.h>
+#include <png.h>
+#include <vector>
 
 namespace bake {
 namespace {
 
-using Byte = unsigned char;
-
-constexpr char signature[] = "\x89PNG\r\n\x1a\n";
-constexpr std::size_t header_size = 33; // signature and IHDR
-
-std::uint32_t big_endian(const Byte* b) noexcept {
-    return std::uint32_t(b[0]) << 24 | std::uint32_t(b[1]) << 16 | std::uint32_t(b[2]) << 8 | b[3];
-}
-
-// Chunks that say nothing of the values.
-bool is_remark(const char* type) noexcept {
-    constexpr const char* remarks[] = {"gAMA", "cHRM", "sRGB", "pHYs", "tEXt", "zTXt", "iTXt", "tIME", "bKGD", "eXIf"};
-    return std::any_of(std::begin(remarks), std::end(remarks), [&](const char* r) { return std::memcmp(r, type, 4) == 0; });
-}
-
-// Undoes the filter of one row in place; `above` is the row before it, zeros for the first.
-bool unfilter(int filter, Byte* row, const Byte* above, std::size_t size, std::size_t texel) noexcept {
-    switch (filter) {
-    case 0: return true;
-    case 1:
-        for (std::size_t i = texel; i < size; ++i) row[i] = Byte(row[i] + row[i - texel]);
-        return true;
-    case 2:
-        for (std::size_t i = 0; i < size; ++i) row[i] = Byte(row[i] + above[i]);
-        return true;
-    case 3:
-        for (std::size_t i = 0; i < size; ++i) row[i] = Byte(row[i] + ((i < texel ? 0 : row[i - texel]) + above[i]) / 2);
-        return true;
-    case 4:
-        for (std::size_t i = 0; i < size; ++i) {
-            const int left = i < texel ? 0 : row[i - texel], up = above[i], corner = i < texel ? 0 : above[i - texel];
-            const int guess = left + up - corner;
-            const int to_left = std::abs(guess - left), to_up = std::abs(guess - up), to_corner = std::abs(guess - corner);
-            row[i] = Byte(row[i] + (to_left <= to_up && to_left <= to_corner ? left : to_up <= to_corner ? up : corner));
-        }
-        return true;
-    default: return false;
-    }
-}
-
-// Inflates piece by piece.
-class Inflater {
-public:
-    explicit Inflater(std::size_t size) : bytes(size + 1), size_(size) { // one more: a stream too long shows
-        ready_ = inflateInit(&stream_) == Z_OK;
-        stream_.next_out = bytes.data();
-    }
-    ~Inflater() {
-        if (ready_) inflateEnd(&stream_);
-    }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-
-    bool add(const Byte* data, std::size_t size) noexcept {
-        stream_.next_in = const_cast<Byte*>(data); // zlib does not write to it
-        stream_.avail_in = uInt(size);
-        while (ready_ && !ended_ && stream_.avail_in > 0) {
-            stream_.avail_out = uInt(std::min<std::size_t>(bytes.size() - produced(), 1u << 30));
-            const int result = inflate(&stream_, Z_NO_FLUSH);
-            ended_ = result == Z_STREAM_END;
-            if (!ended_ && result != Z_OK) return false;
-        }
-        return ready_ && stream_.avail_in == 0;
-    }
-    bool whole() const noexcept { return ended_ && produced() == size_; }
-
-    std::vector<Byte> bytes;
-
-private:
-    std::size_t produced() const noexcept { return std::size_t(stream_.next_out - bytes.data()); }
-
-    std::size_t size_;
-    z_stream stream_ = {};
-    bool ready_ = false, ended_ = false;
+/// The bytes of a file, as libpng takes them.
+struct Source {
+    const char *at, *end;
 };
 
-void to_floats(const Byte* row, float* values, std::size_t count, int bits) noexcept {
+void take(png_structp png, png_bytep to, std::size_t size) {
+    Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+    if (size > std::size_t(source.end - source.at)) png_error(png, "cut short");
+    std::memcpy(to, source.at, size);
+    source.at += size;
+}
+
+/// Errors and warnings alike: a file that gives cause for either is left to OpenImageIO.
+void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+
+/// libpng's two objects, and what it reads from. A jump out of libpng passes over no object with a destructor.
+class Decoder {
+public:
+    explicit Decoder(Source source)
+        : source_(source), png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, give_up)) {
+        if (png_) info_ = png_create_info_struct(png_);
+        if (!info_) return;
+        png_set_read_fn(png_, &source_, take);
+        png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+    }
+    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    /// Up to the first pixels.
+    bool read_header() noexcept {
+        if (!info_ || setjmp(png_jmpbuf(png_))) return false;
+        png_read_info(png_, info_);
+        return true;
+    }
+    bool read_rows(png_bytepp rows) noexcept {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_read_image(png_, rows);
+        png_read_end(png_, nullptr);
+        return true;
+    }
+
+    /// What the header says, nothing when the file is not plain.
+    std::optional<ImageInfo> plain_info() const {
+        const int bits = png_get_bit_depth(png_, info_), colours = png_get_color_type(png_, info_);
+        if (bits < 8 || png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE ||
+            png_get_valid(png_, info_, PNG_INFO_tRNS | PNG_INFO_iCCP | PNG_INFO_sBIT))
+            return {};
+        ImageInfo info;
+        switch (colours) {
+        case PNG_COLOR_TYPE_GRAY: info.channels = {"Y"}; break;
+        case PNG_COLOR_TYPE_RGB: info.channels = {"R", "G", "B"}; break;
+        case PNG_COLOR_TYPE_GRAY_ALPHA: info.channels = {"Y", "A"}; break;
+        case PNG_COLOR_TYPE_RGB_ALPHA: info.channels = {"R", "G", "B", "A"}; break;
+        default: return {};
+        }
+        info.format = "png";
+        info.width = int(png_get_image_width(png_, info_)), info.height = int(png_get_image_height(png_, info_));
+        info.type = bits == 8 ? SampleType::u8 : SampleType::u16;
+        info.bits = bits;
+        info.srgb_tagged = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0;
+        if (colours & PNG_COLOR_MASK_ALPHA) info.alpha_channel = int(info.channels.size()) - 1;
+        return info;
+    }
+
+private:
+    Source source_;
+    png_structp png_;
+    png_infop info_ = nullptr;
+};
+
+void to_floats(const png_byte* row, float* values, std::size_t count, int bits) noexcept {
     if (bits == 8)
         for (std::size_t i = 0; i < count; ++i) values[i] = float(row[i]) * (1.0f / 255);
     else
         for (std::size_t i = 0; i < count; ++i) values[i] = float(row[2 * i] << 8 | row[2 * i + 1]) * (1.0f / 65535);
 }
 
-// Calls chunk(type, data, size) for each up to IEND, data being within [begin, end). False when they do not add up, or
-// chunk says so.
-template <class Chunk> bool each_chunk(const Byte* begin, const Byte* end, const Chunk& chunk) {
-    for (const Byte* at = begin; end - at >= 12;) {
-        const std::uint32_t size = big_endian(at);
-        if (size > std::uint64_t(end - at) - 12) return false;
-        const Byte* const data = at + 8;
-        if (big_endian(data + size) != crc32(crc32(0, nullptr, 0), at + 4, uInt(size + 4))) return false;
-        const char* const type = reinterpret_cast<const char*>(at + 4);
-        if (std::memcmp(type, "IEND", 4) == 0) return true;
-        if (!chunk(type, data, size)) return false;
-        at = data + size + 4;
-    }
-    return false;
+/// The first bytes say PNG: no other file is read whole for nothing.
+bool is_png(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    png_byte signature[8];
+    return file.read(reinterpret_cast<char*>(signature), 8) && png_sig_cmp(signature, 0, 8) == 0;
 }
 
 } // namespace
 
-std::optional<ImageInfo> find_plain_png(const std::string& path, const ReadLimits& limits) {
-    std::ifstream file(path, std::ios::binary);
-    Byte head[header_size];
-    if (!file.read(reinterpret_cast<char*>(head), header_size) || std::memcmp(head, signature, 8) != 0 ||
-        big_endian(head + 8) != 13 || std::memcmp(head + 12, "IHDR", 4) != 0)
-        return {};
-    const std::uint32_t width = big_endian(head + 16), height = big_endian(head + 20);
-    const int bits = head[24], colours = head[25];
-    if ((bits != 8 && bits != 16) || head[26] != 0 || head[27] != 0 || head[28] != 0) return {};
-    ImageInfo info;
-    info.format = "png";
-    switch (colours) {
-    case 0: info.channels = {"Y"}; break;
-    case 2: info.channels = {"R", "G", "B"}; break;
-    case 4: info.channels = {"Y", "A"}; break;
-    case 6: info.channels = {"R", "G", "B", "A"}; break;
-    default: return {};
-    }
-    if (width < 1 || height < 1 || width > (1 << 20) || height > (1 << 20)) return {};
-    const double samples = double(width) * height * double(info.channels.size());
-    std::error_code failed;
-    const double stored = double(std::filesystem::file_size(path, failed));
-    // Deflate makes at most 1032 bytes of one.
-    if (failed || 4 * samples > double(limits.max_bytes) || samples * bits / 8 > 1032 * stored) return {};
-    info.width = int(width);
-    info.height = int(height);
-    info.type = bits == 8 ? SampleType::u8 : SampleType::u16;
-    info.bits = bits;
-    if (colours == 4 || colours == 6) info.alpha_channel = int(info.channels.size()) - 1;
-    // The chunks before the pixels.
-    for (Byte chunk[8]; file.read(reinterpret_cast<char*>(chunk), 8);) {
-        const char* const type = reinterpret_cast<const char*>(chunk + 4);
-        if (std::memcmp(type, "IDAT", 4) == 0) return info;
-        if (!is_remark(type)) return {};
-        info.srgb_tagged = info.srgb_tagged || std::memcmp(type, "sRGB", 4) == 0;
-        file.seekg(std::streamoff(big_endian(chunk)) + 4, std::ios::cur);
-    }
-    return {};
-}
-
-std::optional<Image<float>> read_plain_png(const std::string& path, const ImageInfo& info) try {
+std::optional<PlainPng> read_plain_png(const std::string& path, const ReadLimits& limits) try {
+    if (!is_png(path)) return {};
     const FileBytes file = read_file(path);
-    if (file.size < header_size) return {};
-    const auto* const begin = reinterpret_cast<const Byte*>(file.begin());
-    const std::size_t texel = info.channels.size() * std::size_t(info.bits / 8), row = texel * std::size_t(info.width);
-    Inflater inflater((row + 1) * std::size_t(info.height));
-    const bool read = each_chunk(begin + 8, begin + file.size, [&](const char* type, const Byte* data, std::size_t size) {
-        if (std::memcmp(type, "IDAT", 4) == 0) return inflater.add(data, size);
-        return is_remark(type) || std::memcmp(type, "IHDR", 4) == 0;
-    });
-    if (!read || !inflater.whole()) return {};
-
-    Image<float> image(info.width, info.height, int(info.channels.size()));
-    const std::vector<Byte> none(row, 0);
-    const Byte* above = none.data();
-    for (int y = 0; y < info.height; ++y) {
-        Byte* const line = inflater.bytes.data() + std::size_t(y) * (row + 1);
-        if (!unfilter(line[0], line + 1, above, row, texel)) return {};
-        above = line + 1;
-        to_floats(line + 1, image.row(y), row / std::size_t(info.bits / 8), info.bits);
-    }
-    return image;
+    Decoder decoder({file.begin(), file.end()});
+    if (!decoder.read_header()) return {};
+    const std::optional<ImageInfo> info = decoder.plain_info();
+    if (!info) return {};
+    const std::size_t row = std::size_t(info->width) * info->channels.size();
+    // Deflate makes at most 1032 bytes of one.
+    const double samples = double(row) * info->height;
+    if (4 * samples > double(limits.max_bytes) || samples * info->bits / 8 > 1032 * double(file.size)) return {};
+    Image<float> image(info->width, info->height, int(info->channels.size()));
+    std::vector<png_byte> bytes(row * std::size_t(info->bits / 8) * std::size_t(info->height));
+    std::vector<png_bytep> rows(static_cast<std::size_t>(info->height));
+    for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = bytes.data() + bytes.size() / rows.size() * y;
+    if (!decoder.read_rows(rows.data())) return {};
+    for (int y = 0; y < info->height; ++y) to_floats(rows[std::size_t(y)], image.row(y), row, info->bits);
+    return PlainPng{*info, std::move(image)};
 } catch (const std::bad_alloc&) {
     return {}; // OpenImageIO's room says so
 }
