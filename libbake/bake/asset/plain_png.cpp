@@ -23,7 +23,8 @@ std::uint32_t big_endian(const Byte* b) noexcept {
 
 // Chunks that say nothing of the values.
 bool is_remark(const char* type) noexcept {
-    constexpr const char* remarks[] = {"gAMA", "cHRM", "sRGB", "pHYs", "tEXt", "zTXt", "iTXt", "tIME", "bKGD", "eXIf"};
+    constexpr const char* remarks[] = {"gAMA", "cHRM", "sRGB", "iCCP", "pHYs", "oFFs", "tEXt",
+                                       "zTXt", "iTXt", "tIME", "bKGD", "eXIf"};
     return std::any_of(std::begin(remarks), std::end(remarks), [&](const char* r) { return std::memcmp(r, type, 4) == 0; });
 }
 
@@ -147,8 +148,15 @@ std::optional<ImageInfo> find_plain_png(const std::string& path, const ReadLimit
         const char* const type = reinterpret_cast<const char*>(chunk + 4);
         if (std::memcmp(type, "IDAT", 4) == 0) return info;
         if (!is_remark(type)) return {};
-        info.srgb_tagged = info.srgb_tagged || std::memcmp(type, "sRGB", 4) == 0;
-        file.seekg(std::streamoff(big_endian(chunk)) + 4, std::ios::cur);
+        const std::streamoff next = std::streamoff(file.tellg()) + std::streamoff(big_endian(chunk)) + 4;
+        char begin[80] = {};
+        file.read(begin, std::min<std::streamsize>(79, big_endian(chunk)));
+        // A place other than the corner moves the picture.
+        if (std::memcmp(type, "oFFs", 4) == 0 && std::any_of(begin, begin + 8, [](char c) { return c != 0; })) return {};
+        // A profile begins with its name.
+        if (std::memcmp(type, "sRGB", 4) == 0 || (std::memcmp(type, "iCCP", 4) == 0 && std::strstr(begin, "sRGB")))
+            info.srgb_tagged = true;
+        file.seekg(next);
     }
     return {};
 }

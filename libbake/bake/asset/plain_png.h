@@ -7,9 +7,9 @@
 
 namespace bake {
 
-/// What a plain PNG says of itself. Nothing for palettes, interlaced files, transparency by colour, colour profiles, chunks
-/// whose meaning is not known here, files over `limits` and whatever does not add up: OpenImageIO then says what the file
-/// is, or what is wrong with it.
+/// What a plain PNG says of itself. Nothing for palettes, interlaced files, transparency by colour, pictures out of their
+/// corner, chunks whose meaning is not known here, files over `limits` and whatever does not add up: OpenImageIO then says
+/// what the file is, or what is wrong with it.
 std::optional<ImageInfo> find_plain_png(const std::string& path, const ReadLimits& limits);
 
 /// The picture of a file that find_plain_png() knows, as read_image gives it. Nothing where a check sum, or the end of the
