@@ -70,6 +70,8 @@ TEST_SUITE("unit") {
         CHECK_FALSE(given(png_bytes(8, 1, 4, 0, {std::string(4, '\1')})));                              // 4 bits
         CHECK_FALSE(given(png_bytes(2, 1, 8, 3, {rows}, png_chunk("PLTE", std::string(9, '\1')))));      // palette
         CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("tRNS", std::string(2, '\1')))));      // transparency
+        CHECK(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("oFFs", std::string(9, '\0')))));
+        CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("oFFs", std::string(7, '\0') + std::string("\1\0", 2)))));
         CHECK_FALSE(given(good.substr(0, good.size() - 12)));  // no end
         CHECK_FALSE(given(good.substr(0, 40)));
         CHECK_FALSE(given(png_bytes(2, 2, 8, 0, {rows})));           // too few rows

@@ -52,7 +52,7 @@ std::size_t bytes(const Mesh& mesh) {
 int main() {
     const oracle::TorusRelief relief;
     Relief height;
-    height.values = oracle::relief_texture(relief, 2048).values;
+    height.values = oracle::relief_texture(relief, 1024).values;
     height.height = {.amplitude = 2 * relief.A, .midlevel = 0.5};
     const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 4, 4);
     for (int levels = 4; levels <= 9; ++levels) {

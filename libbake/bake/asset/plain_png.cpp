@@ -57,8 +57,10 @@ public:
     std::optional<ImageInfo> plain_info() const {
         const int bits = png_get_bit_depth(png_, info_), colours = png_get_color_type(png_, info_);
         if (bits < 8 || png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE ||
-            png_get_valid(png_, info_, PNG_INFO_tRNS | PNG_INFO_iCCP | PNG_INFO_sBIT))
+            png_get_valid(png_, info_, PNG_INFO_tRNS | PNG_INFO_sBIT))
             return {};
+        // A place other than the corner moves the picture.
+        if (png_get_x_offset_pixels(png_, info_) != 0 || png_get_y_offset_pixels(png_, info_) != 0) return {};
         ImageInfo info;
         switch (colours) {
         case PNG_COLOR_TYPE_GRAY: info.channels = {"Y"}; break;
@@ -71,12 +73,20 @@ public:
         info.width = int(png_get_image_width(png_, info_)), info.height = int(png_get_image_height(png_, info_));
         info.type = bits == 8 ? SampleType::u8 : SampleType::u16;
         info.bits = bits;
-        info.srgb_tagged = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0;
+        info.srgb_tagged = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0 || std::strstr(profile_name(), "sRGB");
         if (colours & PNG_COLOR_MASK_ALPHA) info.alpha_channel = int(info.channels.size()) - 1;
         return info;
     }
 
 private:
+    const char* profile_name() const noexcept {
+        png_charp name = nullptr;
+        png_bytep profile = nullptr;
+        int compression = 0;
+        png_uint_32 size = 0;
+        return png_get_iCCP(png_, info_, &name, &compression, &profile, &size) ? name : "";
+    }
+
     Source source_;
     png_structp png_;
     png_infop info_ = nullptr;

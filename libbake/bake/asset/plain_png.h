@@ -13,8 +13,9 @@ struct PlainPng {
     Image<float> image; ///< as read_image gives it
 };
 
-/// Nothing for palettes, interlaced files, transparency by colour, colour profiles, samples of fewer significant bits,
-/// files over `limits`, and whatever is damaged: OpenImageIO's room then says what the file is, or what is wrong with it.
+/// Nothing for palettes, interlaced files, transparency by colour, pictures out of their corner, samples of fewer
+/// significant bits, files over `limits`, and whatever is damaged: OpenImageIO's room then says what the file is, or what
+/// is wrong with it.
 std::optional<PlainPng> read_plain_png(const std::string& path, const ReadLimits& limits);
 
 } // namespace bake
