@@ -248,6 +248,25 @@ TEST_CASE("displace: notes say when the amplitude is out of proportion, seams st
     for (const Vec3f& p : read_mesh(folder / "a.ply").positions) CHECK(std::isfinite(glm::length(p)));
 }
 
+TEST_CASE("displace: beyond the focal radius points are counted as folded, on both sides") {
+    const Folder folder;
+    write_picture(folder / "white.tif", 1, 1, 1, [](int, int, int) { return 1; });
+    const auto fold = [&](const char* amplitude) {
+        return report(folder, {"--shape", "torus:R=1,r=0.4", "--levels", "0", "--height", "white.tif", "--midlevel", "0", "--amplitude", amplitude, "-o", "a.ply"})["fold"];
+    };
+    // The tube folds inwards at b = -r, everywhere; outwards at b = R - r, at the inner equator first.
+    const nlohmann::json all = fold("-0.41"), inner = fold("0.61");
+    CHECK(fold("-0.39")["points"] == 0);
+    CHECK(all["margin"].get<double>() == doctest::Approx(1 - 0.41 / 0.4));
+    CHECK(all["points"] == report(folder, {"--shape", "torus", "--levels", "0", "--height", "white.tif", "-o", "a.ply"})["points"]);
+    CHECK(fold("0.59")["points"] == 0);
+    CHECK(inner["margin"].get<double>() == doctest::Approx(1 - 0.61 / 0.6));
+    CHECK(inner["points"].get<int>() > 0);
+    CHECK(inner["points"] < all["points"]);
+    const auto worst = inner["worst"].get<std::vector<double>>();
+    CHECK(std::hypot(worst[0], worst[1], worst[2]) == doctest::Approx(0.6).epsilon(1e-6));
+}
+
 TEST_CASE("displace: --margin writes 1 + b a, and its smallest is the report's") {
     const Folder folder;
     const nlohmann::json result = report(folder, {"--shape", "torus:R=1,r=0.4", "--levels", "0", "--height", waves(folder), "--amplitude", "0.3", "--margin", "-o", "a.ply"});
@@ -303,6 +322,40 @@ TEST_CASE("displace: --audit tells a clean result from one that cuts itself") {
     CHECK(clean["closed"] == true);
     CHECK(clean["outward"] == true);
     CHECK(audited("-8")["self_intersections"] > 0);
+}
+
+} // TEST_SUITE
+
+TEST_SUITE("stability") {
+
+TEST_CASE("displace: every mesh in trouble is displaced whole, with finite points, or refused in one line") {
+    const Folder folder;
+    waves(folder);
+    std::vector<fs::path> files;
+    for (const fs::path& where : {own_meshes() / "trouble", shared_data() / "bad/meshes"})
+        if (fs::exists(where))
+            for (const auto& entry : fs::directory_iterator(where)) files.push_back(entry.path());
+    int done = 0;
+    for (const fs::path& file : files)
+        for (const char* kind : {"linear", "catmark"}) {
+            CAPTURE(file.string());
+            CAPTURE(kind);
+            const Run run = run_bake(folder, {"displace", file.string(), "--height", waves(folder), "--amplitude", "1%", "--subdivide", kind, "--levels", "1", "-o", "a.ply"});
+            CAPTURE(run.err);
+            CHECK((run.code == 0 || run.code == 3 || run.code == 4));
+            if (run.code != 0) {
+                CHECK(lines(run.err) == 1);
+                CHECK(run.err.starts_with("bake: " + file.string()));
+                CHECK(!fs::exists(folder / "a.ply"));
+                continue;
+            }
+            ++done;
+            float worst = 0;
+            for (const Vec3f& p : read_mesh(folder / "a.ply").positions) worst = std::max(worst, std::abs(glm::length(p)) * 0 == 0 ? 0.0f : 1.0f);
+            CHECK(worst == 0);
+            fs::remove(folder / "a.ply");
+        }
+    CHECK(done > 5);
 }
 
 } // TEST_SUITE

@@ -61,9 +61,12 @@ void print(const DisplaceArgs& args, const Outcome& o) {
     if (r.uniform_triangles > 0)
         std::printf("%llu triangles where a uniform rate of the same error needs %llu (%.2f times as many)\n", static_cast<unsigned long long>(r.triangles),
                     static_cast<unsigned long long>(r.uniform_triangles), double(r.uniform_triangles) / double(r.triangles));
-    if (o.audit)
-        std::printf("audit: %zu pairs of triangles cut each other, %s, %s\n", o.audit->self_intersections, o.audit->closed ? "closed" : "not closed",
-                    !o.audit->closed ? "no inside" : o.audit->outward ? format("outward, volume %.6g", o.audit->volume).c_str() : "inside out");
+    if (o.audit && o.audit->available) {
+        const std::string cuts = o.audit->self_intersections > 0 ? format("%zu pairs of triangles cut each other, the first at ", o.audit->self_intersections) + place(o.audit->first_place)
+                                                                 : "no triangles cut each other";
+        const std::string inside = !o.audit->closed ? "not closed" : (o.audit->outward ? "closed, outward" : "closed, inside out") + format(", volume %.6g", o.audit->volume);
+        std::printf("audit: %s; %s\n", cuts.c_str(), inside.c_str());
+    }
 }
 
 void warn(const DisplaceArgs& args, const CommonArgs& common, const Outcome& o) {
@@ -106,9 +109,11 @@ nlohmann::json to_json(const DisplaceArgs& args, const Outcome& o) {
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
     if (o.audit) {
         object["audit"] = {{"available", o.audit->available}};
-        if (o.audit->available)
+        if (o.audit->available) {
             object["audit"].update({{"self_intersections", o.audit->self_intersections}, {"closed", o.audit->closed},
-                                    {"outward", o.audit->outward}, {"volume", o.audit->volume}});
+                                    {"outward", o.audit->outward}, {"bounds_volume", o.audit->bounds_volume}, {"volume", o.audit->volume}});
+            if (o.audit->self_intersections > 0) object["audit"]["first_place"] = to_json(o.audit->first_place);
+        }
     }
     return object;
 }

@@ -170,17 +170,46 @@ Mesh make_arrays(const DisplaceLayout& layout, const Mesh& base, bool with_margi
 
 } // namespace
 
+namespace {
+
+SeamBlend blend_of(const ReliefSurface& surface, Seam seam) {
+    if (seam != Seam::blend) return {};
+    return SeamBlend(surface, edge_meetings(surface.base().complex()), vertex_meetings(surface.base().complex()));
+}
+
+RatePlan plan_rates(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
+    switch (rates.rule) {
+    case Rates::Rule::edge_size: return rates_by_size(surface, blend, rates);
+    case Rates::Rule::error: return rates_by_error(surface, blend, rates);
+    case Rates::Rule::uniform: break;
+    }
+    return uniform_rates(rates.levels);
+}
+
+} // namespace
+
 DisplaceCount count_displaced(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options) {
-    return Plan(base, plan_rates(base, relief, options), options.margin).count;
+    if (options.rates.rule == Rates::Rule::uniform)
+        return Plan(base, uniform_rates(options.rates.levels), options.margin).count;
+    const ReliefSurface surface(base, relief);
+    return Plan(base, plan_rates(surface, blend_of(surface, options.seam), options.rates), options.margin).count;
 }
 
 Displaced displace(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options, Progress* progress) {
-    const Plan plan(base, plan_rates(base, relief, options), options.margin);
-    refuse_too_large(base, options, plan.count);
-    const ReliefSurface surface(base, relief);
+    const bool uniform = options.rates.rule == Rates::Rule::uniform;
+    std::optional<ReliefSurface> surface_;
     SeamBlend blend;
-    if (options.seam == Seam::blend)
-        blend = SeamBlend(surface, edge_meetings(base.complex()), vertex_meetings(base.complex()));
+    const auto prepare = [&] {
+        surface_.emplace(base, relief);
+        blend = blend_of(*surface_, options.seam);
+    };
+    // Uniform rates are refused before anything else is made.
+    if (!uniform) prepare();
+    const RatePlan rates = uniform ? uniform_rates(options.rates.levels) : plan_rates(*surface_, blend, options.rates);
+    const Plan plan(base, rates, options.margin);
+    refuse_too_large(base, options, plan.count);
+    if (uniform) prepare();
+    const ReliefSurface& surface = *surface_;
 
     Displaced out;
     out.mesh = make_arrays(plan.layout, base.mesh(), options.margin, out.margin);
@@ -199,6 +228,13 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
     r.folded = tally.folded, r.fold_margin = tally.fold_margin;
     r.fold_worst = tally.fold_worst, r.fold_worst_uv = tally.fold_worst_uv;
     r.no_tangents = tally.no_tangents, r.no_normal = tally.no_normal;
+    if (options.measure_error) {
+        const CellError error = plan_error(surface, blend, rates);
+        r.error_max = error.max();
+        r.error_rms = error.samples ? std::sqrt(error.square_sum / double(error.samples)) : 0;
+        if (options.rates.rule == Rates::Rule::error)
+            r.uniform_triangles = uniform_triangles(surface, blend, r.error_max, options.rates.most);
+    }
     return out;
 }
 

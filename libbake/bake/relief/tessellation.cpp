@@ -229,6 +229,7 @@ void emit_faces(const PatchRates& rates, const PatchRing& ring, std::uint32_t in
 
 template void emit_faces<FaceWriter>(const PatchRates&, const PatchRing&, std::uint32_t, FaceWriter&);
 template void emit_faces<FaceCounter>(const PatchRates&, const PatchRing&, std::uint32_t, FaceCounter&);
+template void emit_faces<FaceVisitor>(const PatchRates&, const PatchRing&, std::uint32_t, FaceVisitor&);
 template void emit_rows<FaceWriter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t, FaceWriter&);
 template void emit_rows<FaceCounter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t, FaceCounter&);
 

@@ -5,6 +5,7 @@
 #pragma once
 #include "bake/asset/mesh.h"
 #include <array>
+#include <functional>
 #include <span>
 
 namespace bake {
@@ -85,6 +86,22 @@ public:
         if (a.position != b.position && b.position != c.position && c.position != a.position) ++faces, corners += 3;
     }
     std::uint64_t faces = 0, corners = 0;
+};
+
+/// Hands every face's positions, three or four, to a function.
+class FaceVisitor {
+public:
+    using Visit = std::function<void(std::span<const std::uint32_t>)>;
+    explicit FaceVisitor(Visit visit) : visit_(std::move(visit)) {}
+    void quad(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, const FaceCorner& d) const {
+        visit_(std::array{a.position, b.position, c.position, d.position});
+    }
+    void triangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) const {
+        visit_(std::array{a.position, b.position, c.position});
+    }
+
+private:
+    Visit visit_;
 };
 
 /// Faces of a patch with fitted rates, to any sink with quad() and triangle(). Inner points are numbered row by row

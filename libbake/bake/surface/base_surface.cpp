@@ -263,13 +263,15 @@ void BaseSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::
 void BaseSurface::evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const noexcept {
     const bool quad = complex().patches[patch].sides() == 4;
     const LimitBase* limit = std::get_if<LimitBase>(&base_->kind);
-    if (limit && limit->corner[patch] == 0 && rate <= 32) {
-        thread_local std::vector<LimitPoint> points;
-        points.resize(quad ? std::size_t(rate + 1) * std::size_t(rate + 1) : std::size_t(rate + 1) * std::size_t(rate + 2) / 2);
-        limit->surface.evaluate_lattice(limit->limit[patch], rate, Derivatives::second, points);
+    if (limit && limit->corner[patch] == 0) {
+        thread_local std::vector<LimitPoint> row;
+        row.resize(std::size_t(rate) + 1);
         std::size_t at = 0;
-        for (int j = 0; j <= rate; ++j)
-            for (int i = 0; i <= (quad ? rate : rate - j); ++i, ++at) out[at] = point_of(points[at], {double(i) / rate, double(j) / rate});
+        for (int j = 0; j <= rate; ++j) {
+            const int last = quad ? rate : rate - j;
+            limit->surface.evaluate_rows(limit->limit[patch], rate, j, j + 1, Derivatives::second, row);
+            for (int i = 0; i <= last; ++i) out[at++] = point_of(row[std::size_t(i)], {double(i) / rate, double(j) / rate});
+        }
         return;
     }
     Vec2d st[chunk];

@@ -24,7 +24,8 @@ MeshPatch mesh_patch(const MeshSurface& surface, const std::array<std::uint32_t,
 
 /// n is the interpolated unit normal; p_u and p_v are interpolated and projected perpendicular to n, so that a flat
 /// height gives n exactly; n_u and n_v are the derivatives of the interpolated unit normal along u and v. Where the chart
-/// has no area there (or is folded over) the jet runs along s and t of the patch itself.
+/// has no area there, is folded over, or stretches the patch more than four times as much as its surroundings, the jet
+/// runs along s and t of the patch itself.
 SurfacePoint point_at(const MeshPatch& patch, double s, double t) noexcept;
 
 } // namespace bake

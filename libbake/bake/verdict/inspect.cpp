@@ -126,10 +126,16 @@ Findings judge(const MeshReport& report) {
     }
     if (report.audited && !report.audit.available) out.notes.push_back("no audit: this build has no CGAL");
     if (report.audit.available) {
-        add_if(out.warnings, report.audit.self_intersections, "pair|of triangles that cut each other",
-               "the surface intersects itself");
-        if (report.audit.closed && !report.audit.outward)
-            out.warnings.push_back("closed, but its faces do not all look outwards: it bounds no volume");
+        const MeshAudit& a = report.audit;
+        if (a.self_intersections > 0)
+            out.warnings.push_back(counted(a.self_intersections, "pair|of triangles that cut each other") +
+                                   ": the surface intersects itself, first in faces " +
+                                   std::to_string(a.first_faces[0]) + " and " +
+                                   std::to_string(a.first_faces[1]) + " near (" + number(a.first_place.x) + " " +
+                                   number(a.first_place.y) + " " + number(a.first_place.z) + ")");
+        add_if(out.warnings, a.inverted_components, "closed component|inside out",
+               a.nested_components > 0 ? "shells must look outwards, and walls of hollows inwards"
+                                       : "its faces look inwards: it bounds no volume");
     }
     return out;
 }
@@ -234,6 +240,17 @@ Mesh read_parts(const std::string& path, const InspectOptions& options, std::opt
 
 } // namespace
 
+Findings judge(const DistanceReport& report) {
+    Findings out;
+    const MeshDistance& d = report.distance;
+    if (report.over_limit())
+        out.warnings.push_back("over the limit: up to " + number(d.upper) + " apart, " + number(report.limit) +
+                               " allowed" + (d.lower > report.limit ? "" : " (perhaps within: see the lower bound)"));
+    if (d.upper > 1.5 * d.lower && d.upper > 1e-6 * d.diagonal)
+        out.notes.push_back("the bounds are far apart: the meshes are too unlike to settle it in the time allowed");
+    return out;
+}
+
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) {
     MeshReport report;
     report.file = path;
@@ -243,6 +260,17 @@ MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) 
     report.uv = check_uvs(mesh, triangles, options.uv);
     report.audited = options.audit;
     if (options.audit) report.audit = audit(mesh, triangles);
+    report.findings = judge(report);
+    return report;
+}
+
+DistanceReport inspect_distance(const std::string& path, const std::string& other_path, const InspectOptions& options) {
+    DistanceReport report;
+    report.file = path;
+    report.other = other_path;
+    report.limit = options.limit;
+    const Mesh mesh = read_mesh(path), other = read_mesh(other_path);
+    report.distance = mesh_distance(mesh, triangulate(mesh), other, triangulate(other), options.distance);
     report.findings = judge(report);
     return report;
 }
