@@ -66,6 +66,66 @@ TEST_SUITE("cli") {
         write_mesh(folder.file("one.glb"), read_text("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
         CHECK(validator_says(folder.path) == "");
     }
+
+    TEST_CASE("gltf: bake check tells its parts, its missing images and that v runs the wrong way") {
+        const test::Folder folder;
+        Gltf gltf{rich_triangles(4, 2), {}, {}, {}};
+        gltf.images = {{"", "", "gone.png", one_pixel()}};
+        gltf.materials = {{.name = "brick", .normal = GltfTexture{0, 0, 1, {}}}, {.name = "plaster"}};
+        write_gltf(folder / "a.gltf", gltf);
+        const auto check = [&](const std::vector<std::string>& options) {
+            std::vector<std::string> all = {"check", "a.gltf"};
+            all.insert(all.end(), options.begin(), options.end());
+            const test::Run run = test::run_bake(folder, all);
+            CHECK(run.code == 0);
+            return run.out;
+        };
+        CHECK(check({}).find("1 node, 1 normal texture, 1 image, tangents of its own") != std::string::npos);
+        CHECK(check({"--flip-v"}).find("see --flip-v") != std::string::npos);
+        CHECK(check({}).find("see --flip-v") == std::string::npos);
+        std::filesystem::remove(folder / "gone.png");
+        CHECK(check({}).find("1 image that is not there") != std::string::npos);
+        CHECK(check({"--json"}).find("\"missing_images\":1") != std::string::npos);
+        std::filesystem::remove(folder / "a.bin");
+        test::check_refused(folder, {"normal-map", "a.gltf", "--height", "a.gltf", "--amplitude", "1", "-o", "n.png"}, 3, "a.gltf");
+    }
+
+    TEST_CASE("gltf: normal-map, explain and render take a .glb as they take the same mesh as .obj") {
+        const test::Folder folder;
+        Mesh mesh = read_mesh((test::own_meshes() / "torus.obj").string());
+        mesh.attributes.clear();
+        write_mesh(folder / "t.glb", mesh);
+        mesh = read_mesh(folder / "t.glb"); // triangles, and v as the turn leaves it
+        write_mesh(folder / "t.obj", mesh);
+        const std::string height = (test::own_meshes() / "bricks.png").string();
+        const auto run = [&](std::vector<std::string> arguments) {
+            const test::Run done = test::run_bake(folder, arguments, {.seconds = 60});
+            CHECK_MESSAGE(done.code == 0, done.err);
+            return done.out;
+        };
+        const auto bake_map = [&](const std::string& name, const std::string& out, std::vector<std::string> more = {}) {
+            std::vector<std::string> all = {"normal-map", name, "--height", height, "--amplitude", "1%", "--size", "128", "-o", out};
+            all.insert(all.end(), more.begin(), more.end());
+            run(all);
+            return bytes_of(folder / out);
+        };
+        CHECK(bake_map("t.glb", "a.png") == bake_map("t.obj", "b.png"));
+        CHECK(bake_map("t.glb", "c.png", {"--flip-v"}) != bake_map("t.obj", "b.png"));
+        for (Vec2f& uv : mesh.uvs) uv.y = 1 - uv.y;
+        write_mesh(folder / "up.glb", mesh);
+        CHECK(bake_map("up.glb", "d.png", {"--flip-v"}) == bytes_of(folder / "a.png"));
+        const auto explain = [&](const std::string& name) {
+            return run({"explain", name, "--height", height, "--amplitude", "1%", "--uv", "0.25,0.5", "--quiet"});
+        };
+        std::string told = explain("t.glb"), as_obj = explain("t.obj");
+        for (std::size_t at; (at = told.find("t.glb")) != std::string::npos;) told.replace(at, 5, "t.obj");
+        CHECK(told == as_obj);
+        for (const std::string name : {"t.glb", "t.obj"}) {
+            test::write_file(folder / "s.toml", "mesh = [{file = \"" + name + "\"}]\n");
+            run({"render", "s.toml", "-o", name + ".png", "--size", "64", "--spp", "1"});
+        }
+        CHECK(bytes_of(folder / "t.glb.png") == bytes_of(folder / "t.obj.png"));
+    }
 } // cli
 
 TEST_SUITE("real") {

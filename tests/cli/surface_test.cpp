@@ -171,6 +171,8 @@ TEST_CASE("surface: usage errors are exit 2, one line that names the fault, and 
     refused({torus, "--resolution", "4", "-o", "a.ply"}, "as it is");
     refused({"cage.obj", "--subdivide", "catmark", "--resolution", "4x5", "-o", "a.ply"}, "one number");
     refused({"cage.obj", "--subdivide", "bilinear", "-o", "a.ply"}, "--subdivide");
+    refused({torus, "--uv-smoothing", "all", "-o", "a.ply"}, "--uv-smoothing");
+    refused({"cage.obj", "--subdivide", "catmark", "--uv-smoothing", "some", "-o", "a.ply"}, "--uv-smoothing");
     refused({torus, "-o", "a.obj"}, ".ply or .glb");
     refused({torus, "-o", "a"}, ".ply or .glb");
     refused({torus, "-o", "a.ply", "--maps", "normal"}, "--maps-out");

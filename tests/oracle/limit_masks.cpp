@@ -264,6 +264,54 @@ LimitMasks::Sector LimitMasks::sector(Place at, bool stop_at_creases) const {
     }
 }
 
+namespace {
+
+// The tangent across a crease or border: the left eigenvector of the sector's subdivision matrix with sines inside, and
+// at the vertex (a) and the two ends (b) what their columns then ask for. Published tables are for rules that differ at
+// irregular vertices (Hoppe's, Biermann's); where those do not, they are this.
+Vec3d across_crease(const Vec3d& v, const std::vector<Vec3d>& e, const std::vector<Vec3d>& f, bool loop) {
+    const int k = int(e.size()) - 1; // faces
+    const double theta = pi / k, c = std::cos(theta);
+    const double lambda = loop ? 3.0 / 8 + c / 4 : (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
+    const auto sine = [theta](int i) { return std::sin(i * theta); };
+    const auto diagonal = [&](int i) { return loop ? 0 : (sine(i) + sine(i + 1)) / (16 * lambda - 4); };
+    Vec3d across(0);
+    double sines = 0, diagonals = 0;
+    for (int i = 1; i < k; ++i) {
+        across += sine(i) * e[std::size_t(i)];
+        sines += sine(i);
+    }
+    for (int i = 0; i < k; ++i) {
+        if (!loop) across += diagonal(i) * f[std::size_t(i)];
+        diagonals += diagonal(i);
+    }
+    const double at_end = loop ? sine(1) / 8 : sine(1) / 16 + diagonal(0) / 4, at_vertex = 3.0 / 8 * sines + diagonals / 4;
+    const double det = (lambda - 1) * (lambda - 0.25);
+    const double a = ((lambda - 0.5) * at_vertex + at_end) / det, b = ((lambda - 0.75) * at_end + at_vertex / 8) / det;
+    return across + a * v + b * (e.front() + e.back());
+}
+
+} // namespace
+
+Limit LimitMasks::dart(Index vertex) const {
+    Cage cut = neighbourhood(cage_, vertex);
+    const auto smooth = [&cut] {
+        Cage copy = cut;
+        copy.creases.clear();
+        for (Index f = 0; f < copy.faces.size(); ++f)
+            for (Index k = 0; k < copy.faces[f].vertex.size(); ++k)
+                if (copy.faces[f].vertex[k] == 0) return LimitMasks(copy).at(f, k);
+        throw std::logic_error("the dart has no face");
+    };
+    Limit limit;
+    for (int level = 1; level <= 20; ++level) {
+        cut = neighbourhood(subdivide(cut), 0);
+        if (level == 14) limit.normal = smooth().normal; // later ones drown in rounding
+    }
+    limit.p = smooth().p;
+    return limit;
+}
+
 Limit LimitMasks::at(Index face, Index corner) const {
     const Index vertex = cage_.faces[face].vertex[corner];
     const Vec3d& v = cage_.points[vertex];
@@ -271,6 +319,7 @@ Limit LimitMasks::at(Index face, Index corner) const {
     if (cage_.corners[vertex] > 0 && cage_.corners[vertex] < infinite) throw std::logic_error("a corner is still semi-sharp");
     const bool is_corner = cage_.corners[vertex] > 0 || sharp_edges_[vertex] > 2;
     const bool is_crease = !is_corner && sharp_edges_[vertex] == 2;
+    if (!is_corner && sharp_edges_[vertex] == 1) return dart(vertex);
     const Sector ring = sector({face, corner}, is_corner || is_crease);
     const auto& e = ring.edges;
     const auto& f = ring.diagonals;
@@ -283,28 +332,7 @@ Limit LimitMasks::at(Index face, Index corner) const {
         const int k = int(e.size()) - 1; // faces of the sector
         const Vec3d p = (4.0 * v + e.front() + e.back()) / 6.0;
         if (k == 1) return {p, {}};
-        const double theta = pi / k;
-        Vec3d across(0);
-        if (loop) {
-            // The left eigenvector of the sector's own subdivision matrix: sines inside, and what the border's rows
-            // then ask for. (Hoppe's table is for rules that differ at such vertices; for up to 3 faces it is this.)
-            const double lambda = 3.0 / 8 + std::cos(theta) / 4;
-            double sines = 0;
-            for (int i = 1; i < k; ++i) {
-                across += std::sin(i * theta) * e[std::size_t(i)];
-                sines += std::sin(i * theta);
-            }
-            const double c1 = std::sin(theta) / 8, det = (lambda - 1) * (lambda - 0.25);
-            across += ((lambda - 0.5) * 3 / 8 * sines + c1) / det * v;
-            across += (c1 * (lambda - 0.75) + 3.0 / 64 * sines) / det * (e.front() + e.back());
-        } else {
-            const double c = std::cos(theta), r = (c + 1) / (k * std::sin(theta) * (3 + c));
-            across = 4 * r * (c - 1) * v - r * (1 + 2 * c) * (e.front() + e.back());
-            for (int i = 1; i < k; ++i) across += 4 * std::sin(i * theta) / ((3 + c) * k) * e[std::size_t(i)];
-            for (int i = 0; i < k; ++i)
-                across += (std::sin(i * theta) + std::sin((i + 1) * theta)) / ((3 + c) * k) * f[std::size_t(i)];
-        }
-        return {p, glm::cross(e.front() - e.back(), across)};
+        return {p, glm::cross(e.front() - e.back(), across_crease(v, e, f, loop))};
     }
     const int n = int(e.size());
     Vec3d sum_e(0), sum_f(0), t1(0), t2(0);

@@ -3,8 +3,9 @@
 //
 //   rules, semi-sharp creases   DeRose, Kass, Truong, Subdivision Surfaces in Character Animation, 1998
 //   Catmull-Clark limit masks   Halstead, Kass, DeRose, Efficient, Fair Interpolation, 1993
-//   at borders and creases      Biermann, Levin, Zorin, Piecewise Smooth Subdivision Surfaces, 2000
-//   Loop's                      Hoppe et al., Piecewise Smooth Surface Reconstruction, 1994
+//   Loop's, and those of points Hoppe et al., Piecewise Smooth Surface Reconstruction, 1994
+//   at borders and creases      eigenvectors as in Biermann, Levin, Zorin, Piecewise Smooth Subdivision Surfaces, 2000,
+//                               of the plain rules
 #pragma once
 #include "bake/surface/subdivision.h"
 #include <map>
@@ -62,6 +63,8 @@ private:
         bool closed = false;
     };
     Sector sector(Place at, bool stop_at_creases) const;
+    /// A crease's end has no mask of its own: twenty levels on, a smooth vertex's is right to 1e-8 of its edges.
+    Limit dart(std::uint32_t vertex) const;
 
     const Cage& cage_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Place> leaving_; ///< by the directed edge that leaves the corner

@@ -167,6 +167,12 @@ TEST_CASE("parametric: a revolution passes through its points and is smooth at i
         CHECK(glm::length(before.p_v - after.p_v) < 1e-6); // second derivative times the step
         CHECK(glm::length(before.p_vv - after.p_vv) < 1e-5); // third derivative times the step
     }
+    // A loop has no knot that could be told from the others.
+    const ParametricSurface ring("revolution:profile=" + shapes.ring_file);
+    const Jet2<double> start = ring.derivatives(0.2, 1e-9), end = ring.derivatives(0.2, 1 - 1e-9);
+    CHECK(glm::length(start.p - end.p) < 1e-7);
+    CHECK(glm::length(start.p_v - end.p_v) < 1e-6);
+    CHECK(glm::length(start.p_vv - end.p_vv) < 1e-5);
     // A sphere's profile in 32 points: the spline's error is of fourth order in the step of 5.6 degrees.
     std::string half;
     for (int i = 0; i <= 32; ++i)

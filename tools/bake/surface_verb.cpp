@@ -12,7 +12,9 @@ namespace {
 
 struct SurfaceArgs {
     std::string mesh, shape, out, resolution, maps, maps_out, size = "1024";
+    MeshOptions reading;
     std::optional<Scheme> scheme;
+    UvSmoothing uv_smoothing = UvSmoothing::inside;
     int padding = SurfaceMapOptions{}.padding;
 };
 
@@ -56,6 +58,7 @@ void check_usage(const SurfaceArgs& args) {
     if (args.out.empty() && args.maps_out.empty())
         throw usage("surface: nothing to write; give -o for a mesh, --maps-out for maps, or both");
     if (!args.shape.empty() && args.scheme) throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
+    if (!args.scheme && args.uv_smoothing != UvSmoothing::inside) throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
     if (args.maps_out.empty() && !args.maps.empty()) throw usage("--maps: needs --maps-out, what the maps' names begin with");
     if (!args.maps.empty()) parse_maps(args.maps);
     parse_size(args.size);
@@ -98,7 +101,7 @@ Loaded load(const SurfaceArgs& args) {
         return {BaseSurface(shape, columns, rows), SurfaceKind::shape, 1,
                 format("%s; %d x %d cells", shape.help().c_str(), columns, rows) + patches};
     }
-    Mesh mesh = read_mesh(args.mesh);
+    Mesh mesh = read_mesh(args.mesh, args.reading);
     if (!args.scheme) {
         const std::string what = format("mesh, %zu faces", mesh.faces());
         return {BaseSurface(std::move(mesh)), SurfaceKind::mesh, 1, what};
@@ -106,7 +109,7 @@ Loaded load(const SurfaceArgs& args) {
     check_cage(mesh, *args.scheme, args.mesh);
     const int rate = args.resolution.empty() ? limit_rate : parse_resolution(args.resolution).first;
     const std::string cage = format("%zu", mesh.faces());
-    BaseSurface surface(std::move(mesh), SubdivisionOptions{.scheme = *args.scheme});
+    BaseSurface surface(std::move(mesh), SubdivisionOptions{.scheme = *args.scheme, .uv = args.uv_smoothing});
     const std::string what = format("%s limit of a cage of %s faces, %zu patches of %d x %d cells",
                                     *args.scheme == Scheme::catmark ? "Catmull-Clark" : "Loop", cage.c_str(),
                                     surface.complex().patches.size(), rate, rate);
@@ -271,6 +274,9 @@ std::function<int()> surface_verb(CLI::App& sub, const CommonArgs& common) {
            "The mesh is a cage: take its limit surface")
         ->check(one_of({"catmark", "loop"}))
         ->type_name("catmark|loop");
+    add_choice<UvSmoothing>(sub, "--uv-smoothing", args->uv_smoothing,
+                            {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
+                            "Of --subdivide: which uvs are smoothed with the surface; inside: all but the charts' borders");
     sub.add_option("--resolution", args->resolution, "Cells of a shape along u and v, or along every edge of a cage's patches [4]")
         ->check(not_empty())
         ->type_name("NxM|N");
@@ -281,6 +287,7 @@ std::function<int()> surface_verb(CLI::App& sub, const CommonArgs& common) {
     sub.add_option("--maps-out", args->maps_out, "What the maps' names begin with: PREFIX_normal.exr and so on")->check(not_empty())->type_name("PREFIX");
     sub.add_option("--size", args->size, "Texels of the maps")->check(not_empty())->type_name("N|WxH")->capture_default_str();
     sub.add_option("--padding", args->padding, "Texels filled beyond the charts' borders")->check(CLI::Range(0, 4096))->capture_default_str();
+    add_mesh_options(sub, args->reading);
     sub.footer(shapes_text() + "Examples:\n"
                                "  bake surface --shape torus:R=2,r=0.7 --resolution 128x64 -o torus.ply\n"
                                "  bake surface spot_control_mesh.obj --subdivide catmark --resolution 8 -o spot.glb\n"

@@ -116,8 +116,10 @@ Vec3d bezier_curve(std::span<const Vec3d, 4> c, double t) noexcept {
 
 Jet2<double> bezier_derivatives(const BezierPatch& patch, double u, double v) noexcept {
     std::array<Curve, 4> rows;
-    for (std::size_t j = 0; j < 4; ++j)
-        rows[j] = curve_at({patch.points[4 * j], patch.points[4 * j + 1], patch.points[4 * j + 2], patch.points[4 * j + 3]}, u);
+    for (std::size_t j = 0; j < 4; ++j) {
+        const Vec3d* const p = &patch.points[4 * j];
+        rows[j] = curve_at({p[0], p[1], p[2], p[3]}, u);
+    }
     const Curve p = curve_at({rows[0].p, rows[1].p, rows[2].p, rows[3].p}, v),
                 d = curve_at({rows[0].d, rows[1].d, rows[2].d, rows[3].d}, v),
                 dd = curve_at({rows[0].dd, rows[1].dd, rows[2].dd, rows[3].dd}, v);

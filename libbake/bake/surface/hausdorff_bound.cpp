@@ -131,6 +131,31 @@ Refined refine(const TriangleTree& b, const Piece& whole, double lower2, double 
     return r;
 }
 
+// Lays the other mesh over the pieces that are over the limit, each `stride`-th. Where that leaves something, its corners
+// are tried as farthest points: the limit may rise with them.
+void overlay(std::vector<Piece>& pieces, const TriangleTree& b, double gap2, double least2, std::int64_t stride,
+             Farthest& farthest) {
+    constexpr std::int64_t grain = 256;
+    const std::int64_t count = (std::int64_t(pieces.size()) + stride - 1) / stride;
+    std::vector<Farthest> found((count + grain - 1) / grain, farthest);
+    for_rows(count, grain, [&](std::int64_t begin, std::int64_t end) {
+        Farthest& own = found[begin / grain];
+        OverlayRoom room;
+        for (std::int64_t i = begin * stride; i < std::min(end * stride, std::int64_t(pieces.size())); i += stride) {
+            const double limit2 = std::max(gap2 * own.distance2, least2);
+            if (!(pieces[i].upper2 > limit2)) continue;
+            if (overlay_within(b, pieces[i].p, pieces[i].near, limit2, room)) {
+                pieces[i].upper2 = limit2;
+                continue;
+            }
+            for (std::size_t k = 0; k < std::min<std::size_t>(room.open.size(), 8); ++k)
+                for (int c = 0; c < room.open[k].corners; ++c)
+                    own.meet(room.open[k].p[c], b.nearest(room.open[k].p[c], pieces[i].near[3]));
+        }
+    });
+    for (const Farthest& f : found) farthest.meet(f);
+}
+
 } // namespace
 
 double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const BoundOptions& options,
@@ -139,13 +164,8 @@ double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const 
         for (std::int64_t i = begin; i < end; ++i) bound_piece(other, pieces[i]);
     });
     const double gap2 = (1 + options.gap) * (1 + options.gap), least2 = options.nothing * options.nothing;
-    for_rows(std::int64_t(pieces.size()), 512, [&](std::int64_t begin, std::int64_t end) {
-        const double limit2 = std::max(gap2 * farthest.distance2, least2);
-        OverlayRoom room;
-        for (std::int64_t i = begin; i < end; ++i)
-            if (pieces[i].upper2 > limit2 && overlay_within(other, pieces[i].p, pieces[i].near, limit2, room))
-                pieces[i].upper2 = limit2;
-    });
+    // A few first, which raise the lower bound that the others are measured by.
+    for (const int stride : {32, 1, 1}) overlay(pieces, other, gap2, least2, stride, farthest);
     std::size_t left = options.most_cuts;
     double upper2 = 0; // of what needs no more cuts
     // Most pieces need few cuts, a few need many: those not done start again with eight times as many.

@@ -33,10 +33,10 @@ struct LimitPatches {
     /// at the corners, 3 the turned one in the middle.
     std::vector<std::int32_t> nodes;
     std::vector<LimitLeaf> leaves;
-    std::vector<double> position; ///< leaves * terms * 3, the exponents of b innermost in terms
+    std::vector<double> position; ///< leaves * terms * 3: exponents n of b, in each those of a, in each x y z
     std::vector<double> uv;       ///< leaves * terms * 2, or none
 
-    /// Coefficients of a leaf: c[m][n] of quads in full, of triangles the rows m of 5 - m.
+    /// Coefficients of a leaf.
     int terms() const noexcept { return triangles ? 15 : 16; }
 };
 

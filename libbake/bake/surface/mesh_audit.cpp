@@ -1,7 +1,8 @@
 // The one file that sees CGAL: with it the binary is GPL-3.0-or-later as a whole, and this file is compiled with
 // -frounding-math, which interval arithmetic needs. Self intersections are looked for in the soup, so that meshes no
 // half-edge structure can hold are audited too: pairs whose boxes touch by our tree, decisions by CGAL's exact
-// predicates. Its box sweep took 5 times as long on a million triangles, and 20 times when they were shuffled.
+// predicates. With its box sweep and no order among the faces, the audit of a million triangles took 5 s of processor time,
+// and 22 s when they were shuffled, against 3 and 3.
 #include "bake/surface/mesh_audit.h"
 
 #ifndef BAKE_WITH_CGAL

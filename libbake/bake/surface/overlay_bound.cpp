@@ -99,10 +99,12 @@ bool covered(const TriangleTree& other, const Corners& p, const std::array<std::
     whole.corners = 3;
     std::copy(p.begin(), p.end(), whole.p.begin());
     room.open.assign(1, whole);
-    for (const std::uint32_t place : room.near) {
-        if (!lay(other, place, normal, limit2, room)) return false;
-        if (room.open.empty()) return true;
-    }
+    // Once more for slivers, which rounding leaves on the side of a triangle that has had its turn.
+    for (int turn = 0; turn < 2; ++turn)
+        for (const std::uint32_t place : room.near) {
+            if (!lay(other, place, normal, limit2, room)) return false;
+            if (room.open.empty()) return true;
+        }
     return false;
 }
 

@@ -49,6 +49,37 @@ const ShapeKind& kind_named(std::string_view name, const std::string& head) {
     throw Error{Refusal::usage, head + "no such shape; " + near + "The shapes are " + all};
 }
 
+/// Puts what "key=value,..." says in place of the defaults, and gives the file it names. `head` is what refusals begin with.
+std::string read_values(const ShapeKind& kind, const std::string& head, std::string_view text, std::vector<double>& values) {
+    const auto refuse = [&](const std::string& what) { throw Error{Refusal::usage, head + what}; };
+    std::string file;
+    std::vector<std::string_view> given;
+    while (!text.empty()) {
+        const std::string_view entry = text.substr(0, text.find(','));
+        text = entry.size() == text.size() ? "" : text.substr(entry.size() + 1);
+        const std::size_t equals = entry.find('=');
+        const std::string_view value = equals == std::string_view::npos ? "" : entry.substr(equals + 1);
+        const std::string name(entry.substr(0, equals));
+        const auto key = std::find_if(kind.keys.begin(), kind.keys.end(), [&](const ShapeKey& k) { return k.name == name; });
+        const bool is_file = kind.file_key && name == kind.file_key;
+        if (key == kind.keys.end() && !is_file) refuse(shown(name) + " is no key of " + kind.name + "; write " + spelled(kind));
+        if (std::find(given.begin(), given.end(), name) != given.end()) refuse(name + " is given twice; take one out");
+        given.push_back(entry.substr(0, equals));
+        if (is_file) {
+            file = value;
+            continue;
+        }
+        double number = 0;
+        const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
+        if (read.ec != std::errc() || read.ptr != value.data() + value.size())
+            refuse(name + " needs a number, not " + shown(value) + "; write " + spelled(kind));
+        if (!(number >= key->least && number <= key->most))
+            refuse(name + format(" must lie between %g and %g; its default is %g", key->least, key->most, key->value));
+        values[static_cast<std::size_t>(key - kind.keys.begin())] = number;
+    }
+    return file;
+}
+
 /// Normals of the neighbourhood: how N = p_u x p_v grows along u and v where it is zero.
 struct Growth {
     Vec3d along_u, along_v;
@@ -75,44 +106,17 @@ constexpr int samples = 7;
 
 ParametricSurface::ParametricSurface(std::string_view text) {
     const std::string head = "shape " + shown(text) + ": ";
-    const auto refuse = [&](const std::string& what) { throw Error{Refusal::usage, head + what}; };
     const std::size_t colon = text.find(':');
     const ShapeKind& kind = kind_named(text.substr(0, colon), head);
     auto shape = std::make_shared<AnalyticShape>();
     shape->name = kind.name;
     shape->kind = &kind;
     for (const ShapeKey& key : kind.keys) shape->values.push_back(key.value);
-
     std::string file;
-    std::vector<std::string_view> given;
-    std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
-    while (!rest.empty()) {
-        const std::string_view entry = rest.substr(0, rest.find(','));
-        rest = entry.size() == rest.size() ? "" : rest.substr(entry.size() + 1);
-        const std::size_t equals = entry.find('=');
-        const std::string_view name = entry.substr(0, equals),
-                               value = equals == std::string_view::npos ? "" : entry.substr(equals + 1);
-        const auto key = std::find_if(kind.keys.begin(), kind.keys.end(), [&](const ShapeKey& k) { return k.name == name; });
-        const bool is_file = kind.file_key && name == kind.file_key;
-        if (key == kind.keys.end() && !is_file)
-            refuse(shown(name) + " is no key of " + kind.name + "; write " + spelled(kind));
-        if (std::find(given.begin(), given.end(), name) != given.end()) refuse(std::string(name) + " is given twice; take one out");
-        given.push_back(name);
-        if (is_file) {
-            file = value;
-            continue;
-        }
-        double number = 0;
-        const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
-        if (read.ec != std::errc() || read.ptr != value.data() + value.size())
-            refuse(std::string(name) + " needs a number, not " + shown(value) + "; write " + spelled(kind));
-        if (!(number >= key->least && number <= key->most))
-            refuse(std::string(name) + format(" must lie between %g and %g; its default is %g", key->least, key->most, key->value));
-        shape->values[static_cast<std::size_t>(key - kind.keys.begin())] = number;
-    }
-    if (kind.fault)
-        if (const char* fault = kind.fault(shape->values.data())) refuse(std::string(fault) + "; the default is " + spelled(kind));
-    if (kind.file_key && file.empty()) refuse(std::string("a file is needed; write ") + spelled(kind));
+    if (colon != std::string_view::npos) file = read_values(kind, head, text.substr(colon + 1), shape->values);
+    if (const char* fault = kind.fault ? kind.fault(shape->values.data()) : nullptr)
+        throw Error{Refusal::usage, head + fault + "; the default is " + spelled(kind)};
+    if (kind.file_key && file.empty()) throw Error{Refusal::usage, head + "a file is needed; write " + spelled(kind)};
 
     shape->closure_u = kind.closure_u, shape->closure_v = kind.closure_v, shape->closed = kind.closed;
     if (shape->name == "revolution") {
@@ -143,8 +147,10 @@ std::pair<int, int> ParametricSurface::default_resolution() const noexcept {
 
 std::string ParametricSurface::help() const {
     std::string out = shape_->name + ", " + shape_->kind->what;
-    for (std::size_t i = 0; i < shape_->values.size(); ++i)
-        out += format("%s %s=%g (%s)", i == 0 ? ":" : ",", shape_->kind->keys[i].name, shape_->values[i], shape_->kind->keys[i].what);
+    for (std::size_t i = 0; i < shape_->values.size(); ++i) {
+        const ShapeKey& key = shape_->kind->keys[i];
+        out += format("%s %s=%g (%s)", i == 0 ? ":" : ",", key.name, shape_->values[i], key.what);
+    }
     return out;
 }
 
@@ -164,7 +170,8 @@ Vec3d ParametricSurface::limit_normal(double u, double v, int patch) const noexc
     const Jet2<double> s = derivatives(u, v, patch);
     const double into_u = inward(u, closure_u()), into_v = inward(v, closure_v());
     const Growth g = growth(s);
-    const double scale = (glm::length(s.p_u) + glm::length(s.p_v)) * (glm::length(s.p_uu) + glm::length(s.p_uv) + glm::length(s.p_vv));
+    const double second = glm::length(s.p_uu) + glm::length(s.p_uv) + glm::length(s.p_vv),
+                 scale = (glm::length(s.p_u) + glm::length(s.p_v)) * second;
     const bool grows_u = !vanishes(g.along_u, scale), grows_v = !vanishes(g.along_v, scale);
     // Across an inner point the normal would turn over: a fold.
     if ((grows_u && into_u == 0) || (grows_v && into_v == 0) || !(grows_u || grows_v)) return Vec3d(0);

@@ -15,7 +15,8 @@ Vec2d solve(const Vec2d& uv_s, const Vec2d& uv_t, const Vec2d& r) noexcept {
 
 /// The side that (s, t) is farthest beyond, no_index inside; and (s, t) moved back into the patch.
 std::uint32_t clamp(int sides, Vec2d& st) noexcept {
-    const double beyond[4] = {-st.y, sides == 4 ? st.x - 1 : st.x + st.y - 1, sides == 4 ? st.y - 1 : -st.x, sides == 4 ? -st.x : 0};
+    const double quad[] = {-st.y, st.x - 1, st.y - 1, -st.x}, triangle[] = {-st.y, st.x + st.y - 1, -st.x};
+    const double* const beyond = sides == 4 ? quad : triangle;
     std::uint32_t worst = no_index;
     double most = 0;
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(sides); ++k)
@@ -110,7 +111,8 @@ Vec2d invert_bilinear(const Vec2d (&uv)[4], const Vec2d& at, const Vec2d& guess)
         const double s = st.x, t = st.y;
         const Vec2d here = (1 - s) * (1 - t) * uv[0] + s * (1 - t) * uv[1] + s * t * uv[2] + (1 - s) * t * uv[3];
         if (const double residual = glm::length(at - here); residual < least) least = residual, best = st;
-        const Vec2d uv_s = (1 - t) * (uv[1] - uv[0]) + t * (uv[2] - uv[3]), uv_t = (1 - s) * (uv[3] - uv[0]) + s * (uv[2] - uv[1]);
+        const Vec2d uv_s = (1 - t) * (uv[1] - uv[0]) + t * (uv[2] - uv[3]);
+        const Vec2d uv_t = (1 - s) * (uv[3] - uv[0]) + s * (uv[2] - uv[1]);
         st += solve(uv_s, uv_t, at - here);
         clamp(4, st);
     }

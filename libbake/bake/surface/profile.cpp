@@ -100,7 +100,8 @@ Profile read_profile(const std::string& path, bool pointed) {
     const std::size_t n = points.size();
     if (n < 2) refuse("fewer than two points; a profile has a line 'radius height' for each");
     profile.loop = n > 3 && points.front() == points.back();
-    if (n == 3 && points.front() == points.back()) refuse("the curve goes back the way it came; a loop needs three different points or more");
+    if (n == 3 && points.front() == points.back())
+        refuse("the curve goes back the way it came; a loop needs three different points or more");
 
     double area = 0;
     for (std::size_t i = 0; i + 1 < n; ++i) area += (points[i].x + points[i + 1].x) * (points[i + 1].y - points[i].y);

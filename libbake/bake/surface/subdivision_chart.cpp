@@ -9,10 +9,10 @@ struct Inverse {
     double s_u = 0, s_v = 0, t_u = 0, t_v = 0;
     double det = 0;
     explicit Inverse(const LimitPoint& p) noexcept : det(p.uv_s.x * p.uv_t.y - p.uv_s.y * p.uv_t.x) {
-        // A determinant of rounding errors alone is no area.
-        const double size = std::abs(p.uv_s.x * p.uv_t.y) + std::abs(p.uv_s.y * p.uv_t.x);
+        // Uvs are floats in the file: a chart thinner than their rounding has no area.
+        const double size = glm::dot(p.uv_s, p.uv_s) + glm::dot(p.uv_t, p.uv_t);
         const double over = 1 / det;
-        if (!(std::abs(det) > 1e-14 * size) || !std::isfinite(over)) {
+        if (!(std::abs(det) > 1e-7 * size) || !std::isfinite(over)) {
             det = 0;
             return;
         }

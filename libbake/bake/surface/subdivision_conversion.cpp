@@ -14,8 +14,8 @@ struct Terms {
     std::vector<Vec2d> places;
     explicit Terms(bool triangles) {
         const int degree = triangles ? 4 : 3;
-        for (int m = 0; m <= degree; ++m)
-            for (int n = 0; n <= (triangles ? degree - m : degree); ++n) {
+        for (int n = 0; n <= degree; ++n)
+            for (int m = 0; m <= (triangles ? degree - n : degree); ++m) {
                 exponents.emplace_back(m, n);
                 places.emplace_back(double(m) / degree, double(n) / degree);
             }

@@ -4,9 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
+#include <tuple>
 
 namespace bake {
 namespace {
@@ -133,51 +134,8 @@ void insert_leaf(LimitPatches& limit, const Place& place, std::int32_t leaf) {
     *link = ~leaf;
 }
 
-// Length of the longest line from the first corner of a Gregory patch to another.
-double size_of(const std::vector<Weighed<Vec3d>>& points, const Far::ConstIndexArray& index) {
-    double size = 0;
-    for (int corner = 5; corner < index.size(); corner += 5) {
-        if (corner == 15 && index.size() == 18) break; // a triangle's
-        size = std::max(size, glm::distance(points[std::size_t(index[0])].value, points[std::size_t(index[corner])].value));
-    }
-    return size;
-}
-
-// Patches become leaves; irregular ones that are larger than `most_size` are kept back.
-std::vector<Place> add_leaves(const Stage& stage, const Far::PatchTable& table, const std::vector<Weighed<Vec3d>>& points,
-                              const std::vector<Weighed<Vec2d>>& uvs, double most_size, LimitPatches& limit) {
-    std::vector<Place> kept_back;
-    Conversions conversions(table, limit.triangles);
-    const auto terms = std::size_t(limit.terms());
-    const std::size_t most = limit.leaves.size() + std::size_t(table.GetNumPatchesTotal());
-    limit.leaves.reserve(most);
-    limit.position.reserve(most * terms * 3);
-    limit.uv.reserve(limit.has_uv ? most * terms * 2 : 0);
-    int index = 0;
-    for (int array = 0; array < table.GetNumPatchArrays(); ++array) {
-        const bool irregular = table.GetPatchArrayDescriptor(array).GetType() >= Far::PatchDescriptor::GREGORY;
-        for (int i = 0; i < table.GetNumPatches(array); ++i, ++index) {
-            const Far::PatchParam param = table.GetPatchParam(array, i);
-            const Place place =
-                within(stage.places[std::size_t(param.GetFaceId())], place_of(param, limit.triangles));
-            if (irregular && size_of(points, table.GetPatchVertices(array, i)) > most_size) {
-                kept_back.push_back(place);
-                continue;
-            }
-            const std::size_t leaf = limit.leaves.size();
-            limit.position.resize((leaf + 1) * terms * 3);
-            convert(conversions.of(array, i, index, false), points, table.GetPatchVertices(array, i),
-                    &limit.position[leaf * terms * 3]);
-            if (limit.has_uv) {
-                limit.uv.resize((leaf + 1) * terms * 2);
-                convert(conversions.of(array, i, index, true), uvs, table.GetPatchFVarValues(array, i, 0),
-                        &limit.uv[leaf * terms * 2]);
-            }
-            limit.leaves.push_back(place.leaf);
-            insert_leaf(limit, place, std::int32_t(leaf));
-        }
-    }
-    return kept_back;
+bool is_irregular(const Far::PatchTable& table, int array) {
+    return table.GetPatchArrayDescriptor(array).GetType() >= Far::PatchDescriptor::GREGORY;
 }
 
 // Where the faces of the last level lie.
@@ -206,6 +164,77 @@ std::vector<Place> last_places(const Stage& stage, bool triangles) {
     return places;
 }
 
+// Faces of the last level that irregular patches stand for and that are to be split on: those larger than `most_size`,
+// and all round a vertex with one of them, so that they keep meeting. Faces of the last level, by the patches' order
+// in the table; -1 for patches that become leaves.
+std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table, const std::vector<Place>& places,
+                                const std::vector<Weighed<Vec3d>>& points, double most_size, bool triangles) {
+    const auto key = [](const Place& place) { return std::tuple(place.patch, place.leaf.origin.x, place.leaf.origin.y); };
+    std::vector<int> by_key(places.size());
+    std::iota(by_key.begin(), by_key.end(), 0);
+    std::sort(by_key.begin(), by_key.end(),
+              [&](int f, int g) { return key(places[std::size_t(f)]) < key(places[std::size_t(g)]); });
+    const Far::TopologyLevel& last = stage.refiner->GetLevel(stage.refiner->GetMaxLevel());
+    const int first_point = stage.refiner->GetNumVerticesTotal() - last.GetNumVertices();
+
+    std::vector<int> faces;
+    std::vector<char> large_at(std::size_t(last.GetNumVertices()), 0);
+    for (int array = 0; array < table.GetNumPatchArrays(); ++array)
+        for (int i = 0; i < table.GetNumPatches(array); ++i) {
+            faces.push_back(-1);
+            if (!is_irregular(table, array)) continue;
+            const Far::PatchParam param = table.GetPatchParam(array, i);
+            const Place place = within(stage.places[std::size_t(param.GetFaceId())], place_of(param, triangles));
+            const auto found = std::lower_bound(by_key.begin(), by_key.end(), key(place), [&](int f, const auto& k) {
+                return key(places[std::size_t(f)]) < k;
+            });
+            assert(found != by_key.end() && key(places[std::size_t(*found)]) == key(place));
+            faces.back() = *found;
+            const Far::ConstIndexArray corners = last.GetFaceVertices(*found);
+            double size = 0;
+            for (const Far::Index v : corners)
+                size = std::max(size, glm::distance(points[std::size_t(first_point + v)].value,
+                                                    points[std::size_t(first_point + corners[0])].value));
+            if (size > most_size)
+                for (const Far::Index v : corners) large_at[std::size_t(v)] = 1;
+        }
+    for (int& f : faces) {
+        if (f < 0) continue;
+        const Far::ConstIndexArray corners = last.GetFaceVertices(f);
+        if (std::none_of(corners.begin(), corners.end(), [&](Far::Index v) { return large_at[std::size_t(v)]; })) f = -1;
+    }
+    return faces;
+}
+
+// Patches become leaves, but for those of faces that are split on (faces_to_split; none when there are none).
+void add_leaves(const Stage& stage, const Far::PatchTable& table, const std::vector<Weighed<Vec3d>>& points,
+                const std::vector<Weighed<Vec2d>>& uvs, const std::vector<int>& split_on, LimitPatches& limit) {
+    Conversions conversions(table, limit.triangles);
+    const auto terms = std::size_t(limit.terms());
+    const std::size_t most = limit.leaves.size() + std::size_t(table.GetNumPatchesTotal());
+    limit.leaves.reserve(most);
+    limit.position.reserve(most * terms * 3);
+    limit.uv.reserve(limit.has_uv ? most * terms * 2 : 0);
+    int index = 0;
+    for (int array = 0; array < table.GetNumPatchArrays(); ++array)
+        for (int i = 0; i < table.GetNumPatches(array); ++i, ++index) {
+            if (!split_on.empty() && split_on[std::size_t(index)] >= 0) continue;
+            const std::size_t leaf = limit.leaves.size();
+            limit.position.resize((leaf + 1) * terms * 3);
+            convert(conversions.of(array, i, index, false), points, table.GetPatchVertices(array, i),
+                    &limit.position[leaf * terms * 3]);
+            if (limit.has_uv) {
+                limit.uv.resize((leaf + 1) * terms * 2);
+                convert(conversions.of(array, i, index, true), uvs, table.GetPatchFVarValues(array, i, 0),
+                        &limit.uv[leaf * terms * 2]);
+            }
+            const Far::PatchParam param = table.GetPatchParam(array, i);
+            const Place place = within(stage.places[std::size_t(param.GetFaceId())], place_of(param, limit.triangles));
+            limit.leaves.push_back(place.leaf);
+            insert_leaf(limit, place, std::int32_t(leaf));
+        }
+}
+
 // Numbers old indices in the order in which they are first met.
 class Renumbering {
 public:
@@ -224,26 +253,21 @@ private:
     std::vector<int> number_;
 };
 
-// The last level's faces at `kept_back` and those that touch them, as a cage. Borders of this cut are not the surface's,
-// but lie too far away to be felt in the patches asked for.
-Stage next_stage(const Stage& stage, const std::vector<Place>& kept_back, const std::vector<Weighed<Vec3d>>& points,
-                 const std::vector<Weighed<Vec2d>>& uvs, const SubdivisionOptions& options, const LimitPatches& limit) {
+// The last level's faces that are split on and those that touch them, as a cage. Borders of this cut are not the
+// surface's, but lie too far away to be felt in the patches asked for.
+Stage next_stage(const Stage& stage, const std::vector<int>& split_on, const std::vector<Place>& places,
+                 const std::vector<Weighed<Vec3d>>& points, const std::vector<Weighed<Vec2d>>& uvs,
+                 const SubdivisionOptions& options, const LimitPatches& limit) {
     const Far::TopologyRefiner& refiner = *stage.refiner;
     const Far::TopologyLevel& last = refiner.GetLevel(refiner.GetMaxLevel());
     const int first_point = refiner.GetNumVerticesTotal() - last.GetNumVertices();
-    const auto key = [](const Place& place) { return std::tuple(place.patch, place.leaf.origin.x, place.leaf.origin.y); };
-    std::vector<Place> wanted = kept_back;
-    std::sort(wanted.begin(), wanted.end(), [&](const Place& a, const Place& b) { return key(a) < key(b); });
-    const std::vector<Place> places = last_places(stage, limit.triangles);
 
     Stage next;
     std::vector<char> is_wanted(places.size(), 0), near(std::size_t(last.GetNumVertices()), 0);
-    for (std::size_t f = 0; f < places.size(); ++f) {
-        const auto found = std::lower_bound(wanted.begin(), wanted.end(), places[f],
-                                            [&](const Place& a, const Place& b) { return key(a) < key(b); });
-        is_wanted[f] = found != wanted.end() && key(*found) == key(places[f]);
-        if (is_wanted[f])
-            for (const Far::Index v : last.GetFaceVertices(int(f))) near[std::size_t(v)] = 1;
+    for (const int f : split_on) {
+        if (f < 0) continue;
+        is_wanted[std::size_t(f)] = 1;
+        for (const Far::Index v : last.GetFaceVertices(f)) near[std::size_t(v)] = 1;
     }
     RefinerInput cage;
     Renumbering vertices(last.GetNumVertices()), values(limit.has_uv ? last.GetNumFVarValues(0) : 0);
@@ -284,6 +308,12 @@ Stage next_stage(const Stage& stage, const std::vector<Place>& kept_back, const 
     return next;
 }
 
+bool has_irregular(const Far::PatchTable& table) {
+    for (int array = 0; array < table.GetNumPatchArrays(); ++array)
+        if (is_irregular(table, array) && table.GetNumPatches(array) > 0) return true;
+    return false;
+}
+
 bool is_complete(const LimitPatches& limit, std::int32_t root) noexcept {
     if (root == missing) return false;
     if (root < 0) return true;
@@ -316,11 +346,16 @@ void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatc
         if (limit.has_uv)
             uvs = refine_points(*stage.refiner, std::move(stage.uvs), table->GetLocalPointFaceVaryingStencilTable<double>(0),
                                 true);
-        const bool last = stage.level + further_levels > most_levels || options.isolation < stage_levels;
-        const double most_size = last ? std::numeric_limits<double>::infinity() : small;
-        const std::vector<Place> kept_back = add_leaves(stage, *table, points, uvs, most_size, limit);
-        if (kept_back.empty()) break;
-        stage = next_stage(stage, kept_back, points, uvs, options, limit);
+        const bool may_go_on = options.isolation == stage_levels && stage.level + further_levels <= most_levels;
+        std::vector<int> split_on;
+        std::vector<Place> places;
+        if (may_go_on && has_irregular(*table)) {
+            places = last_places(stage, limit.triangles);
+            split_on = faces_to_split(stage, *table, places, points, small, limit.triangles);
+        }
+        add_leaves(stage, *table, points, uvs, split_on, limit);
+        if (std::all_of(split_on.begin(), split_on.end(), [](int f) { return f < 0; })) break;
+        stage = next_stage(stage, split_on, places, points, uvs, options, limit);
     }
     // Faces at a border that is not followed have no surface.
     std::erase_if(limit.patches, [&](const LimitPatch& patch) { return !is_complete(limit, patch.root); });

@@ -11,7 +11,7 @@ namespace bake {
 inline constexpr int stage_levels = 10;            ///< of the first stage, at most
 inline constexpr int further_levels = 4;           ///< of each that follows
 inline constexpr int most_levels = 26;             ///< of all together
-inline constexpr double smallest_irregular = 1e-5; ///< of the diagonal: smaller ones are not split further
+inline constexpr double smallest_irregular = 1e-6; ///< of the diagonal: smaller ones are not split further
 
 /// All patches of a cage, with `options.isolation` levels.
 void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatches& limit);

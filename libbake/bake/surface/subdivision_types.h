@@ -16,10 +16,10 @@ enum class UvSmoothing {
 struct SubdivisionOptions {
     Scheme scheme = Scheme::catmark;
     UvSmoothing uv = UvSmoothing::inside;
-    /// Times that the neighbourhood of extraordinary vertices and creases is split at least, 1 to 10. Parameters that are
-    /// multiples of 2^-isolation are exact. At 10 what is irregular is split on until it is smaller than 1e-5 of the
-    /// diagonal, so that all other parameters are within 1e-6 of it and 0.01 degrees; below, an approximation that close
-    /// to such vertices is off by more.
+    /// Times that the neighbourhood of extraordinary vertices and creases is split at least, 1 to 10. At 10 what is
+    /// irregular is split on until it is smaller than 1e-6 of the diagonal: errors are below 1e-6 of the diagonal and
+    /// 0.01 degrees (docs/subdivision.md). Less saves memory and time on large cages, and leaves an approximation near
+    /// such vertices, right only at multiples of 2^-isolation.
     int isolation = 10;
 };
 

@@ -104,10 +104,11 @@ private:
 
 } // namespace
 
-std::vector<Image<float>> surface_maps(const BaseSurface& surface, const SurfaceMesh& mesh, std::span<const MapQuantity> quantities,
-                                       const SurfaceMapOptions& options, const std::string& path, SurfaceMapReport& report,
-                                       Progress* progress) {
-    if (mesh.mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs to lay a map out by; unwrap the mesh first");
+std::vector<Image<float>> surface_maps(const BaseSurface& surface, const SurfaceMesh& mesh,
+                                       std::span<const MapQuantity> quantities, const SurfaceMapOptions& options,
+                                       const std::string& path, SurfaceMapReport& report, Progress* progress) {
+    if (mesh.mesh.corner_uv.empty())
+        throw Error(Refusal::unsuitable, path + ": has no uvs to lay a map out by; unwrap the mesh first");
     const int width = options.width, height = options.height;
     const UvRaster raster = uv_raster(mesh.mesh, mesh.triangles, width, height);
     if (raster.covered + raster.border == 0)

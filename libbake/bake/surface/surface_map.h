@@ -14,9 +14,9 @@ enum class MapQuantity {
     tangent,         ///< unit, along p_u across n; fourth channel sigma, the sign of B = sigma (N x T)
     mean_curvature, gauss_curvature,
 };
-inline constexpr MapQuantity all_map_quantities[] = {MapQuantity::position,       MapQuantity::normal,  MapQuantity::p_u,
-                                                     MapQuantity::p_v,            MapQuantity::tangent, MapQuantity::mean_curvature,
-                                                     MapQuantity::gauss_curvature};
+inline constexpr MapQuantity all_map_quantities[] = {
+    MapQuantity::position, MapQuantity::normal,         MapQuantity::p_u,            MapQuantity::p_v,
+    MapQuantity::tangent,  MapQuantity::mean_curvature, MapQuantity::gauss_curvature};
 /// As the command line and the files' names have it: "position", "pu", "mean-curvature".
 const char* name(MapQuantity quantity) noexcept;
 /// 3, 4 for tangents, 1 for curvatures.
@@ -41,8 +41,8 @@ struct SurfaceMapReport {
 /// One image per quantity. The mesh finds the patch under each texel; on limit surfaces, whose uvs are no linear
 /// function of the patch's parameters, Newton's method then finds the parameters, across edges where it must.
 /// Throws Error{Refusal::unsuitable}, naming `path`, for a surface without uvs or none in the unit square.
-std::vector<Image<float>> surface_maps(const BaseSurface& surface, const SurfaceMesh& mesh, std::span<const MapQuantity> quantities,
-                                       const SurfaceMapOptions& options, const std::string& path, SurfaceMapReport& report,
-                                       Progress* progress = nullptr);
+std::vector<Image<float>> surface_maps(const BaseSurface& surface, const SurfaceMesh& mesh,
+                                       std::span<const MapQuantity> quantities, const SurfaceMapOptions& options,
+                                       const std::string& path, SurfaceMapReport& report, Progress* progress = nullptr);
 
 } // namespace bake

@@ -69,7 +69,8 @@ template <class T> void keep_used(std::vector<T>& values, std::vector<std::uint3
 
 /// Per point, the first of its group with the same value up to `tolerance`. Groups are numbered below the points' number.
 template <class Value>
-std::vector<std::uint32_t> first_alike(std::size_t points, const std::vector<std::uint32_t>& group, float tolerance, const Value& value) {
+std::vector<std::uint32_t> first_alike(std::size_t points, const std::vector<std::uint32_t>& group, float tolerance,
+                                       const Value& value) {
     std::vector<std::uint32_t> out(points), last(points, no_index), before(points);
     for (std::uint32_t i = 0; i < points; ++i) {
         std::uint32_t& head = last[group[i]];
@@ -209,7 +210,8 @@ void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progr
     const auto normal_at = [&](std::uint32_t i) { return out.samples[i].n; };
     const auto uv_at = [&](std::uint32_t i) { return mesh.uvs[i]; };
     const std::vector<std::uint32_t> normal = first_alike(first.size(), first, same_normal, normal_at);
-    const std::vector<std::uint32_t> uv = has_uv ? first_alike(first.size(), first, same_uv, uv_at) : std::vector<std::uint32_t>();
+    std::vector<std::uint32_t> uv;
+    if (has_uv) uv = first_alike(first.size(), first, same_uv, uv_at);
     mesh.normals.resize(begin.back());
     for (std::uint32_t i = 0; i < begin.back(); ++i) mesh.normals[i] = out.samples[i].n;
 

@@ -59,7 +59,8 @@ SurfaceSummary summarise(const SurfaceMesh& surface) {
             if (what == Degenerate::none || (here & bit)) continue;
             here |= bit;
             const std::uint32_t uv = mesh.corner_uv.empty() ? no_index : mesh.corner_uv[c];
-            out.degenerate.push_back({what, mesh.positions[mesh.corner_position[c]], uv == no_index ? Vec2f(0) : mesh.uvs[uv], f});
+            const Vec3f& p = mesh.positions[mesh.corner_position[c]];
+            out.degenerate.push_back({what, p, uv == no_index ? Vec2f(0) : mesh.uvs[uv], f});
         }
     return out;
 }

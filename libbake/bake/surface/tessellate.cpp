@@ -93,14 +93,14 @@ struct BezierSharing {
         const bool left = i == 0, right = i == grid.columns, low = j == 0, high = j == grid.rows;
         if ((left || right) && (low || high)) return corner[low ? (left ? 0 : 1) : (left ? 3 : 2)];
         if (!(left || right || low || high))
-            return inside + static_cast<std::uint32_t>((patch * static_cast<std::size_t>(grid.rows - 1) + static_cast<std::size_t>(j - 1)) *
-                                                           static_cast<std::size_t>(grid.columns - 1) + static_cast<std::size_t>(i - 1));
+            return inside + static_cast<std::uint32_t>((static_cast<int>(patch) * (grid.rows - 1) + j - 1) * (grid.columns - 1) + i - 1);
         const std::size_t side = low ? 0 : right ? 1 : high ? 2 : 3;
         const std::uint32_t border = borders.border[patch][side];
         if (borders.point[border]) return corner[side];
         const bool along_u = low || high;
         const int rate = along_u ? grid.columns : grid.rows, k = along_u ? i : j;
-        return inner[border][along_u ? 0 : 1] + static_cast<std::uint32_t>((borders.reversed[patch][side] ? rate - k : k) - 1);
+        const int along = borders.reversed[patch][side] ? rate - k : k;
+        return inner[border][along_u ? 0 : 1] + static_cast<std::uint32_t>(along - 1);
     }
     /// The points on the borders, each from its border alone.
     void place(std::vector<Vec3f>& positions) const {
