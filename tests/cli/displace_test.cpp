@@ -141,7 +141,14 @@ TEST_CASE("displace: rates by a camera cut finer where it is near; by error, unt
     CHECK(points({"--edge-px", "8", "--camera", "position=0,0,5:height=2160"}) > near);
     write_file(folder / "scene.toml", "[render]\nsize = [100, 1080]\n[camera]\nposition = [0, 0, 5]\ntarget = [0, 0, 0]\n");
     CHECK(points({"--edge-px", "8", "--camera", "scene.toml"}) == near);
-    CHECK(points({"--max-error", "0.05%"}) > points({"--max-error", "0.5%"}));
+    write_file(folder / "cube.obj", cube_obj);
+    const auto by_error = [&](const char* error) {
+        return report(folder, {"cube.obj", "--subdivide", "catmark", "--height", waves(folder), "--amplitude", "2%", "--max-error", error, "-o", "a.ply"});
+    };
+    const nlohmann::json coarse = by_error("0.5%"), fine = by_error("0.05%");
+    CHECK(fine["points"] > coarse["points"]);
+    for (const auto& [result, share] : {std::pair(coarse, 0.005), {fine, 0.0005}})
+        CHECK(result["error"]["max"].get<double>() < 1.5 * share * result["diagonal"].get<double>());
 }
 
 TEST_CASE("displace: the same bytes for 1, 2 and 7 threads") {
