@@ -96,7 +96,7 @@ void CellFitter::sample(std::uint32_t cell, double finer) {
     const std::uint32_t number = cells_.patch(cell);
     samples_.quad = cells_.complex().patches[cell].sides() == 4;
     const auto count = [&](const Vec2d& from, const Vec2d& to) {
-        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, 1024.0));
+        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 16 * finer, 1024.0));
     };
     if (samples_.quad) {
         samples_.across = count(cells_.at(cell, 0, 2, 1, 2), cells_.at(cell, 2, 2, 1, 2));
@@ -163,6 +163,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     Misfit out;
     const double error2 = error * error;
     FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
+        if (out.inside) return; // it will be refined whatever the border says
         bool inside = true;
         for (const std::uint32_t c : face) inside &= c >= first_inside;
         bool& fails = inside ? out.inside : out.border;
@@ -216,7 +217,7 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& sides, dou
             if (spent || (enough_inside && std::max(rates.across, rates.up) > 2 * enough_inside + 2))
                 return {enough_inside ? std::min(rates.across, std::max(1u, enough_inside)) : rates.across,
                         enough_inside ? std::min(rates.up, std::max(1u, enough_inside)) : rates.up, true};
-            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 6)); };
+            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
             // A lattice of one row grows in both directions, so that it gets points inside.
             rates.across = finer_rate(rates.across), rates.up = finer_rate(rates.up);
         }
