@@ -111,7 +111,7 @@ void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& 
     const std::size_t count = s.number.size();
     if (!along_normal) {
         s.values.resize(count);
-        to.surface.values(patch, s.st, s.points, s.values);
+        to.surface.values(patch, s.st, {s.points.data(), count}, s.values);
     }
     for (std::size_t k = 0; k < count; ++k) {
         const std::uint32_t index = s.number[k];

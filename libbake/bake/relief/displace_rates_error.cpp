@@ -15,23 +15,25 @@ std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend,
     const auto patches = std::uint32_t(complex.patches.size());
     const std::uint32_t stride = (patches + 1023) / 1024, probes = (patches + stride - 1) / stride;
     const std::uint32_t lines = std::clamp(1024 / probes, 2u, 16u);
-    std::vector<std::uint32_t> need(probes);
+    std::vector<double> need(probes); // segments of a square cell
     for_rows(probes, 1, [&](std::int64_t begin, std::int64_t end) {
         DisplacedPatch patch(surface, blend);
         for (auto i = begin; i < end; ++i) {
             const std::uint32_t p = std::uint32_t(i) * stride;
+            std::uint32_t most_needed[2] = {1, 1};
             for (std::uint32_t k = 0; k < lines; ++k) {
                 const double x = (k + 0.5) / lines, end_x = complex.patches[p].sides() == 4 ? 1 : 1 - x;
                 for (const bool up : {false, true}) {
                     const Vec2d from = up ? Vec2d(x, 0) : Vec2d(0, x), to = up ? Vec2d(x, end_x) : Vec2d(end_x, x);
                     const double texels = std::clamp(std::ceil(texels_along(patch, p, from, to)), 32.0, 4096.0);
-                    need[i] = std::max(need[i], rate_within(along(patch, p, from, to, std::uint32_t(texels)), error, most));
+                    most_needed[up] = std::max(most_needed[up], rate_within(along(patch, p, from, to, std::uint32_t(texels)), error, most));
                 }
             }
+            need[i] = std::sqrt(double(most_needed[0]) * most_needed[1]);
         }
     });
     std::sort(need.begin(), need.end());
-    const std::uint32_t high = need[need.size() * 9 / 10];
+    const double high = need[need.size() * 9 / 10];
     std::uint32_t split = 1;
     while (split * 12 <= high && std::uint64_t(patches) * split * split * 4 <= (1u << 21)) split *= 2;
     return split;
@@ -96,7 +98,7 @@ void CellFitter::sample(std::uint32_t cell, double finer) {
     const std::uint32_t number = cells_.patch(cell);
     samples_.quad = cells_.complex().patches[cell].sides() == 4;
     const auto count = [&](const Vec2d& from, const Vec2d& to) {
-        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, 1024.0));
+        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 16 * finer, 1024.0));
     };
     if (samples_.quad) {
         samples_.across = count(cells_.at(cell, 0, 2, 1, 2), cells_.at(cell, 2, 2, 1, 2));
@@ -163,6 +165,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     Misfit out;
     const double error2 = error * error;
     FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
+        if (out.inside) return; // it will be refined whatever the border says
         bool inside = true;
         for (const std::uint32_t c : face) inside &= c >= first_inside;
         bool& fails = inside ? out.inside : out.border;
@@ -205,6 +208,7 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& sides, dou
         sample(cell, finer);
         PatchRates rates = first_try(sides, error, most);
         std::uint32_t enough_inside = 0;
+        int tries = 0;
         for (;;) {
             // Samples must be denser than faces to say anything.
             if (finer < 64 && std::max(rates.across * 2 > samples_.across, rates.up * 2 > samples_.up) && samples_.across < 1024 && samples_.up < 1024) break;
@@ -216,9 +220,11 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& sides, dou
             if (spent || (enough_inside && std::max(rates.across, rates.up) > 2 * enough_inside + 2))
                 return {enough_inside ? std::min(rates.across, std::max(1u, enough_inside)) : rates.across,
                         enough_inside ? std::min(rates.up, std::max(1u, enough_inside)) : rates.up, true};
-            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 6)); };
-            // A lattice of one row grows in both directions, so that it gets points inside.
-            rates.across = finer_rate(rates.across), rates.up = finer_rate(rates.up);
+            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
+            // Where one row is enough along the lines, the other direction is tried first; points inside need both.
+            const int attempt = tries++;
+            if (rates.across > 1 || rates.up == 1 || attempt >= 3) rates.across = finer_rate(rates.across);
+            if (rates.up > 1 || rates.across == 1 || attempt >= 3) rates.up = finer_rate(rates.up);
         }
     }
 }
