@@ -31,4 +31,7 @@ std::vector<Cube> mip_chain(const Cube& sky, const MipOptions& options = {});
 /// One level: max(1, size / 2) texels along an edge.
 Cube next_mip(const Cube& sky, MipFilter filter = MipFilter::tent);
 
+/// The mean of the sky over each texel of a cube of `size` texels along an edge, larger or smaller.
+Cube resize_by_area(const Cube& sky, int size);
+
 } // namespace bake

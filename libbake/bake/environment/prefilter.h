@@ -21,7 +21,7 @@ enum class SpecularLobe { ggx, phong };
 struct PrefilterOptions {
     SpecularLobe lobe = SpecularLobe::ggx;
     /// One per level, level 0 first. ggx: alpha in [0, 1], 0 being the mirror: the sky's mean over each texel.
-    /// phong: the exponent, finite and not negative.
+    /// phong: the exponent, 0 to 1e6.
     std::vector<double> roughness;
     int size = 0; ///< texels along an edge of level 0; 0: as many as the sky
 };

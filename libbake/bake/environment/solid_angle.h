@@ -12,6 +12,9 @@ namespace bake {
 /// Solid angle, in steradians, of the rectangle [x0, x1] x [y0, y1] of the plane at distance 1.
 double rectangle_solid_angle(double x0, double y0, double x1, double y1) noexcept;
 
+/// Solid angles of the cells between k lines in x and the same k in y, row by row: (k - 1)^2 values. k >= 2, ascending.
+std::vector<double> cell_solid_angles(const std::vector<double>& lines);
+
 /// n * n solid angles, row by row, the same for every face of n x n texels. n >= 1.
 std::vector<double> texel_solid_angles(int n);
 
