@@ -25,6 +25,7 @@ Verb normal_map_verb;
 Verb check_verb;
 Verb render_verb;
 Verb explain_verb;
+Verb cubemap_verb;
 
 /// Adds what a verb's --help ends with.
 void add_examples(CLI::App& sub, const std::string& examples);
