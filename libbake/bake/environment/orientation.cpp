@@ -3,8 +3,6 @@
 #include "bake/environment/layout.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <vector>
 
 namespace bake {
@@ -48,47 +46,65 @@ const Seams& seams() {
     return found;
 }
 
-double step(const float* a, const float* b, int channels) noexcept {
-    double sum = 0;
-    for (int c = 0; c < channels; ++c) sum += std::abs(double(a[c]) - double(b[c]));
-    return sum / channels;
+/// Steps summed over texels, as they are and squared.
+struct StepSums {
+    double plain = 0, square = 0;
+    void add(const StepSums& other) noexcept {
+        plain += other.plain;
+        square += other.square;
+    }
+};
+
+/// Of square roots, as the eye has it: in linear light a few lamps would outweigh all the rest.
+StepSums step(const float* a, const float* b, int channels) noexcept {
+    const auto seen = [](float value) { return std::sqrt(value > 0 ? value : 0.0f); };
+    StepSums sum;
+    for (int c = 0; c < channels; ++c) {
+        const double d = std::abs(double(seen(a[c]) - seen(b[c])));
+        sum.plain += d / channels;
+        sum.square += d * d / channels;
+    }
+    return sum;
 }
 
-double mean_inside(const Cube& cube, int channels) {
+StepSums mean_inside(const Cube& cube, int channels) {
     const int n = cube.size();
-    if (n < 2) return 0;
-    std::vector<double> rows(std::size_t(6) * n, 0.0);
+    if (n < 2) return {};
+    std::vector<StepSums> rows(std::size_t(6) * n);
     for_rows(6 * n, 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
             const Image<float>& face = cube.faces[r / n];
             const int y = int(r % n);
             for (int x = 0; x < n; ++x) {
-                if (x + 1 < n) rows[r] += step(&face.at(x, y), &face.at(x + 1, y), channels);
-                if (y + 1 < n) rows[r] += step(&face.at(x, y), &face.at(x, y + 1), channels);
+                if (x + 1 < n) rows[r].add(step(&face.at(x, y), &face.at(x + 1, y), channels));
+                if (y + 1 < n) rows[r].add(step(&face.at(x, y), &face.at(x, y + 1), channels));
             }
         }
     });
-    return std::accumulate(rows.begin(), rows.end(), 0.0) / (12.0 * n * (n - 1));
+    StepSums sum;
+    for (const StepSums& row : rows) sum.add(row);
+    const double count = 12.0 * n * (n - 1);
+    return {sum.plain / count, sum.square / count};
 }
 
-/// steps[4 a + i][4 b + j]: mean step when side i of file a meets side j of file b, which runs against it.
-using Steps = std::array<std::array<double, 24>, 24>;
-
-double mean_across(const Cube& cube, Side a, Side b, int channels) {
+StepSums mean_across(const Cube& cube, Side a, Side b, int channels) {
     const int n = cube.size();
-    double sum = 0;
+    StepSums sum;
     for (int i = 0; i < n; ++i) {
         const CubeTexel p = texel_on(n, CubeFace(a.face), a.side, i), q = texel_on(n, CubeFace(b.face), b.side, n - 1 - i);
-        sum += step(&cube[p.face].at(p.x, p.y), &cube[q.face].at(q.x, q.y), channels);
+        sum.add(step(&cube[p.face].at(p.x, p.y), &cube[q.face].at(q.x, q.y), channels));
     }
-    return sum / n;
+    return {sum.plain / n, sum.square / n};
 }
 
-Steps all_steps(const Cube& cube, int channels) {
+/// steps[4 a + i][4 b + j]: mean squared step when side i of file a meets side j of file b, which runs against it.
+using Steps = std::array<std::array<double, 24>, 24>;
+
+Steps all_squares(const Cube& cube, int channels) {
     Steps steps{};
     for_rows(24, 1, [&](std::int64_t begin, std::int64_t end) {
         for (int a = int(begin); a < int(end); ++a)
-            for (int b = 0; b < 24; ++b) steps[a][b] = a / 4 == b / 4 ? 0 : mean_across(cube, {a / 4, a % 4}, {b / 4, b % 4}, channels);
+            for (int b = 0; b < 24; ++b) steps[a][b] = a / 4 == b / 4 ? 0 : mean_across(cube, {a / 4, a % 4}, {b / 4, b % 4}, channels).square;
     });
     return steps;
 }
@@ -118,7 +134,8 @@ int kept(const Orientation& o) noexcept {
 /// take some milliseconds.
 class Search {
 public:
-    explicit Search(const Steps& steps) : steps_(steps), limit_(total(steps, {})) {
+    /// Arrangements whose costs differ by `same` are equally good.
+    Search(const Steps& steps, double same) : steps_(steps), same_(same), limit_(total(steps, {})) {
         for (const auto& [a, b] : seams()) at_[std::max(a.face, b.face)].push_back({a, b});
         visit(0, 0.0);
     }
@@ -126,9 +143,9 @@ public:
 
 private:
     void visit(int face, double cost) {
-        if (cost > limit_ * (1 + 1e-9)) return;
+        if (cost > limit_ + same_) return;
         if (face == 6) {
-            const bool equal = cost > limit_ * (1 - 1e-9);
+            const bool equal = cost > limit_ - same_;
             if (equal && kept(now_) <= kept(best)) return;
             limit_ = std::min(limit_, cost);
             best = now_;
@@ -152,7 +169,7 @@ private:
     }
 
     const Steps& steps_;
-    double limit_;
+    double same_, limit_;
     std::array<std::vector<std::pair<Side, Side>>, 6> at_; ///< seams that are whole once this face stands
     std::array<bool, 6> used_{};
     Orientation now_;
@@ -160,31 +177,41 @@ private:
 
 int colours(const Cube& cube) noexcept { return std::min(3, cube.channels()); }
 
+double mean_over_seams(const Cube& cube, const Orientation& o) {
+    double sum = 0;
+    for (const auto& [a, b] : seams())
+        sum += mean_across(cube, {o.source[a.face], side_of_file(a.side, o.turns[a.face])}, {o.source[b.face], side_of_file(b.side, o.turns[b.face])},
+                           colours(cube)).plain;
+    return sum / 12;
+}
+
 } // namespace
 
 bool Orientation::as_given() const noexcept { return *this == Orientation{}; }
 
 OrientationCheck check_orientation(const Cube& cube) {
     OrientationCheck check;
-    check.inside = mean_inside(cube, colours(cube));
-    if (!(check.inside > 0)) {
+    const int channels = colours(cube);
+    const StepSums inside = mean_inside(cube, channels);
+    check.inside = inside.plain;
+    if (!(inside.plain > 0)) {
         check.unknown = true;
         return check;
     }
-    const Steps steps = all_steps(cube, colours(cube));
-    check.given = total(steps, {}) / 12 / check.inside;
-    check.closes = Search(steps).best;
-    check.best = total(steps, check.closes) / 12 / check.inside;
-    check.wrong = !check.closes.as_given() && check.best <= 0.8 * check.given && (check.best <= 1.2 || check.best <= 0.5 * check.given);
+    // Squares tell arrangements apart better, where little more than noise crosses the seams.
+    const Steps squares = all_squares(cube, channels);
+    const double mean_square = 12 * inside.square;
+    check.closes = Search(squares, 1e-6 * inside.square).best;
+    const double given = total(squares, {}) / mean_square, best = total(squares, check.closes) / mean_square;
+    check.wrong = given > 1.2 && !check.closes.as_given() && best <= 0.85 * given && (best <= 1.4 || best <= 0.25 * given);
+    check.given = mean_over_seams(cube, {}) / inside.plain;
+    check.best = check.closes.as_given() ? check.given : mean_over_seams(cube, check.closes) / inside.plain;
     return check;
 }
 
 double seam_ratio(const Cube& cube) {
-    const double inside = mean_inside(cube, colours(cube));
-    if (!(inside > 0)) return 0;
-    double sum = 0;
-    for (const auto& [a, b] : seams()) sum += mean_across(cube, a, b, colours(cube));
-    return sum / 12 / inside;
+    const double inside = mean_inside(cube, colours(cube)).plain;
+    return inside > 0 ? mean_over_seams(cube, {}) / inside : 0;
 }
 
 Cube reorient(const Cube& cube, const Orientation& orientation) {

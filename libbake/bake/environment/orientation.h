@@ -1,7 +1,8 @@
 // Whether six faces join, and how they would have to stand to do so.
 //
 // The seam ratio is the mean step across the 12 edges of the cube over the mean step between neighbouring rows and
-// columns inside the faces: about 1 or less where the faces belong together, several times that where they do not.
+// columns inside the faces: about 1 or less where the faces belong together, several times that where they do not. Steps are those of the square root of
+// radiance, which is near what the eye sees.
 // Turning the whole cube changes no seam, so seams can tell how faces stand to each other, not which way is up.
 #pragma once
 #include "bake/environment/cube.h"
@@ -22,12 +23,13 @@ struct Orientation {
 struct OrientationCheck {
     double given = 0; ///< seam ratio as the files are named
     double best = 0;  ///< of the orientation below
-    /// The arrangement of least seams among all 720 swaps with all turns of each face; of those that differ from it by a
+    /// The arrangement of least squared steps among all 720 swaps with all turns of each face; of those that differ from it by a
     /// turn of the whole cube only, the one that leaves most files as they are, then px and nx.
     Orientation closes;
     double inside = 0; ///< mean step inside the faces
-    /// Seams are visible as given, and `closes` mends them: its ratio is at most 1.2, or half the given one, and at most
-    /// .8 of it.
+    /// Seams are visible as given and `closes` mends them. Judged by squared steps, which tell arrangements apart even
+    /// where hardly more than noise crosses the seams, as in a sky of stars: the ratio of those is above 1.2 as given, at
+    /// least 15 % less with `closes`, and then at most 1.4 or a quarter.
     bool wrong = false;
     /// Nothing to go by: every texel alike, or faces of one texel.
     bool unknown = false;
