@@ -82,6 +82,7 @@ std::string with(const std::string& pattern, const std::string& word) {
 } // namespace
 
 FaceFiles name_faces(const std::vector<std::string>& paths) {
+    if (paths.empty()) throw Error(Refusal::usage, "no file: give six faces, a pattern with %s, or one image");
     const std::vector<std::string> parts = distinct_parts(paths);
     for (const Words& words : all_words()) {
         const std::vector<int> faces = faces_of(parts, words);
@@ -102,7 +103,7 @@ FaceFiles name_faces(const std::vector<std::string>& paths) {
         return found;
     }
     if (paths.size() != 6)
-        throw Error(Refusal::usage, (paths.empty() ? std::string("no file") : paths[0]) + ": is one of " + std::to_string(paths.size()) +
+        throw Error(Refusal::usage, paths[0] + ": is one of " + std::to_string(paths.size()) +
                                         " inputs; give six faces, a pattern with %s, or one image");
     FaceFiles found;
     std::copy(paths.begin(), paths.end(), found.files.begin());
