@@ -59,8 +59,10 @@ struct Step {
     float beyond;
 };
 Step step_of(double x) noexcept {
-    const double low = std::floor(x + snap), beyond = x - low;
-    return {static_cast<int>(low), beyond > snap ? static_cast<float>(beyond) : 0.0f};
+    // Without the library call that std::floor is on a plain x86-64; places are never below -2.
+    const int low = static_cast<int>(x + (snap + 4)) - 4;
+    const double beyond = x - low;
+    return {low, beyond > snap ? static_cast<float>(beyond) : 0.0f};
 }
 
 template <int channels> void sample_picture(const Environment& sky, const Vec3d* d, int count, float* out) noexcept {

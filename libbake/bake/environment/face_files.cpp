@@ -82,7 +82,7 @@ std::string with(const std::string& pattern, const std::string& word) {
 } // namespace
 
 FaceFiles name_faces(const std::vector<std::string>& paths) {
-    if (paths.empty()) throw Error(Refusal::usage, "no file: give six faces, a pattern with %s, or one image");
+    if (paths.empty()) throw Error(Refusal::usage, "no file: there is no input; give six faces, a pattern with %s, or one image");
     const std::vector<std::string> parts = distinct_parts(paths);
     for (const Words& words : all_words()) {
         const std::vector<int> faces = faces_of(parts, words);

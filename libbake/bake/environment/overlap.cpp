@@ -5,23 +5,33 @@
 namespace bake {
 namespace {
 
-/// A part of an edge that lies in one cell: adds what lies at its right in the cell, and notes for the cells further
-/// right that they are covered over its height.
-inline void add_part(CellMoments& cell, CellMoments& beyond, double x0, double y0, double x1, double y1) noexcept {
-    const double h = y1 - y0, middle = 0.5 * (y0 + y1);
-    cell.area += h * (1 - 0.5 * (x0 + x1));
-    cell.x += h * (0.5 - (x0 * x0 + x0 * x1 + x1 * x1) * (1.0 / 6));
-    cell.y += h * (middle - (2 * (x0 * y0 + x1 * y1) + x0 * y1 + x1 * y0) * (1.0 / 6));
-    beyond.area += h;
-    beyond.x += 0.5 * h;
-    beyond.y += h * middle;
+/// Without the library call that std::floor is on a plain x86-64. Faces have 2^17 cells at most along a side, and planes
+/// are cut at 5 times that.
+inline int floor_of(double x) noexcept {
+    constexpr int off = 1 << 20;
+    return int(x + off) - off;
 }
 
-/// An edge within one row of cells, cut at the columns' borders. `width` cells and one to spare in `row`.
-inline void add_in_row(CellMoments* row, CellMoments* beyond, double x0, double y0, double x1, double y1) noexcept {
-    int c0 = int(x0), c1 = int(x1);
+/// A part of an edge that lies in cell c of a row of `columns` cells: adds what lies at its right, in the cell itself and
+/// in those further right, which are covered over the part's height.
+inline void add_part(CellMoments* row, int c, int columns, double x0, double y0, double x1, double y1) noexcept {
+    const double h = y1 - y0, middle = 0.5 * (y0 + y1), across = x0 + x1;
+    CellMoments& cell = row[c];
+    cell.area += h * (1 - 0.5 * across);
+    cell.x += h * (0.5 - (across * across - x0 * x1) * (1.0 / 6));
+    cell.y += h * (middle - (across * middle * 6 + (x1 - x0) * h) * (1.0 / 12));
+    for (int right = c + 1; right < columns; ++right) {
+        row[right].area += h;
+        row[right].x += 0.5 * h;
+        row[right].y += h * middle;
+    }
+}
+
+/// An edge within one row of cells, cut at the columns' borders.
+inline void add_in_row(CellMoments* row, int columns, double x0, double y0, double x1, double y1) noexcept {
+    const int c0 = int(x0), c1 = int(x1);
     if (c0 == c1) {
-        add_part(row[c0], beyond[c0 + 1], x0 - c0, y0, x1 - c0, y1);
+        add_part(row, c0, columns, x0 - c0, y0, x1 - c0, y1);
         return;
     }
     const double slope = (y1 - y0) / (x1 - x0);
@@ -29,25 +39,25 @@ inline void add_in_row(CellMoments* row, CellMoments* beyond, double x0, double 
     if (c0 < c1) {
         for (int c = c0; c < c1; ++c) {
             const double next = y0 + slope * (c + 1 - x0);
-            add_part(row[c], beyond[c + 1], x - c, y, 1, next);
+            add_part(row, c, columns, x - c, y, 1, next);
             x = c + 1;
             y = next;
         }
     } else {
         for (int c = c0; c > c1; --c) {
             const double next = y0 + slope * (c - x0);
-            add_part(row[c], beyond[c + 1], x - c, y, 0, next);
+            add_part(row, c, columns, x - c, y, 0, next);
             x = c;
             y = next;
         }
     }
-    add_part(row[c1], beyond[c1 + 1], x - c1, y, x1 - c1, y1);
+    add_part(row, c1, columns, x - c1, y, x1 - c1, y1);
 }
 
-void add_edge(CellMoments* cells, CellMoments* beyond, int stride, double x0, double y0, double x1, double y1) noexcept {
+inline void add_edge(CellMoments* cells, int columns, double x0, double y0, double x1, double y1) noexcept {
     const int r0 = int(y0), r1 = int(y1);
     if (r0 == r1) {
-        add_in_row(cells + r0 * stride, beyond + r0 * stride, x0, y0 - r0, x1, y1 - r0);
+        add_in_row(cells + r0 * columns, columns, x0, y0 - r0, x1, y1 - r0);
         return;
     }
     const double slope = (x1 - x0) / (y1 - y0);
@@ -58,35 +68,27 @@ void add_edge(CellMoments* cells, CellMoments* beyond, int stride, double x0, do
     if (r0 < r1) {
         for (int r = r0; r < r1; ++r) {
             const double next = cut(r + 1);
-            add_in_row(cells + r * stride, beyond + r * stride, x, y - r, next, 1);
+            add_in_row(cells + r * columns, columns, x, y - r, next, 1);
             x = next;
             y = r + 1;
         }
     } else {
         for (int r = r0; r > r1; --r) {
             const double next = cut(r);
-            add_in_row(cells + r * stride, beyond + r * stride, x, y - r, next, 0);
+            add_in_row(cells + r * columns, columns, x, y - r, next, 0);
             x = next;
             y = r;
         }
     }
-    add_in_row(cells + r1 * stride, beyond + r1 * stride, x, y - r1, x1, y1 - r1);
+    add_in_row(cells + r1 * columns, columns, x, y - r1, x1, y1 - r1);
 }
 
 } // namespace
 
-PlanePoint project(const FaceGrid& grid, CubeFace face, const Vec3d& d) noexcept {
-    double ma = 0, sc = 0, tc = 0;
-    switch (face) {
-    case CubeFace::px: ma = d.x, sc = -d.z, tc = -d.y; break;
-    case CubeFace::nx: ma = -d.x, sc = d.z, tc = -d.y; break;
-    case CubeFace::py: ma = d.y, sc = d.x, tc = d.z; break;
-    case CubeFace::ny: ma = -d.y, sc = d.x, tc = -d.z; break;
-    case CubeFace::pz: ma = d.z, sc = d.x, tc = -d.y; break;
-    case CubeFace::nz: ma = -d.z, sc = -d.x, tc = -d.y; break;
-    }
-    const double inverse = 1 / (ma > 0.2 ? ma : 0.2);
-    return {grid.middle() + grid.scale() * (sc * inverse), grid.middle() + grid.scale() * (tc * inverse), ma};
+FacePlane::FacePlane(const FaceGrid& grid, CubeFace face) noexcept : middle(grid.middle()) {
+    axis = cube_direction(CubePoint<double>{face, 0.5, 0.5});
+    s = (cube_direction(CubePoint<double>{face, 1, 0.5}) - axis) * grid.scale();
+    t = (cube_direction(CubePoint<double>{face, 0.5, 1}) - axis) * grid.scale();
 }
 
 bool overlap(const FaceGrid& grid, const CellWindow& window, const PlanePoint* p, Overlap& result) {
@@ -100,30 +102,19 @@ bool overlap(const FaceGrid& grid, const CellWindow& window, const PlanePoint* p
     }
     if (ma < 0.3 || x_high <= window.low_x || x_low >= window.high_x || y_high <= window.low_y || y_low >= window.high_y) return false;
 
-    const int column = int(std::floor(x_low)), row = int(std::floor(y_low));
-    const int columns = int(std::floor(x_high)) - column + 1, rows = int(std::floor(y_high)) - row + 1;
-    const int stride = columns + 1; // one to spare, which `beyond` writes to
+    const int column = floor_of(x_low), row = floor_of(y_low);
+    const int columns = floor_of(x_high) - column + 1, rows = floor_of(y_high) - row + 1;
     result.column = column;
     result.row = row;
     result.columns = columns;
     result.rows = rows;
-    const int count = rows * stride;
-    result.cells.assign(std::size_t(2 * count), {});
-    CellMoments *cells = result.cells.data(), *beyond = cells + count;
+    const std::size_t count = std::size_t(rows) * columns;
+    if (result.cells.size() < count) result.cells.resize(count);
+    CellMoments* const cells = result.cells.data();
+    std::fill_n(cells, count, CellMoments{});
     for (int i = 0; i < 4; ++i) {
         const PlanePoint &from = p[i], &to = p[(i + 1) & 3];
-        add_edge(cells, beyond, stride, from.x - column, from.y - row, to.x - column, to.y - row);
-    }
-    for (int r = 0; r < rows; ++r) {
-        CellMoments covered;
-        for (int c = 0; c < columns; ++c) {
-            const CellMoments& here = beyond[r * stride + c];
-            covered.area += here.area;
-            covered.x += here.x;
-            covered.y += here.y;
-            const CellMoments& own = cells[r * stride + c];
-            cells[r * columns + c] = {own.area + covered.area, own.x + covered.x, own.y + covered.y};
-        }
+        add_edge(cells, columns, from.x - column, from.y - row, to.x - column, to.y - row);
     }
 
     // The middle, the mean of the corners, is where J and the local coordinates are taken.

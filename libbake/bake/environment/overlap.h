@@ -37,7 +37,7 @@ inline CellWindow whole_face(const FaceGrid& grid) noexcept { return {grid.low()
 /// What the overlaps of one quadrilateral are told in, kept between calls for its memory.
 struct Overlap {
     int column = 0, row = 0, columns = 0, rows = 0; ///< cells [column, column + columns) x [row, row + rows)
-    std::vector<CellMoments> cells;                 ///< rows * columns; sign as the quadrilateral turns
+    std::vector<CellMoments> cells;                 ///< rows * columns, row by row; sign as the quadrilateral turns
     double jacobian = 0, jacobian_x = 0, jacobian_y = 0; ///< J at cell coordinates (0, 0) and its slope, per cell^2
     double jacobian_middle = 0;                          ///< J at the quadrilateral's middle
     double orientation = 1;                         ///< 1 or -1: makes areas positive
@@ -50,7 +50,17 @@ struct Overlap {
 struct PlanePoint {
     double x = 0, y = 0, ma = 0; ///< ma: the component along the face's axis; x and y hold where it is above .2
 };
-PlanePoint project(const FaceGrid& grid, CubeFace face, const Vec3d& d) noexcept;
+/// From directions to the plane of a face.
+struct FacePlane {
+    Vec3d axis, s, t; ///< the face's axis; sc and tc of a direction, times scale
+    double middle;
+
+    FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
+    PlanePoint project(const Vec3d& d) const noexcept {
+        const double ma = glm::dot(axis, d), inverse = 1 / (ma > 0.2 ? ma : 0.2);
+        return {middle + glm::dot(s, d) * inverse, middle + glm::dot(t, d) * inverse, ma};
+    }
+};
 
 /// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it, beyond the window
 /// too. False, and nothing else, when it lies off the window or behind the face.

@@ -80,7 +80,7 @@ void join_frames(Cube& cube, const std::array<std::vector<double>, 6>& frames) {
                 const Vec3d d = cube_direction(CubePoint<double>{face, double(x) / (n - 1), double(y) / (n - 1)});
                 std::vector<double> sum(channels + 1, 0.0);
                 for (int other = 0; other < 6; ++other) {
-                    const PlanePoint at = project({n, true}, CubeFace(other), d);
+                    const PlanePoint at = FacePlane({n, true}, CubeFace(other)).project(d);
                     const double u = (at.x - 1) / 2, v = (at.y - 1) / 2; // texels from the first one's centre
                     if (at.ma < 1 - 1e-9 || std::abs(u - 0.5 * (n - 1)) > 0.5 * n || std::abs(v - 0.5 * (n - 1)) > 0.5 * n) continue;
                     const int index = frame_index(n, int(std::lround(u)), int(std::lround(v)));
@@ -88,6 +88,24 @@ void join_frames(Cube& cube, const std::array<std::vector<double>, 6>& frames) {
                 }
                 for (int c = 0; c < channels; ++c) cube[face].at(x, y, c) = static_cast<float>(sum[c] / sum[channels]);
             }
+}
+
+/// A texel on an edge is folded round it: its light has its middle up to 1/8 of a texel further from the edge's middle
+/// than its sample, |t| / 8 at t in [-1, 1]. The value is brought back by its difference to the neighbour on that side,
+/// which loses no light but for that in which |t| / 8 changes from texel to texel.
+void centre_edges(Cube& cube) {
+    const int n = cube.size(), channels = cube.channels();
+    for (Image<float>& face : cube.faces)
+        for (int side = 0; side < 4; ++side) {
+            const auto at = [&](int i) { return side == 0 ? &face.at(i, 0) : side == 1 ? &face.at(i, n - 1) : side == 2 ? &face.at(0, i) : &face.at(n - 1, i); };
+            // From the ends inwards, so that neighbours still hold what they were given; the middle has nothing to move.
+            for (int i = 1; 2 * i < n - 1; ++i)
+                for (const int k : {i, n - 1 - i}) {
+                    const float share = static_cast<float>(std::abs(2.0 * k / (n - 1) - 1) / 8);
+                    float *value = at(k), *inner = at(k < n - 1 - k ? k + 1 : k - 1);
+                    for (int c = 0; c < channels; ++c) value[c] += share * (inner[c] - value[c]);
+                }
+        }
 }
 
 /// An edge-sampled source whose shared texels differ is read as their mean.
@@ -140,20 +158,19 @@ Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOpti
         for (const CubeFace face : all_cube_faces) cube[face] = sampled_face(source, grid, face, options, samples, progress);
         return cube;
     }
-    if (!source.is_cube() && source.projection == Projection::latlong_edges) {
-        Environment clean;
+    Environment clean;
+    const bool mend = !source.is_cube() && source.projection == Projection::latlong_edges;
+    if (mend) {
         clean.projection = source.projection;
         clean.picture = joined(source.picture);
-        const FaceRain rain(clean, grid, options.turn);
-        std::array<std::vector<double>, 6> frames;
-        for (int k = 0; k < 6; ++k) cube.faces[k] = rain.face(CubeFace(k), grid.edges ? &frames[k] : nullptr, progress);
-        if (grid.edges) join_frames(cube, frames);
-        return cube;
     }
-    const FaceRain rain(source, grid, options.turn);
+    const FaceRain rain(mend ? clean : source, grid, options.turn);
     std::array<std::vector<double>, 6> frames;
     for (int k = 0; k < 6; ++k) cube.faces[k] = rain.face(CubeFace(k), grid.edges ? &frames[k] : nullptr, progress);
-    if (grid.edges) join_frames(cube, frames);
+    if (grid.edges) {
+        join_frames(cube, frames);
+        centre_edges(cube);
+    }
     return cube;
 }
 

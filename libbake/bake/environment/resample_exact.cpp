@@ -48,8 +48,9 @@ CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, CubeFace f
         }
     double x_low = 1e9, x_high = -1e9, y_low = 1e9, y_high = -1e9;
     bool all_ahead = true, any_ahead = false;
+    const FacePlane plane(grid, face);
     for (const Vec3d& d : points) {
-        const PlanePoint p = project(grid, face, d);
+        const PlanePoint p = plane.project(d);
         const double ma = p.ma / glm::length(d);
         all_ahead &= ma > 0.3;
         any_ahead |= ma > 0.3;
@@ -103,9 +104,10 @@ struct FaceRain::Impl {
         scratch.directions.resize(points);
         scratch.upper.resize(points);
         scratch.lower.resize(points);
+        const FacePlane plane(grid, face);
         const auto project_row = [&](double y, std::vector<PlanePoint>& row) {
             source.lattice.points(block.x0, parts, y, points, scratch.directions.data());
-            for (int k = 0; k < points; ++k) row[k] = project(grid, face, scratch.directions[k]);
+            for (int k = 0; k < points; ++k) row[k] = plane.project(scratch.directions[k]);
         };
         project_row(source.lattice.border_y(block.y0), scratch.lower);
         for (int y = block.y0; y < block.y1; ++y)
@@ -250,6 +252,8 @@ Image<float> gather_picture(const Environment& sky, Projection projection, int w
     const Lattice lattice(projection, width, height, glm::transpose(turn));
     const int parts = parts_for(lattice, 2.0 / grid.texels), points = width * parts + 1;
     Image<float> picture(width, height, channels);
+    std::vector<FacePlane> planes;
+    for (const CubeFace face : all_cube_faces) planes.emplace_back(grid, face);
     for_rows(height, 4, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Vec3d> upper(points), lower(points);
         std::vector<double> sums(std::size_t(width) * (channels + 1));
@@ -265,10 +269,12 @@ Image<float> gather_picture(const Environment& sky, Projection projection, int w
                     const Vec3d middle = d[0] + d[1] + d[2] + d[3];
                     for (const CubeFace face : all_cube_faces) {
                         // A part spans 4 degrees at most: its middle lies near every face it meets.
-                        const PlanePoint at = project(grid, face, middle);
-                        if (at.ma < 1.8 || std::abs(at.x - grid.middle()) > 1.3 * grid.scale() + 1 || std::abs(at.y - grid.middle()) > 1.3 * grid.scale() + 1) continue;
+                        const FacePlane& plane = planes[int(face)];
+                        if (glm::dot(plane.axis, middle) < 1.8) continue;
+                        const PlanePoint at = plane.project(middle);
+                        if (std::abs(at.x - grid.middle()) > 1.3 * grid.scale() + 1 || std::abs(at.y - grid.middle()) > 1.3 * grid.scale() + 1) continue;
                         PlanePoint corners[4];
-                        for (int i = 0; i < 4; ++i) corners[i] = project(grid, face, d[i]);
+                        for (int i = 0; i < 4; ++i) corners[i] = plane.project(d[i]);
                         if (overlap(grid, whole_face(grid), corners, o)) add_seen(sky, grid, face, o, &sums[std::size_t(k / parts) * (channels + 1)]);
                     }
                 }
