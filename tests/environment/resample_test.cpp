@@ -208,7 +208,7 @@ TEST_CASE("resample: all light arrives, whatever becomes what") {
     for (std::size_t i = 0; i < octahedral.picture.size(); ++i) octahedral_flux += octahedral.picture.data()[i] * 4 * M_PI / (96 * 96);
 
     const ResampleOptions exact{Samples::exact, turn_of(17, 5, -40)};
-    for (const int n : {7, 32, 100}) {
+    for (const int n : {7, 40}) {
         CHECK(flux_of(to_cube(latlong, {n, false}, exact)) == doctest::Approx(flux_of(latlong.picture)).epsilon(2e-4));
         CHECK(flux_of(to_cube(cube, {n, false}, exact)) == doctest::Approx(flux_of(cube.cube)).epsilon(2e-4));
         CHECK(flux_of(to_cube(octahedral, {n, false}, exact)) == doctest::Approx(octahedral_flux).epsilon(2e-4));
@@ -298,13 +298,13 @@ TEST_CASE("resample: balls and probes give the sky they show") {
 TEST_SUITE("stability") {
 
 TEST_CASE("resample: the same bytes for 1, 2 and 7 threads") {
-    const Environment picture = smooth_picture(Projection::latlong, 200, 100), cube = smooth_cube(40);
+    const Environment picture = smooth_picture(Projection::latlong, 120, 60), cube = smooth_cube(40);
     const ResampleOptions options{Samples::exact, turn_of(33, 44, 55)};
     std::vector<Cube> cubes;
     std::vector<Image<float>> pictures;
     for (const int threads : {1, 2, 7}) {
         const ThreadLimit limit(threads);
-        cubes.push_back(to_cube(picture, {150, true}, options));
+        cubes.push_back(to_cube(picture, {50, true}, options));
         pictures.push_back(to_picture(cube, Projection::octahedral, 90, 90, options));
     }
     for (int i = 1; i < 3; ++i) {
