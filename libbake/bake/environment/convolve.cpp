@@ -143,9 +143,12 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
             add_nodes(found.nodes, lobe, tile, channels, sums);
             add_texels(found.texels, lobe, tile, channels, sums);
             for (int k = 0; k < tile.count; ++k)
-                for (int c = 0; c < channels; ++c)
+                for (int c = 0; c < channels; ++c) {
+                    const float light = sums.light[c][k], white = sums.white[k];
+                    const float mean = resolved ? (light + (norm - white) * float(tree.even_level(c))) / norm : light / white;
                     out.faces[tile.face].at(tile.x0 + k % tile.width, tile.y0 + k / tile.width, c) =
-                        resolved ? sums.light[c][k] / norm + (1 - sums.white[k] / norm) * float(tree.even_level(c)) : sums.light[c][k] / sums.white[k];
+                        std::clamp(mean, tree.least(c), tree.most(c));
+                }
         }
     });
     return out;

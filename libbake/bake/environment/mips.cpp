@@ -148,7 +148,10 @@ Cube resized(const Cube& sky, int m, MipFilter filter) {
 } // namespace
 
 Cube next_mip(const Cube& sky, MipFilter filter) {
-    return sky.size() == 1 ? copy_of(sky) : resized(sky, sky.size() / 2, filter);
+    if (sky.size() == 1) return copy_of(sky);
+    // On few texels the exchange, even in texels, dulls the middle of a face, where texels are widest, and seams show:
+    // 1.24 times the step inside at 2 x 2, against 1.01.
+    return resized(sky, sky.size() / 2, sky.size() < 16 ? MipFilter::box : filter);
 }
 
 Cube resize_by_area(const Cube& sky, int size) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace bake {
@@ -120,6 +121,15 @@ RadianceTree::RadianceTree(const Cube& sky)
         const double even_area = sum([=](double L) { return std::abs(L) <= 4 * mean ? 1.0 : 0.0; });
         even_level_[c] = sum([=](double L) { return std::abs(L) <= 4 * mean ? L : 0.0; }) / even_area;
     }
+
+    std::fill(least_, least_ + channels_, std::numeric_limits<float>::max());
+    std::fill(most_, most_ + channels_, std::numeric_limits<float>::lowest());
+    for (const Image<float>& face : sky.faces)
+        for (std::size_t i = 0; i < face.size(); i += channels_)
+            for (int c = 0; c < channels_; ++c) {
+                least_[c] = std::min(least_[c], face.data()[i + c]);
+                most_[c] = std::max(most_[c], face.data()[i + c]);
+            }
 
     while (size(last_level()) > 1) {
         const int below = last_level(), children_size = size(below), m = (children_size + 1) / 2;
