@@ -106,6 +106,13 @@ SkyNode RadianceTree::node(int level, int face, int x, int y) const noexcept {
     return texel;
 }
 
+float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
+    const CubePoint<float> at = cube_point(d);
+    const int n = sky_.size();
+    const auto index = [n](float s) { return std::clamp(static_cast<int>(s * static_cast<float>(n)), 0, n - 1); };
+    return sky_.faces[static_cast<int>(at.face)].at(index(at.s), index(at.t), channel);
+}
+
 RadianceTree::RadianceTree(const Cube& sky)
     : sky_(sky), channels_(sky.faces[0].channels()), stride_(fixed_values + 4 * channels_) {
     assert(!sky.empty() && channels_ >= 1 && channels_ <= max_sky_channels);

@@ -36,6 +36,8 @@ public:
     int size(int level) const noexcept; ///< nodes along an edge
     /// Node (x, y) of a face. Level 0: h, rho, Q and D are 0.
     SkyNode node(int level, int face, int x, int y) const noexcept;
+    /// Radiance of a channel in the texel that a direction passes.
+    float texel_at(const Vec3f& d, int channel) const noexcept;
     /// Mean of |L| over the sphere, the largest of the channels.
     double mean() const noexcept { return mean_; }
     /// Mean radiance of a channel where it is not a sun: less than four times its mean |L|.
