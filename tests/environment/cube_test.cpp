@@ -1,4 +1,4 @@
-#include "bake/environment/cube.h"
+#include "bake/environment/face_files.h"
 #include "bake/base/error.h"
 #include <cmath>
 #include <cstdlib>
@@ -14,8 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<CubeFace, 6> all_faces = {CubeFace::px, CubeFace::nx, CubeFace::py,
-                                               CubeFace::ny, CubeFace::pz, CubeFace::nz};
+constexpr auto& all_faces = all_cube_faces;
 
 /// Every texel of its own colour.
 Cube random_cube(int n) {

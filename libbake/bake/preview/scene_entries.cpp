@@ -2,6 +2,7 @@
 #include "bake/asset/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
+#include "bake/environment/face_files.h"
 #include <map>
 
 namespace bake {
