@@ -168,8 +168,7 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
     // A sum over texels knows the lobe's integral when they are finer than the lobe.
     const bool integral_known = width_of(lobe) > 4 / float(tree.size(0));
 
-    Cube out;
-    for (Image<float>& face : out.faces) face = Image<float>(size, size, channels);
+    Cube out = make_cube(size, channels);
     for_rows(std::int64_t(6) * tiles * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
         Sources found;
         for (std::int64_t i = begin; i < end; ++i) {

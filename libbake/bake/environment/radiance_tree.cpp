@@ -72,7 +72,7 @@ SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
 /// Sum of term(L) omega over a channel, row by row in double, so that it does not depend on the threads.
 template <class Term>
 double sum_over_texels(const Cube& sky, int channel, const std::vector<double>& omega, Term&& term) {
-    const int n = sky.size(), channels = sky.faces[0].channels();
+    const int n = sky.size(), channels = sky.channels();
     std::vector<double> rows(std::size_t(6) * n);
     for_rows(std::int64_t(6) * n, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
@@ -114,7 +114,7 @@ float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
 }
 
 RadianceTree::RadianceTree(const Cube& sky)
-    : sky_(sky), channels_(sky.faces[0].channels()), stride_(fixed_values + 4 * channels_) {
+    : sky_(sky), channels_(sky.channels()), stride_(fixed_values + 4 * channels_) {
     assert(!sky.empty() && channels_ >= 1 && channels_ <= max_sky_channels);
     const int n = sky.size();
     const std::vector<double> omega = texel_solid_angles(n);
