@@ -2,7 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/environment/solid_angle.h"
-#include "environment/skies.h"
+#include "environment/smooth_skies.h"
 #include <cstring>
 #include <doctest/doctest.h>
 #include <random>

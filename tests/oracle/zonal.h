@@ -55,9 +55,11 @@ struct Sun {
     double flux() const { return amplitude * 2 * std::numbers::pi * -std::expm1(-2 * kappa) / kappa; }
     /// A_l for l below count: Bessel functions by Miller's downward recurrence.
     std::vector<double> band_factors(int count) const {
-        // b_{l-1} = b_{l+1} + (2 l + 1) / kappa b_l for b_l = I_{l+1/2}, as ratios b_{l+1} / b_l from far above.
-        std::vector<double> ratio(count + 200 + 1, 0.0), A(count, 1.0);
-        for (int l = count + 199; l >= 0; --l) ratio[l] = 1 / ((2 * l + 3) / kappa + ratio[l + 1]);
+        // b_{l-1} = b_{l+1} + (2 l + 1) / kappa b_l for b_l = I_{l+1/2}, as ratios b_{l+1} / b_l from far above: a wrong
+        // start is forgotten as exp(-l^2 / kappa).
+        const int start = count + 100 + int(10 * std::sqrt(kappa));
+        std::vector<double> ratio(start + 1, 0.0), A(count, 1.0);
+        for (int l = start - 1; l >= 0; --l) ratio[l] = 1 / ((2 * l + 3) / kappa + ratio[l + 1]);
         for (int l = 1; l < count; ++l) A[l] = A[l - 1] * ratio[l - 1];
         return A;
     }

@@ -1,10 +1,14 @@
 // A sky convolved with a lobe about each direction, by the quadtree of radiance_tree.h.
 //
-//   out(n) = sum over nodes (F K + K' n . D) / sum over nodes omega K,     K at the node's centre, its spread included
+//   light(n) = sum over nodes of F K + K' n . D       white(n) = sum over nodes of omega K
+//   out(n) = (light(n) + (I - white(n)) E) / I
 //
-// Barnes and Hut, A hierarchical O(N log N) force-calculation algorithm, Nature 1986: tiles of directions share one walk,
-// which opens a node while the lobe changes too much across it. Divided by the same sum of a white sky, so that white
-// stays white whatever is left out.
+// with K at a node's centre, its even spread included; I the lobe's integral, and E the sky's level outside its suns. So
+// white stays white whatever the nodes leave out, and suns, which are opened to their texels, are exact. Lobes as narrow
+// as two texels or less have out = light / white.
+//
+// Barnes and Hut, A hierarchical O(N log N) force-calculation algorithm, Nature 1986. Tiles of 8 x 8 directions share a
+// walk, which opens a node while the lobe changes too much across it, or while its light is too uneven.
 #pragma once
 #include "bake/environment/lobe.h"
 #include "bake/environment/radiance_tree.h"

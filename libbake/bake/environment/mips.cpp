@@ -7,21 +7,6 @@
 namespace bake {
 namespace {
 
-/// The texel whose centre lies one step outside edge (x, y) of a face: exactly one of them is -1 or n. The step folds
-/// round the edge, so that it ends on a texel's centre.
-const float* texel_across(const Cube& sky, CubeFace face, int x, int y) noexcept {
-    const int n = sky.size();
-    const bool across_s = x < 0 || x >= n;
-    const auto at = [n](int i) { return (std::clamp(i, 0, n - 1) + 0.5) / n; };
-    Vec3d d = cube_direction(across_s ? CubePoint<double>{face, x < 0 ? 0.0 : 1.0, at(y)}
-                                      : CubePoint<double>{face, at(x), y < 0 ? 0.0 : 1.0});
-    d[static_cast<int>(face) / 2] *= 1.0 - 1.0 / n;
-    const CubePoint<double> there = cube_point(d);
-    const auto index = [n](double s) { return std::clamp(static_cast<int>(s * n), 0, n - 1); };
-    const Image<float>& image = sky.faces[static_cast<int>(there.face)];
-    return image.row(index(there.t)) + std::size_t(index(there.s)) * image.channels();
-}
-
 /// A face with a frame of one texel of its neighbours; the frame's corners are the mean of the three texels that meet.
 Image<float> framed(const Cube& sky, int face_index) {
     const Image<float>& face = sky.faces[face_index];
@@ -29,7 +14,8 @@ Image<float> framed(const Cube& sky, int face_index) {
     Image<float> wide(n + 2, n + 2, channels);
     for (int y = 0; y < n; ++y) std::copy(face.row(y), face.row(y) + std::size_t(n) * channels, wide.row(y + 1) + channels);
     const auto copy_across = [&](int x, int y) {
-        const float* from = texel_across(sky, static_cast<CubeFace>(face_index), x, y);
+        const CubeTexel there = texel_across(n, static_cast<CubeFace>(face_index), x, y);
+        const float* from = &sky.faces[static_cast<int>(there.face)].at(there.x, there.y);
         std::copy(from, from + channels, &wide.at(x + 1, y + 1));
     };
     for (int i = 0; i < n; ++i)
@@ -87,19 +73,15 @@ Pieces pieces_of(int n, int m) {
 }
 
 Cube copy_of(const Cube& sky) {
-    Cube copy;
-    for (int f = 0; f < 6; ++f) {
-        const Image<float>& face = sky.faces[f];
-        copy.faces[f] = Image<float>(face.width(), face.height(), face.channels());
-        std::copy(face.data(), face.data() + face.size(), copy.faces[f].data());
-    }
+    Cube copy = make_cube(sky.size(), sky.channels());
+    for (int f = 0; f < 6; ++f) std::copy(sky.faces[f].data(), sky.faces[f].data() + sky.faces[f].size(), copy.faces[f].data());
     return copy;
 }
 
 /// Fluxes shared out to m x m texels by the solid angle of their overlap, with the exchange before it for `tent`.
 Cube resized(const Cube& sky, int m, MipFilter filter) {
     assert(!sky.empty() && m >= 1);
-    const int n = sky.size(), channels = sky.faces[0].channels();
+    const int n = sky.size(), channels = sky.channels();
     const std::vector<double> omega = texel_solid_angles(n);
     const Pieces pieces = pieces_of(n, m);
     const int count = int(pieces.fine.size());
@@ -110,8 +92,7 @@ Cube resized(const Cube& sky, int m, MipFilter filter) {
             for (auto f = int(begin); f < int(end); ++f) wide[f] = framed(sky, f);
         });
 
-    Cube coarse;
-    for (Image<float>& face : coarse.faces) face = Image<float>(m, m, channels);
+    Cube coarse = make_cube(m, channels);
     for_rows(std::int64_t(6) * m, 4, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> flux(std::size_t(n) * channels), sum(std::size_t(m) * channels), area(m);
         for (std::int64_t row = begin; row < end; ++row) {
@@ -148,7 +129,10 @@ Cube resized(const Cube& sky, int m, MipFilter filter) {
 } // namespace
 
 Cube next_mip(const Cube& sky, MipFilter filter) {
-    return sky.size() == 1 ? copy_of(sky) : resized(sky, sky.size() / 2, filter);
+    if (sky.size() == 1) return copy_of(sky);
+    // On few texels the exchange, even in texels, dulls the middle of a face, where texels are widest, and seams show:
+    // 1.24 times the step inside at 2 x 2, against 1.01.
+    return resized(sky, sky.size() / 2, sky.size() < 16 ? MipFilter::box : filter);
 }
 
 Cube resize_by_area(const Cube& sky, int size) {

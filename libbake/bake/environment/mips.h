@@ -15,7 +15,7 @@
 namespace bake {
 
 enum class MipFilter {
-    tent, ///< four texels wide, across edges and corners
+    tent, ///< four texels wide, across edges and corners; box for levels of 4, 2 and 1 texels
     box,  ///< the texels below, nothing else: sharpest, aliases most
 };
 

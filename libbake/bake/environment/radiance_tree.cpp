@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace bake {
@@ -71,7 +72,7 @@ SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
 /// Sum of term(L) omega over a channel, row by row in double, so that it does not depend on the threads.
 template <class Term>
 double sum_over_texels(const Cube& sky, int channel, const std::vector<double>& omega, Term&& term) {
-    const int n = sky.size(), channels = sky.faces[0].channels();
+    const int n = sky.size(), channels = sky.channels();
     std::vector<double> rows(std::size_t(6) * n);
     for_rows(std::int64_t(6) * n, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
@@ -105,8 +106,15 @@ SkyNode RadianceTree::node(int level, int face, int x, int y) const noexcept {
     return texel;
 }
 
+float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
+    const CubePoint<float> at = cube_point(d);
+    const int n = sky_.size();
+    const auto index = [n](float s) { return std::clamp(static_cast<int>(s * static_cast<float>(n)), 0, n - 1); };
+    return sky_.faces[static_cast<int>(at.face)].at(index(at.s), index(at.t), channel);
+}
+
 RadianceTree::RadianceTree(const Cube& sky)
-    : sky_(sky), channels_(sky.faces[0].channels()), stride_(fixed_values + 4 * channels_) {
+    : sky_(sky), channels_(sky.channels()), stride_(fixed_values + 4 * channels_) {
     assert(!sky.empty() && channels_ >= 1 && channels_ <= max_sky_channels);
     const int n = sky.size();
     const std::vector<double> omega = texel_solid_angles(n);
@@ -120,6 +128,15 @@ RadianceTree::RadianceTree(const Cube& sky)
         const double even_area = sum([=](double L) { return std::abs(L) <= 4 * mean ? 1.0 : 0.0; });
         even_level_[c] = sum([=](double L) { return std::abs(L) <= 4 * mean ? L : 0.0; }) / even_area;
     }
+
+    std::fill(least_, least_ + channels_, std::numeric_limits<float>::max());
+    std::fill(most_, most_ + channels_, std::numeric_limits<float>::lowest());
+    for (const Image<float>& face : sky.faces)
+        for (std::size_t i = 0; i < face.size(); i += channels_)
+            for (int c = 0; c < channels_; ++c) {
+                least_[c] = std::min(least_[c], face.data()[i + c]);
+                most_[c] = std::max(most_[c], face.data()[i + c]);
+            }
 
     while (size(last_level()) > 1) {
         const int below = last_level(), children_size = size(below), m = (children_size + 1) / 2;

@@ -36,10 +36,14 @@ public:
     int size(int level) const noexcept; ///< nodes along an edge
     /// Node (x, y) of a face. Level 0: h, rho, Q and D are 0.
     SkyNode node(int level, int face, int x, int y) const noexcept;
+    /// Radiance of a channel in the texel that a direction passes.
+    float texel_at(const Vec3f& d, int channel) const noexcept;
     /// Mean of |L| over the sphere, the largest of the channels.
     double mean() const noexcept { return mean_; }
     /// Mean radiance of a channel where it is not a sun: less than four times its mean |L|.
     double even_level(int channel) const noexcept { return even_level_[channel]; }
+    float least(int channel) const noexcept { return least_[channel]; } ///< smallest radiance of a channel
+    float most(int channel) const noexcept { return most_[channel]; }   ///< largest
 
 private:
     struct Level {
@@ -49,6 +53,7 @@ private:
     const Cube& sky_;
     int channels_, stride_;
     double mean_ = 0, even_level_[max_sky_channels] = {};
+    float least_[max_sky_channels] = {}, most_[max_sky_channels] = {};
     std::vector<float> omega_; ///< of the texels of a face
     std::vector<Level> levels_;
 };

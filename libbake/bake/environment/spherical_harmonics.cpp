@@ -102,7 +102,7 @@ void project_row(const RowDirections& d, const std::vector<double>& flux, int ba
 ShCoefficients project_sh(const Cube& sky, int bands) {
     assert(!sky.empty() && bands >= 1);
     constexpr int rows_at_once = 16;
-    const int n = sky.size(), channels = sky.faces[0].channels(), rows = 6 * n;
+    const int n = sky.size(), channels = sky.channels(), rows = 6 * n;
     const std::vector<double> omega = texel_solid_angles(n);
 
     std::vector<double> row_flux(std::size_t(rows) * channels), mean(channels);
@@ -140,8 +140,7 @@ ShCoefficients project_sh(const Cube& sky, int bands) {
 
 Cube evaluate_sh(const ShCoefficients& series, int size) {
     const int channels = series.channels;
-    Cube out;
-    for (Image<float>& face : out.faces) face = Image<float>(size, size, channels);
+    Cube out = make_cube(size, channels);
     for_rows(std::int64_t(6) * size, 4, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> sums(std::size_t(size) * channels);
         Powers powers(size);
