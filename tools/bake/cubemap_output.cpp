@@ -43,7 +43,7 @@ void fit(Image<float>& image, const CubemapTarget& target, const std::string& fi
 }
 
 WriteOptions write_options(const CubemapTarget& target, bool mips) {
-    WriteOptions options{.depth = target.depth, .mips = mips};
+    WriteOptions options{.depth = target.depth, .srgb = target.encode_srgb, .mips = mips};
     const bool exr = target.out.size() > 4 && target.out.compare(target.out.size() - 4, 4, ".exr") == 0;
     if (exr && target.to == SkyFormat::openexr_cube) options.environment = EnvironmentTag::cube;
     if (exr && target.to == SkyFormat::openexr_latlong) options.environment = EnvironmentTag::latlong;

@@ -41,6 +41,7 @@ struct WriteOptions {
     std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
     Compression compression = Compression::automatic;
     EnvironmentTag environment = EnvironmentTag::none; ///< exr only: other readers then see an environment
+    bool srgb = false; ///< png: tagged as sRGB-encoded, which 16-bit pictures are not taken for otherwise
     bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };
 

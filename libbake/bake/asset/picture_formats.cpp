@@ -295,6 +295,7 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     const std::string format = writer->out->format_name();
     const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
+    if (format == "png" && options.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
     // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.

@@ -3,9 +3,9 @@
 //   one     a bilinear look at the source from each texel's centre
 //   grid4   the mean of 4 x 4 such looks
 //   exact   each source texel is shared out by the overlap of its solid angle with the result's texels, so that all of its
-//           radiance times solid angle arrives. Inside a texel radiance follows its slope (central differences, scaled
-//           down where it would fall below 0), which keeps the texel's mean: second order where the sky is smooth, no
-//           ringing where it is not. A result's texel is the mean over its solid angle.
+//           radiance times solid angle arrives. Inside a texel radiance follows its slope (central differences, limited
+//           to stay between the neighbours and above 0), which keeps the texel's mean: second order where the sky is
+//           smooth, no ringing where it is not. A result's texel is the mean over its solid angle.
 //           Second-order conservative remapping: Jones, First- and Second-Order Conservative Remapping Schemes for Grids in
 //           Spherical Coordinates, Monthly Weather Review 1999; overlaps as in overlap.h.
 //

@@ -4,7 +4,8 @@
 
 namespace bake {
 
-/// Slopes along x and y of up to four channels, scaled down so that value + a x + b y >= 0 within the texel.
+/// Slopes along x and y of up to four channels: central differences, limited so that everywhere in the texel the
+/// values stay within its neighbours' range; 0 at an extremum.
 struct Slopes {
     float x[4], y[4];
 };
