@@ -34,7 +34,7 @@ DiscMeans disc_means(const Image<float>& image) {
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const double r = std::hypot((2 * x + 1.0) / n - 1, (2 * y + 1.0) / n - 1);
-            if (r > 1 - 2.0 / n && r < 1 + 2.0 / n) continue; // the rim itself may be either
+            if (std::abs(r - 1) < 1.5 / n) continue; // the rim itself may be either
             for (int c = 0; c < channels; ++c) sums[r > 1] += image.at(x, y, c);
             counts[r > 1] += channels;
         }
