@@ -1,21 +1,14 @@
 #include "bake/environment/cube.h"
-#include "bake/base/error.h"
 #include <cmath>
-#include <cstdlib>
 #include <doctest/doctest.h>
-#include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <random>
-#include <unistd.h>
 
 using namespace bake;
-namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<CubeFace, 6> all_faces = {CubeFace::px, CubeFace::nx, CubeFace::py,
-                                               CubeFace::ny, CubeFace::pz, CubeFace::nz};
+constexpr auto& all_faces = all_cube_faces;
 
 /// Every texel of its own colour.
 Cube random_cube(int n) {
@@ -27,31 +20,6 @@ Cube random_cube(int n) {
         for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = uniform(random);
     }
     return cube;
-}
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_cube_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-    std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
-
-Image<float> flat_image(int width, int height, int channels, float value) {
-    Image<float> image(width, height, channels);
-    for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = value;
-    return image;
-}
-
-/// Runs `work`, which must refuse with `why` and name `file`.
-template <class Work> void check_refused(Refusal why, const std::string& file, Work&& work) {
-    try {
-        work();
-        FAIL("not refused");
-    } catch (const Error& error) {
-        CHECK(error.refusal == why);
-        CHECK_MESSAGE(std::string(error.what()).rfind(file, 0) == 0, error.what());
-        CHECK_MESSAGE(std::string(error.what()).find(';') != std::string::npos, error.what());
-    }
 }
 
 } // namespace
@@ -120,6 +88,51 @@ TEST_CASE("cube: lookup at a texel's centre is the texel") {
             }
 }
 
+TEST_CASE("cube: lookups of one to four channels agree channel by channel") {
+    const Cube three = random_cube(6);
+    for (int channels = 1; channels <= 4; ++channels) {
+        Cube some = make_cube(6, channels);
+        for (int f = 0; f < 6; ++f)
+            for (int y = 0; y < 6; ++y)
+                for (int x = 0; x < 6; ++x)
+                    for (int c = 0; c < channels; ++c) some.faces[f].at(x, y, c) = three.faces[f].at(x, y, c % 3);
+        for (const Vec3d d : {Vec3d(1, 0.97, -0.2), Vec3d(-1, 1, 0.99), Vec3d(0.3, -0.2, 1)}) {
+            float value[4], whole[3];
+            lookup(some, d, value);
+            lookup(three, d, whole);
+            for (int c = 0; c < channels; ++c) CHECK(value[c] == whole[c % 3]);
+        }
+    }
+}
+
+TEST_CASE("cube: trilinear lookups run linearly from level to level and stay within them") {
+    CubeMips mips;
+    for (int level = 0; level < 3; ++level) {
+        mips.push_back(make_cube(4 >> level, 3));
+        for (Image<float>& face : mips.back().faces)
+            for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = float(level + 1);
+    }
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::pair<float, float> values[] = {{-1, 1}, {0, 1}, {0.25f, 1.25f}, {1, 2}, {1.5f, 2.5f}, {2, 3}, {9, 3}, {nan, 1}};
+    for (const auto& [level, value] : values) CHECK(lookup(mips, Vec3f(1, 1, 0.2f), level).y == doctest::Approx(value));
+}
+
+TEST_CASE("cube: a step across an edge and back ends where it began") {
+    for (const int n : {1, 4, 7})
+        for (const CubeFace face : all_faces)
+            for (int i = 0; i < n; ++i) {
+                const CubeTexel there = texel_across(n, face, n, i);
+                int back = 0;
+                for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+                    const int x = there.x + dx, y = there.y + dy;
+                    if (x >= 0 && y >= 0 && x < n && y < n) continue;
+                    const CubeTexel here = texel_across(n, there.face, x, y);
+                    back += here.face == face && here.x == n - 1 && here.y == i;
+                }
+                CHECK(back == 1);
+            }
+}
+
 TEST_CASE("cube: all 12 edges and 8 corners are continuous, for faces of any size") {
     for (const int n : {1, 2, 3, 8}) {
         const Cube cube = random_cube(n);
@@ -166,28 +179,6 @@ TEST_CASE("cube: a smooth picture stays smooth across the edges: second differen
     CHECK(worst < 0.006f); // at a corner; a clamped lookup is off by half a texel there, .016
 }
 
-TEST_CASE("cube: a pattern stands for six names") {
-    const auto files = cube_files("sky/a_%s.jpg");
-    CHECK(files[0] == "sky/a_px.jpg");
-    CHECK(files[5] == "sky/a_nz.jpg");
-    for (const char* bad : {"sky.jpg", "%s/%s.jpg"}) check_refused(Refusal::usage, bad, [&] { cube_files(bad); });
-}
-
-TEST_CASE("cube: 8-bit faces are decoded from sRGB, float faces are not, and either can be told") {
-    const Folder folder;
-    for (const char* name : cube_face_names) {
-        write_image(folder / (std::string(name) + ".png"), flat_image(2, 2, 3, 0.5f), {.depth = Depth::u8});
-        write_image(folder / (std::string(name) + ".exr"), flat_image(2, 2, 4, 0.5f), {.depth = Depth::float32});
-    }
-    const double decoded = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);
-    CHECK(read_cube(cube_files(folder / "%s.png")).faces[3].at(1, 1, 2) == doctest::Approx(decoded).epsilon(1e-5));
-    const Cube as_data = read_cube(cube_files(folder / "%s.png"), ColourSpace::linear);
-    CHECK(as_data.faces[0].at(0, 0) == doctest::Approx(128 / 255.0));
-    const Cube floats = read_cube(cube_files(folder / "%s.exr"));
-    CHECK(floats.faces[5].at(0, 1, 1) == doctest::Approx(0.5));
-    CHECK(floats.faces[5].channels() == 3);
-}
-
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
@@ -228,64 +219,6 @@ TEST_CASE("cube: lookups anywhere stay within the texels' values") {
                 const Vec3f value = lookup(cube, {x, y, z});
                 for (int c = 0; c < 3; ++c) CHECK((value[c] >= 0 && value[c] <= 1));
             }
-}
-
-TEST_CASE("cube: a faulty face is refused by its name") {
-    const Folder folder;
-    const auto files = cube_files(folder / "%s.exr");
-    const auto write = [&](int i, const Image<float>& image) {
-        write_image(files[i], image, {.depth = Depth::float32});
-    };
-    for (int i = 0; i < 6; ++i) write(i, flat_image(4, 4, 3, 0.5f));
-    CHECK(read_cube(files).size() == 4);
-
-    write(2, flat_image(4, 5, 3, 0.5f));
-    check_refused(Refusal::unsuitable, files[2], [&] { read_cube(files); });
-    write(2, flat_image(8, 8, 3, 0.5f));
-    check_refused(Refusal::unsuitable, files[2], [&] { read_cube(files); });
-    write(2, flat_image(4, 4, 1, 0.5f));
-    check_refused(Refusal::unsuitable, files[2], [&] { read_cube(files); });
-    write(2, flat_image(4, 4, 3, std::numeric_limits<float>::quiet_NaN()));
-    check_refused(Refusal::unsuitable, files[2], [&] { read_cube(files); });
-    fs::remove(files[2]);
-    check_refused(Refusal::unreadable, files[2], [&] { read_cube(files); });
-}
-
-} // TEST_SUITE
-TEST_SUITE("real") {
-
-TEST_CASE("cube: the seams of a photographed sky are invisible") {
-    const char* source = std::getenv("BAKE_SOURCE");
-    const fs::path folder = fs::path(source ? source : ".") / "../shared/data/environments/sixface/studio_garden";
-    if (!fs::exists(folder)) {
-        MESSAGE("not here: " << folder.string());
-        return;
-    }
-    const Cube cube = read_cube(cube_files((folder / "studio_garden_%s.jpg").string()));
-    // Mean step from edge texel to edge texel across the 12 edges, over the mean step between rows inside the faces.
-    const int n = cube.size();
-    double across = 0, inside = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float a : {-1.0f, 1.0f})
-            for (const float b : {-1.0f, 1.0f})
-                for (int i = 0; i < n; ++i) {
-                    Vec3f one;
-                    one[axis] = 2 * (i + 0.5f) / n - 1;
-                    one[(axis + 1) % 3] = a;
-                    one[(axis + 2) % 3] = b * (1 - 1.0f / n);
-                    Vec3f other = one;
-                    other[(axis + 1) % 3] = a * (1 - 1.0f / n);
-                    other[(axis + 2) % 3] = b;
-                    across += glm::length(lookup(cube, one) - lookup(cube, other)) / (12.0 * n);
-                }
-    for (const Image<float>& face : cube.faces)
-        for (int y = 0; y + 1 < n; ++y)
-            for (int x = 0; x < n; ++x)
-                inside += glm::length(Vec3f(face.at(x, y, 0), face.at(x, y, 1), face.at(x, y, 2)) -
-                                      Vec3f(face.at(x, y + 1, 0), face.at(x, y + 1, 1), face.at(x, y + 1, 2))) /
-                          (6.0 * n * (n - 1));
-    MESSAGE("seam measure " << across / inside);
-    CHECK(across / inside < 1);
 }
 
 } // TEST_SUITE

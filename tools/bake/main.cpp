@@ -29,6 +29,7 @@ constexpr VerbEntry verbs[] = {
     {"normal-map", "Normal map from a height texture, on a plane or on a mesh", normal_map_verb},
     {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface", surface_verb},
     {"check", "What is in a mesh or an image, and what will go wrong with it", check_verb},
+    {"cubemap", "Environment from six faces or one picture: assembled, converted, filtered, captured", cubemap_verb},
     {"render", "Preview render of a scene", render_verb},
     {"explain", "One texel's journey from height file to shaded pixel, every number printed", explain_verb},
 };

@@ -27,6 +27,7 @@ Verb check_verb;
 Verb surface_verb;
 Verb render_verb;
 Verb explain_verb;
+Verb cubemap_verb;
 
 /// Adds what a verb's --help ends with.
 void add_examples(CLI::App& sub, const std::string& examples);

@@ -140,6 +140,7 @@ struct ImageWriter::Impl {
     std::optional<PlainTiffWriter> plain = {};
     std::shared_ptr<FormatWriter> format = {}; ///< of files that are not plain
     std::vector<unsigned char> levels = {};    ///< one band of integer samples
+    bool closed = false;
 
     void write_rows(const void* values, int rows) {
         if (plain)
@@ -192,11 +193,17 @@ void ImageWriter::next_level() {
     picture_formats().next_level(*impl_->format);
 }
 
-void ImageWriter::finish() {
+void ImageWriter::close() {
+    if (impl_->closed) return;
     if (impl_->plain)
         impl_->plain->finish();
     else
         picture_formats().finish(*impl_->format);
+    impl_->closed = true;
+}
+
+void ImageWriter::finish() {
+    close();
     impl_->file.commit();
 }
 

@@ -36,6 +36,9 @@ public:
     void write(const float* values, int rows);
     /// Ends a level and begins the next, half as wide and high, rounded down, at least 1.
     void next_level();
+    /// Ends the file under its temporary name, when several are to appear together.
+    void close();
+    /// Closes, if that is still to do, and puts the file under its own name.
     void finish();
 
 private:

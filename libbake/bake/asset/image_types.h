@@ -10,6 +10,9 @@ namespace bake {
 enum class SampleType { u8, u16, u32, half, float32, other };
 const char* name(SampleType type) noexcept;
 
+/// Environments as OpenEXR tags them (attribute envmap); OpenImageIO keeps the tag in TIFF too.
+enum class EnvironmentTag { none, latlong, cube }; ///< cube: six square faces, one below the other
+
 /// What a file says of its picture. Nothing but the header is read to fill it.
 struct ImageInfo {
     std::string format;                ///< "png", "openexr", "tiff", ...
@@ -19,6 +22,7 @@ struct ImageInfo {
     int bits = 0;             ///< bits per sample as stored, 1 to 32
     bool srgb_tagged = false; ///< the file says its values are sRGB-encoded
     int alpha_channel = -1;   ///< index in channels, -1 without alpha
+    EnvironmentTag environment = EnvironmentTag::none;
 };
 
 /// Limits on what a reader believes of a header before it allocates.
@@ -36,6 +40,8 @@ struct WriteOptions {
     Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
     std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
     Compression compression = Compression::automatic;
+    EnvironmentTag environment = EnvironmentTag::none; ///< exr only: other readers then see an environment
+    bool srgb = false; ///< png: tagged as sRGB-encoded, which 16-bit pictures are not taken for otherwise
     bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };
 

@@ -73,8 +73,15 @@ struct Window {
     int x, y, width, height;
 };
 
+constexpr const char *cube_format = "CubeFace Environment", *latlong_format = "LatLong Environment";
+
+EnvironmentTag environment_tag(const OIIO::ImageSpec& spec) {
+    const auto format = spec.get_string_attribute("textureformat");
+    return format == cube_format ? EnvironmentTag::cube : format == latlong_format ? EnvironmentTag::latlong : EnvironmentTag::none;
+}
+
 Window picture_window(const OIIO::ImageSpec& spec) {
-    const bool cube = spec.get_string_attribute("textureformat") == "CubeFace Environment";
+    const bool cube = environment_tag(spec) == EnvironmentTag::cube;
     if (cube || spec.full_width <= 0 || spec.full_height <= 0) return {spec.x, spec.y, spec.width, spec.height};
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
@@ -92,6 +99,7 @@ ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
+    info.environment = environment_tag(spec);
     // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
     if (info.format == "png")
         if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
@@ -287,14 +295,20 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     const std::string format = writer->out->format_name();
     const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
+    if (format == "png" && options.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
     spec.attribute("oiio:UnassociatedAlpha", 1);
     // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
     if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (options.environment == EnvironmentTag::cube) {
+        spec.attribute("textureformat", cube_format);
+        spec.full_height = spec.full_width;
+    }
+    if (options.environment == EnvironmentTag::latlong) spec.attribute("textureformat", latlong_format);
     if (options.mips) {
         if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
-        spec.attribute("textureformat", "Plain Texture");
+        if (options.environment == EnvironmentTag::none) spec.attribute("textureformat", "Plain Texture");
     }
     if (!writer->out->open(temporary, spec)) writer->fail(writer->out->geterror());
     return writer;
@@ -330,6 +344,7 @@ void next_level(FormatWriter& writer) {
     OIIO::ImageSpec& spec = writer.spec;
     spec.width = spec.full_width = std::max(1, spec.width / 2);
     spec.height = spec.full_height = std::max(1, spec.height / 2);
+    if (environment_tag(spec) == EnvironmentTag::cube) spec.full_height = spec.full_width;
     writer.next_row = 0;
     // In TIFF the levels are images of their own, which OIIO reads back as levels.
     const auto mode = writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;

@@ -1,5 +1,4 @@
 #include "bake/environment/cube.h"
-#include "bake/base/error.h"
 #include <algorithm>
 #include <cmath>
 
@@ -18,67 +17,53 @@ template <class T> Vec3<T> defined(Vec3<T> d) noexcept {
     return d;
 }
 
-Vec3f texel(const Cube& cube, CubeFace face, int x, int y) noexcept {
-    const float* value = cube.faces[static_cast<int>(face)].row(y) + 3 * std::size_t(x);
-    return {value[0], value[1], value[2]};
+/// Bilinear taps: four texels and their weights; a corner's fourth texel is shared among the other three.
+struct Taps {
+    CubeTexel at[4];
+    double weight[4];
+};
+
+Taps taps(int n, const Vec3d& d) noexcept {
+    const CubePoint<double> at = cube_point(d);
+    const double x = at.s * n - 0.5, y = at.t * n - 0.5;
+    const double x_low = std::floor(x), y_low = std::floor(y);
+    const int x0 = static_cast<int>(x_low), y0 = static_cast<int>(y_low);
+    const double fx = x - x_low, fy = y - y_low;
+    Taps found{{{at.face, x0, y0}, {at.face, x0 + 1, y0}, {at.face, x0, y0 + 1}, {at.face, x0 + 1, y0 + 1}},
+               {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+    if (x0 >= 0 && y0 >= 0 && x0 + 1 < n && y0 + 1 < n) return found;
+    int corner = -1;
+    for (int i = 0; i < 4; ++i) {
+        CubeTexel& texel = found.at[i];
+        const bool across_s = texel.x < 0 || texel.x >= n, across_t = texel.y < 0 || texel.y >= n;
+        if (across_s && across_t)
+            corner = i;
+        else if (across_s || across_t)
+            texel = texel_across(n, texel.face, texel.x, texel.y);
+    }
+    if (corner >= 0) {
+        const double third = found.weight[corner] / 3;
+        for (int i = 0; i < 4; ++i) found.weight[i] = i == corner ? 0.0 : found.weight[i] + third;
+        found.at[corner] = found.at[3 - corner];
+    }
+    return found;
 }
 
-/// The texel at column x and row y of a face, one of which lies one step outside: the texel of the neighbour across
-/// that edge. The step folds round the edge, so that it ends on the centre of the neighbour's own texel.
-Vec3f texel_across(const Cube& cube, CubeFace face, int x, int y) noexcept {
-    const int n = cube.size();
-    const float s = (static_cast<float>(std::clamp(x, 0, n - 1)) + 0.5f) / static_cast<float>(n);
-    const float t = (static_cast<float>(std::clamp(y, 0, n - 1)) + 0.5f) / static_cast<float>(n);
-    const bool across_s = x < 0 || x >= n;
-    // On the edge itself sc or tc is 1 in magnitude; half a texel further, the old major axis has lost 1 / n.
-    const CubePoint<float> edge = across_s ? CubePoint<float>{face, x < 0 ? 0.0f : 1.0f, t}
-                                           : CubePoint<float>{face, s, y < 0 ? 0.0f : 1.0f};
-    Vec3f d = cube_direction(edge);
-    d[static_cast<int>(face) / 2] *= 1.0f - 1.0f / static_cast<float>(n);
-    const CubePoint<float> there = cube_point(d);
-    const auto index = [n](float at) { return std::clamp(static_cast<int>(at * static_cast<float>(n)), 0, n - 1); };
-    return texel(cube, there.face, index(there.s), index(there.t));
-}
-
-Vec3f texel_anywhere(const Cube& cube, CubeFace face, int x, int y) noexcept {
-    const int n = cube.size();
-    const bool across_s = x < 0 || x >= n, across_t = y < 0 || y >= n;
-    if (!across_s && !across_t) return texel(cube, face, x, y);
-    if (across_s != across_t) return texel_across(cube, face, x, y);
-    const int x_in = std::clamp(x, 0, n - 1), y_in = std::clamp(y, 0, n - 1);
-    const Vec3f beside = texel_across(cube, face, x, y_in) + texel_across(cube, face, x_in, y);
-    return (texel(cube, face, x_in, y_in) + beside) / 3.0f;
-}
-
-Image<float> read_face(const std::string& file, ColourSpace space) {
-    ImageInfo info;
-    Image<float> source = read_image(file, &info);
-    const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
-    if (source.channels() < 3)
-        refuse("has " + std::to_string(source.channels()) + " channel(s); a face of the sky needs red, green and blue");
-    if (source.width() != source.height())
-        refuse("is " + std::to_string(source.width()) + "x" + std::to_string(source.height()) +
-               "; a face of the sky must be square");
-    if (is_srgb(space, info)) srgb_to_linear(source, info.alpha_channel);
-    const int n = source.width();
-    Image<float> face(n, n, 3);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x)
-            for (int c = 0; c < 3; ++c) {
-                const float value = source.at(x, y, c);
-                if (!std::isfinite(value))
-                    refuse("holds NaN or Inf at column " + std::to_string(x) + ", row " + std::to_string(y) +
-                           "; give it a finite value");
-                face.at(x, y, c) = value;
-            }
-    return face;
+/// Of the first `channels` channels.
+template <int channels> void gather(const Cube& cube, const Taps& found, double* sum) noexcept {
+    for (int c = 0; c < channels; ++c) sum[c] = 0;
+    for (int i = 0; i < 4; ++i) {
+        const float* value = &cube[found.at[i].face].at(found.at[i].x, found.at[i].y);
+        for (int c = 0; c < channels; ++c) sum[c] += found.weight[i] * value[c];
+    }
 }
 
 } // namespace
 
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
-    if (space != ColourSpace::automatic) return space == ColourSpace::srgb;
-    return info.type == SampleType::u8 || info.srgb_tagged;
+Cube make_cube(int size, int channels) {
+    Cube cube;
+    for (Image<float>& face : cube.faces) face = Image<float>(size, size, channels);
+    return cube;
 }
 
 template <class T> CubePoint<T> cube_point(const Vec3<T>& direction) noexcept {
@@ -114,41 +99,45 @@ template CubePoint<double> cube_point(const Vec3d&) noexcept;
 template Vec3f cube_direction(const CubePoint<float>&) noexcept;
 template Vec3d cube_direction(const CubePoint<double>&) noexcept;
 
-std::array<std::string, 6> cube_files(const std::string& pattern) {
-    const std::size_t at = pattern.find("%s");
-    if (at == std::string::npos || pattern.find("%s", at + 2) != std::string::npos)
-        throw Error(Refusal::usage, pattern + ": stands for six faces only with exactly one %s, which becomes px, nx, "
-                                              "py, ny, pz, nz; put one in, or list six files");
-    std::array<std::string, 6> files;
-    for (int i = 0; i < 6; ++i) files[i] = pattern.substr(0, at) + cube_face_names[i] + pattern.substr(at + 2);
-    return files;
+CubeTexel texel_across(int n, CubeFace face, int x, int y) noexcept {
+    const double s = (std::clamp(x, 0, n - 1) + 0.5) / n, t = (std::clamp(y, 0, n - 1) + 0.5) / n;
+    const bool across_s = x < 0 || x >= n;
+    // On the edge itself sc or tc is 1 in magnitude. The step folds round the edge: half a texel further, where the
+    // centres of the neighbour's texels are, the old major axis has lost 1 / n.
+    const CubePoint<double> edge = across_s ? CubePoint<double>{face, x < 0 ? 0.0 : 1.0, t}
+                                            : CubePoint<double>{face, s, y < 0 ? 0.0 : 1.0};
+    Vec3d d = cube_direction(edge);
+    d[static_cast<int>(face) / 2] *= 1 - 1.0 / n;
+    const CubePoint<double> there = cube_point(d);
+    const auto index = [n](double at) { return std::clamp(static_cast<int>(at * n), 0, n - 1); };
+    return {there.face, index(there.s), index(there.t)};
 }
 
-Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space) {
-    Cube cube;
-    for (int i = 0; i < 6; ++i) {
-        cube.faces[i] = read_face(files[i], space);
-        const int n = cube.faces[i].width();
-        if (n != cube.size())
-            throw Error(Refusal::unsuitable, files[i] + ": is " + std::to_string(n) + " texels wide, but " + files[0] +
-                                                 " is " + std::to_string(cube.size()) +
-                                                 "; the six faces must be of one size");
+void lookup(const Cube& cube, const Vec3d& d, float* value) noexcept {
+    const Taps found = taps(cube.size(), d);
+    double sum[4];
+    switch (cube.channels()) {
+    case 1: gather<1>(cube, found, sum); break;
+    case 2: gather<2>(cube, found, sum); break;
+    case 3: gather<3>(cube, found, sum); break;
+    default: gather<4>(cube, found, sum); break;
     }
-    return cube;
+    for (int c = 0; c < cube.channels(); ++c) value[c] = static_cast<float>(sum[c]);
 }
 
 Vec3f lookup(const Cube& cube, const Vec3f& d) noexcept {
-    const CubePoint<float> at = cube_point(d);
-    const float n = static_cast<float>(cube.size());
-    const float x = at.s * n - 0.5f, y = at.t * n - 0.5f;
-    const float x_low = std::floor(x), y_low = std::floor(y);
-    const int x0 = static_cast<int>(x_low), y0 = static_cast<int>(y_low);
-    const float fx = x - x_low, fy = y - y_low;
-    const bool inside = x0 >= 0 && y0 >= 0 && x0 + 1 < cube.size() && y0 + 1 < cube.size();
-    const auto value = [&](int dx, int dy) {
-        return inside ? texel(cube, at.face, x0 + dx, y0 + dy) : texel_anywhere(cube, at.face, x0 + dx, y0 + dy);
-    };
-    return (1 - fy) * ((1 - fx) * value(0, 0) + fx * value(1, 0)) + fy * ((1 - fx) * value(0, 1) + fx * value(1, 1));
+    double sum[3];
+    gather<3>(cube, taps(cube.size(), Vec3d(d)), sum);
+    return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+}
+
+Vec3f lookup(const CubeMips& mips, const Vec3f& d, float level) noexcept {
+    const float last = static_cast<float>(mips.size() - 1);
+    const float at = level > 0 ? std::min(level, last) : 0.0f; // NaN gives 0
+    const int lower = static_cast<int>(at);
+    const float beyond = at - static_cast<float>(lower);
+    const Vec3f fine = lookup(mips[lower], d);
+    return beyond > 0 ? (1 - beyond) * fine + beyond * lookup(mips[lower + 1], d) : fine;
 }
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// Six-face environment maps.
+// Six-face environment maps: the faces, where directions meet them, lookups.
 //
 // Faces as in the OpenGL table (Vulkan and Direct3D agree), seen from inside, in cube space: left-handed, +Z ahead,
 // +X right, +Y up.
@@ -19,15 +19,17 @@
 // The world is right-handed. world_to_cube is the only place where the two meet, so that pictures, and text in them,
 // are never mirrored.
 #pragma once
-#include "bake/asset/image_io.h"
+#include "bake/asset/image.h"
 #include "bake/base/vec.h"
 #include <array>
-#include <string>
+#include <vector>
 
 namespace bake {
 
 enum class CubeFace { px, nx, py, ny, pz, nz };
 inline constexpr std::array<const char*, 6> cube_face_names = {"px", "nx", "py", "ny", "pz", "nz"};
+inline constexpr std::array<CubeFace, 6> all_cube_faces = {CubeFace::px, CubeFace::nx, CubeFace::py,
+                                                           CubeFace::ny, CubeFace::pz, CubeFace::nz};
 
 /// A place on a face: s right, t down, both in [0, 1].
 template <class T> struct CubePoint {
@@ -45,27 +47,38 @@ template <class T> CubePoint<T> cube_point(const Vec3<T>& d) noexcept;
 /// The direction in cube space through a point of a face, not unit: its major component is 1 or -1.
 template <class T> Vec3<T> cube_direction(const CubePoint<T>& point) noexcept;
 
-/// Six square faces of one size, three channels (RGB, linear), in the order of CubeFace. Empty: no environment.
+/// Six square faces of one size and one to four channels (colour is linear), in the order of CubeFace. Texel (x, y) of
+/// n covers s in [x, x + 1] / n, t in [y, y + 1] / n. Empty: no environment.
 struct Cube {
     std::array<Image<float>, 6> faces;
     int size() const noexcept { return faces[0].width(); } ///< texels along an edge
+    int channels() const noexcept { return faces[0].channels(); }
     bool empty() const noexcept { return faces[0].empty(); }
+    Image<float>& operator[](CubeFace face) noexcept { return faces[static_cast<int>(face)]; }
+    const Image<float>& operator[](CubeFace face) const noexcept { return faces[static_cast<int>(face)]; }
 };
+/// Six faces whose values are not set.
+Cube make_cube(int size, int channels);
 
-/// How the values of a colour picture are stored.
-enum class ColourSpace { automatic, srgb, linear }; ///< automatic: sRGB for 8-bit and sRGB-tagged files
-/// Whether a file read by this rule must be decoded.
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept;
+/// Level 0 first; each further level is half as large, rounded down, until size 1.
+using CubeMips = std::vector<Cube>;
 
-/// Reads six files in the order of CubeFace. Throws Error naming the file: unreadable; unsuitable for a face that is
-/// not square, not as large as the first, has fewer than three channels, or holds NaN or Inf.
-Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);
-/// The six names a pattern stands for: `%s` is replaced by px, nx, py, ny, pz, nz. Throws Error{Refusal::usage} when it
-/// does not hold exactly one `%s`.
-std::array<std::string, 6> cube_files(const std::string& pattern);
+/// One texel of a cube.
+struct CubeTexel {
+    CubeFace face;
+    int x, y;
+};
+/// The texel at column x and row y of a face of `size` texels, exactly one of which is one step outside, -1 or size: the
+/// neighbour across that edge.
+CubeTexel texel_across(int size, CubeFace face, int x, int y) noexcept;
 
-/// Radiance from a direction in cube space: bilinear, seamless across the edges. At a corner, where only three texels
-/// meet, the fourth is their mean.
+/// Value from a direction in cube space: bilinear, seamless across the edges. At a corner, where only three texels
+/// meet, the fourth is their mean. Directions without direction are taken as cube_point takes them.
+/// Writes channels() values.
+void lookup(const Cube& cube, const Vec3d& d, float* value) noexcept;
+/// The same for a cube of three channels or more.
 Vec3f lookup(const Cube& cube, const Vec3f& d) noexcept;
+/// Trilinear: linear between the two mips beside `level`, clamped to those there are; NaN counts as 0.
+Vec3f lookup(const CubeMips& mips, const Vec3f& d, float level) noexcept;
 
 } // namespace bake

@@ -2,6 +2,8 @@
 #include "bake/asset/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
+#include "bake/environment/environment_io.h"
+#include "bake/environment/resample.h"
 #include <map>
 #include <tuple>
 
@@ -60,6 +62,18 @@ void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bo
     add_instance(scene, *shape, material, entry.placement);
 }
 
+Cube load_sky(const SkyEntry& entry) {
+    if (entry.image.empty()) return read_cube(entry.faces, entry.space);
+    ReadEnvironmentOptions options;
+    options.radiance = {.space = entry.space, .allow_negative = true};
+    Environment sky = read_environment({entry.image}, options);
+    if (!sky.is_cube() || sky.edge_samples)
+        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false}, {Samples::one});
+    for (Image<float>& face : sky.cube.faces)
+        if (face.channels() != 3) face = to_rgb(face);
+    return std::move(sky.cube);
+}
+
 void place_camera(const SceneEntries& entries, Scene& scene) {
     const Bounds box = bounds(scene);
     const float aspect = float(entries.settings.width) / float(entries.settings.height);
@@ -80,7 +94,7 @@ void add_default_light(Scene& scene) {
 } // namespace
 
 Scene load(const SceneEntries& entries) {
-    const bool has_sky = !entries.sky.faces[0].empty();
+    const bool has_sky = !entries.sky.faces[0].empty() || !entries.sky.image.empty();
     if (entries.meshes.empty() && !has_sky)
         throw Error(Refusal::unsuitable, entries.file + ": has neither mesh nor sky; add a [[mesh]] with a file");
     Scene scene;
@@ -89,9 +103,7 @@ Scene load(const SceneEntries& entries) {
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
     scene.sky.scale = entries.sky.scale;
-    if (has_sky)
-        scene.sky.cube =
-            at_line(entries, entries.sky.line, [&] { return read_cube(entries.sky.faces, entries.sky.space); });
+    if (has_sky) scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // the plain grey one, material -1

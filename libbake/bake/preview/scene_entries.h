@@ -26,7 +26,8 @@ struct MeshEntry {
 };
 
 struct SkyEntry {
-    std::array<std::string, 6> faces; ///< in the order of CubeFace; all empty: no sky
+    std::array<std::string, 6> faces; ///< in the order of CubeFace; all empty: `image`
+    std::string image;                ///< one picture of the whole sky, as read_environment knows them; empty: no sky
     ColourSpace space = ColourSpace::automatic;
     float scale = 1;
     int line = 0;

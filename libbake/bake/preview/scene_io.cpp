@@ -1,5 +1,6 @@
 #include "bake/preview/scene_io.h"
 #include "bake/base/error.h"
+#include "bake/environment/face_files.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -175,12 +176,15 @@ void read_camera(const Section& in, SceneEntries& scene) {
 }
 
 void read_sky(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"faces", "scale", "colour-space"});
+    allow_only(in, {"faces", "image", "scale", "colour-space"});
     scene.sky.line = line_of(in.table);
-    const toml::node* faces = in.table.get("faces");
-    if (!faces) refuse(in, in.table, "\"faces\" is missing; give \"name_%s.png\" or a list of six files");
-    scene.sky.line = line_of(*faces);
-    if (faces->is_string()) {
+    const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
+    if (!faces && !image) refuse(in, in.table, "\"faces\" is missing; give \"name_%s.png\" or a list of six files, or \"image\", a lat-long, cross or strip");
+    if (faces && image) refuse(in, *image, "\"image\" and \"faces\" are two skies; give one of them");
+    scene.sky.line = line_of(faces ? *faces : *image);
+    if (image) {
+        read_path(in, "image", scene.sky.image);
+    } else if (faces->is_string()) {
         std::string pattern;
         read_path(in, "faces", pattern);
         try {

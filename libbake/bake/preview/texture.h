@@ -1,6 +1,7 @@
 // Textures of the preview: read once, shared by materials, looked up bilinearly with repeat.
 #pragma once
-#include "bake/environment/cube.h"
+#include "bake/base/vec.h"
+#include "bake/environment/radiance.h"
 #include <memory>
 
 namespace bake {

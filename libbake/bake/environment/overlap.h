@@ -1,0 +1,69 @@
+// Exact overlap of a small spherical quadrilateral with the texels of a cube's face.
+//
+// Great circles are straight in the plane of a face, so the quadrilateral is a polygon there. Green's theorem on its
+// edges gives, for every cell of the grid it meets,
+//     area  = integral dA        x, y = integral of the offset from the cell's upper left corner, in cells
+// and with them the solid angle, J = (1 + sc^2 + tc^2)^(-3/2) being linear over so small a quadrilateral.
+#pragma once
+#include "bake/environment/cube.h"
+#include <vector>
+
+namespace bake {
+
+/// The cells of a face. Texel-centred: one cell per texel. Edge-sampled (OpenEXR's): the outer texels' centres lie on the
+/// face's edges, so half of them lies outside; cells are half texels then, and the outer ones are left out.
+struct FaceGrid {
+    int texels = 0;
+    bool edges = false;
+
+    double scale() const noexcept { return edges ? texels - 1.0 : 0.5 * texels; } ///< cells per unit of sc
+    double middle() const noexcept { return edges ? texels : 0.5 * texels; }      ///< cell coordinate of sc = 0
+    int low() const noexcept { return edges ? 1 : 0; }                            ///< first cell on the face
+    int high() const noexcept { return edges ? 2 * texels - 1 : texels; }         ///< one past the last
+    int texel(int cell) const noexcept { return edges ? cell >> 1 : cell; }
+};
+
+/// One cell's share of a quadrilateral.
+struct CellMoments {
+    double area = 0, x = 0, y = 0;
+};
+
+/// Cells [low_x, high_x) x [low_y, high_y).
+struct CellWindow {
+    int low_x, high_x, low_y, high_y;
+};
+inline CellWindow whole_face(const FaceGrid& grid) noexcept { return {grid.low(), grid.high(), grid.low(), grid.high()}; }
+
+/// What the overlaps of one quadrilateral are told in, kept between calls for its memory.
+struct Overlap {
+    int column = 0, row = 0, columns = 0, rows = 0; ///< cells [column, column + columns) x [row, row + rows)
+    std::vector<CellMoments> cells;                 ///< rows * columns, row by row; sign as the quadrilateral turns
+    double jacobian = 0, jacobian_x = 0, jacobian_y = 0; ///< J at cell coordinates (0, 0) and its slope, per cell^2
+    double jacobian_middle = 0;                          ///< J at the quadrilateral's middle
+    double orientation = 1;                         ///< 1 or -1: makes areas positive
+    /// Local coordinates of the quadrilateral, 0 at its middle, -1/2 and 1/2 on its sides: a = a0 + ax g + ay h at cell
+    /// coordinates (g, h).
+    double a0 = 0, ax = 0, ay = 0, b0 = 0, bx = 0, by = 0;
+};
+
+/// A point in a face's plane, in cells.
+struct PlanePoint {
+    double x = 0, y = 0, ma = 0; ///< ma: the component along the face's axis; x and y hold where it is above .2
+};
+/// From directions to the plane of a face.
+struct FacePlane {
+    Vec3d axis, s, t; ///< the face's axis; sc and tc of a direction, times scale
+    double middle;
+
+    FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
+    PlanePoint project(const Vec3d& d) const noexcept {
+        const double ma = glm::dot(axis, d), inverse = 1 / (ma > 0.2 ? ma : 0.2);
+        return {middle + glm::dot(s, d) * inverse, middle + glm::dot(t, d) * inverse, ma};
+    }
+};
+
+/// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it, beyond the window
+/// too. False, and nothing else, when it lies off the window or behind the face.
+bool overlap(const FaceGrid& grid, const CellWindow& window, const PlanePoint* corners, Overlap& result);
+
+} // namespace bake

@@ -1,0 +1,28 @@
+// Resampling by overlap area (resample.h says what it does).
+#pragma once
+#include "bake/environment/resample.h"
+#include <array>
+
+namespace bake {
+
+/// Gathers what the source's texels throw on one face. `sums`, for edge samples only: channels() + 1 values for each
+/// texel of the face's frame, the flux and the solid angle, by frame_index.
+class FaceRain {
+public:
+    FaceRain(const Environment& source, const FaceGrid& grid, const glm::dmat3& turn);
+    ~FaceRain();
+    Image<float> face(CubeFace face, std::vector<double>* frame, Progress* progress) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Places of the frame of a face of n texels: 4 n of them, corners once each; -1 inside.
+int frame_index(int n, int x, int y) noexcept;
+
+/// A picture gathered from a cube.
+Image<float> gather_picture(const Environment& cube, Projection projection, int width, int height, const glm::dmat3& turn,
+                            Progress* progress);
+
+} // namespace bake

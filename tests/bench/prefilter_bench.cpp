@@ -1,0 +1,148 @@
+// prefilter_bench [FACES]: time and error of mips, irradiance and specular prefilter, memory to memory. FACES, 256 unless
+// given, is the size of the sky's faces for the lobes; mips and irradiance take twice that, as from a lat-long of 2K.
+//
+// The sky is a sun, exp(5000 (c - 1)) * 1000, alone or on a smooth sky. Error columns are |error| over the mean of the
+// right answer, not angles: mean, 95th percentile, largest; the note has the root mean square over the mean. Oracles: flux
+// for mips, the zonal series of tests/oracle/zonal.h for the rest, which shares no code with what is timed. The limit is a
+// pass that reads the sky and writes the result, or, for the lobes, the plain sum over all texels of the sky, timed on
+// a few directions and scaled.
+#include "bake/environment/convolve.h"
+#include "bake/environment/irradiance.h"
+#include "bake/environment/mips.h"
+#include "bake/environment/prefilter.h"
+#include "bench.h"
+#include "environment/skies.h"
+#include "oracle/zonal.h"
+
+using namespace bake;
+
+namespace {
+
+const oracle::Sun sun{.amplitude = 1000, .kappa = 5000};
+const Vec3d sun_direction = glm::normalize(Vec3d(0.37, 0.61, 0.53));
+
+/// Bands 0 to 2, on top of which comes the sun.
+double smooth(const Vec3d& d) { return 1 + 0.5 * d.y + 0.3 * d.x * d.z; }
+
+Cube sun_sky(int n, bool on_smooth) {
+    return test::sky_of(n, 3, [=](const Vec3d& d, int) {
+        return sun.radiance(glm::dot(d, sun_direction)) + (on_smooth ? smooth(d) : 0);
+    });
+}
+
+struct Measured {
+    bench::Errors errors;
+    double rmse = 0; ///< all over the mean
+};
+template <class Expected> Measured measure(const Cube& out, Expected&& expected) {
+    std::vector<double> right;
+    double mean = 0;
+    test::for_each_texel(out, [&](int face, int x, int y, const float*) {
+        right.push_back(expected(test::texel_direction(out.size(), face, x, y)));
+        mean += right.back();
+    });
+    mean /= double(right.size());
+    std::vector<float> errors;
+    double squares = 0;
+    test::for_each_texel(out, [&](int, int, int, const float* value) {
+        const double error = std::abs(double(value[0]) - right[errors.size()]) / mean;
+        errors.push_back(float(error)), squares += error * error;
+    });
+    return {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))};
+}
+
+double texels(const Cube& cube) { return 6.0 * cube.size() * cube.size(); }
+
+void row(const std::string& what, const Cube& out, const bench::Times& time, double items, const Measured& measured,
+         double ratio, const std::string& against) {
+    bench::print_row("prefilter", what, out.size(), time.median() * 1e9 / items, measured.errors, ratio, against,
+                     bench::text("%.4g s; error relative to the mean; RMSE/mean %.3g", time.median(), measured.rmse));
+}
+
+/// Reads every value once and writes as many as a mip chain has.
+void read_and_write(const Cube& sky, std::vector<float>& to) {
+    for (int face = 0; face < 6; ++face) {
+        const float* from = sky.faces[face].data();
+        const std::size_t size = sky.faces[face].size();
+        for (std::size_t i = 0; i + 4 <= size; i += 4) to[face * size / 4 + i / 4] = from[i] + from[i + 1] + from[i + 2] + from[i + 3];
+    }
+}
+
+void mip_rows(const Cube& sky) {
+    std::vector<float> scratch(6 * sky.faces[0].size() / 4 + 1);
+    for (const MipFilter filter : {MipFilter::tent, MipFilter::box}) {
+        std::vector<Cube> chain;
+        const auto times = bench::in_turn(5, {[&] { read_and_write(sky, scratch); }, [&] { chain = mip_chain(sky, {filter}); }});
+        std::vector<float> errors;
+        double squares = 0;
+        for (const Cube& level : chain) {
+            errors.push_back(float(std::abs(test::flux(level) / test::flux(sky) - 1)));
+            squares += double(errors.back()) * double(errors.back());
+        }
+        row(filter == MipFilter::tent ? "mips_tent_flux" : "mips_box_flux", sky, times[1], texels(sky),
+            {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))}, times[1].ratio_to(times[0]), "read+quarter write pass");
+    }
+}
+
+void irradiance_rows(const Cube& sky, bool on_smooth) {
+    const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
+    constexpr double pi = std::numbers::pi;
+    const auto expected = [&](const Vec3d& n) {
+        return exact(glm::dot(n, sun_direction)) + (on_smooth ? pi + 2 * pi / 3 * 0.5 * n.y + pi / 4 * 0.3 * n.x * n.z : 0);
+    };
+    std::vector<float> scratch(6 * sky.faces[0].size() / 4 + 1);
+    using enum IrradianceMethod;
+    const std::pair<const char*, IrradianceOptions> cases[] = {{"sh3", {.method = sh, .bands = 3}},
+                                                               {"sh9", {.method = sh, .bands = 9}},
+                                                               {"sh9_hann", {.method = sh, .bands = 9, .window = ShWindow::hann}},
+                                                               {"sh33", {.method = sh, .bands = 33}},
+                                                               {"direct", {.method = direct}}};
+    for (const auto& [name, options] : cases) {
+        Cube out;
+        const auto times = bench::in_turn(3, {[&] { read_and_write(sky, scratch); }, [&, &o = options] { out = irradiance(sky, o); }});
+        row(std::string("irradiance_") + name + (on_smooth ? "_sun_and_sky" : "_sun"), sky, times[1], texels(sky),
+            measure(out, expected), times[1].ratio_to(times[0]), "read+quarter write pass");
+    }
+}
+
+template <class Lobe, class Kernel>
+void lobe_row(const std::string& name, const Cube& sky, int size, const Lobe& lobe, double roughness, SpecularLobe kind, Kernel&& kernel) {
+    const oracle::ConvolvedSun exact(sun, kernel);
+    std::vector<Cube> chain;
+    Cube few;
+    const RadianceTree tree(sky);
+    const auto times = bench::in_turn(3, {[&] { few = convolve(tree, lobe, 2, {.node_width = 0, .tolerance = 0}); },
+                                          [&] { chain = prefilter(sky, {.lobe = kind, .roughness = {roughness}, .size = size}); }});
+    const Cube& out = chain[0];
+    const double plain = times[1].ratio_to(times[0]) * texels(few) / texels(out);
+    row(name, out, times[1], texels(out), measure(out, [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)) / exact.norm; }),
+        plain, "sum over every texel");
+}
+
+void lobe_rows(const Cube& sky) {
+    int size = sky.size();
+    for (const double alpha : {0.018, 0.086, 0.25, 1.0}) {
+        size /= 2;
+        for (const int edge : {size, sky.size()})
+            lobe_row("ggx_" + bench::text("%g", alpha), sky, edge, GgxLobe::of_alpha(alpha), alpha, SpecularLobe::ggx,
+                     [=](double c) { return oracle::ggx_kernel(c, alpha); });
+    }
+    for (const auto& [exponent, edge] : {std::pair{500.0, 2}, {50.0, 4}, {5.0, 8}})
+        lobe_row("phong_" + bench::text("%g", exponent), sky, sky.size() / edge, PhongLobe{float(exponent)}, exponent, SpecularLobe::phong,
+                 [e = exponent](double c) { return oracle::phong_kernel(c, e); });
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const int faces = argc > 1 ? std::atoi(argv[1]) : 256;
+    if (argc > 2 || faces < 32 || faces > 2048) return std::fprintf(stderr, "usage: prefilter_bench [FACES], 32 to 2048\n"), 2;
+    const Cube sun_alone = sun_sky(faces, false), sun_2k = sun_sky(2 * faces, false), sun_and_sky_2k = sun_sky(2 * faces, true);
+    for (const int threads : {1, 0}) {
+        const ThreadLimit limit(threads);
+        mip_rows(sun_2k);
+        irradiance_rows(sun_2k, false);
+        irradiance_rows(sun_and_sky_2k, true);
+        lobe_rows(sun_alone);
+    }
+}
