@@ -45,9 +45,6 @@ Tile tile_at(int face, int x0, int y0, int edge, int size) {
     return tile;
 }
 
-/// Width of a lobe about its centre; of the clamped cosine, which has none of its own, 2.
-template <class Lobe> float width_of(const Lobe& lobe) noexcept { return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f)); }
-
 /// Decides whether a tile takes a node whole.
 template <class Lobe> class Opening {
 public:
@@ -94,7 +91,7 @@ void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const 
         if (near * near / 2 >= 1) continue; // below the horizon of every direction
         if (at.level == 0) {
             found.texels.push_back(node);
-        } else if (opening.takes_whole(node, near, apart + reach)) {
+        } else if (at.level == tree.finest() || opening.takes_whole(node, near, apart + reach)) {
             found.nodes.push_back(node);
         } else {
             const int n = tree.size(at.level - 1);
@@ -156,6 +153,12 @@ float mean_light(const RadianceTree& tree, const Lobe& lobe, const Tile& tile, c
 }
 
 } // namespace
+
+int finest_level_for(int sky_size, float lobe_width) noexcept {
+    int level = 0;
+    while (sky_size >> (level + 1) >= 512 && 8 * 2.0f / float(sky_size >> (level + 1)) <= lobe_width) ++level;
+    return level;
+}
 
 template <class Lobe>
 Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options) {
