@@ -4,8 +4,8 @@
 //   out(n) = (light(n) + (I - white(n)) E) / I
 //
 // with K at a node's centre, its even spread included; I the lobe's integral, and E the sky's level outside its suns. So
-// white stays white whatever the nodes leave out, and suns, which are opened to their texels, are exact. Lobes as narrow
-// as two texels or less have out = light / white.
+// white stays white whatever the nodes leave out, and suns, which are opened to their texels, are exact. Lobes about as
+// narrow as a texel have out = light / white.
 //
 // Barnes and Hut, A hierarchical O(N log N) force-calculation algorithm, Nature 1986. Tiles of 8 x 8 directions share a
 // walk, which opens a node while the lobe changes too much across it, or while its light is too uneven.
