@@ -1,9 +1,13 @@
 // Resampling by overlap area (resample.h says what it does).
 #pragma once
-#include "bake/environment/resample.h"
-#include <array>
+#include "bake/environment/environment.h"
+#include "bake/environment/overlap.h"
+#include <glm/mat3x3.hpp>
+#include <vector>
 
 namespace bake {
+
+class Progress;
 
 /// Gathers what the source's texels throw on one face. `sums`, for edge samples only: channels() + 1 values for each
 /// texel of the face's frame, the flux and the solid angle, by frame_index.
