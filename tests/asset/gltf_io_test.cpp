@@ -294,6 +294,7 @@ TEST_SUITE("unit") {
         };
         const std::string good = square_text();
         REQUIRE(refusal(good) == "read");
+        REQUIRE(refusal(replaced(good, R"("scene":0)", R"("scene":0,"extras":"\"[)" + std::string(99, '[') + '"')) == "read");
         const auto bad = [&](const std::string& from, const std::string& to, const std::string& part, int code = 3) {
             has(replaced(good, from, to), part, code);
         };
@@ -302,7 +303,8 @@ TEST_SUITE("unit") {
         has("[1]", "is not a glTF");
         has(good.substr(0, good.size() - 3), "is not a glTF");
         has(R"({"asset":{"version":"1.0"}})", "is glTF '1.0'");
-        has(std::string(100000, '[') + std::string(100000, ']'), "nested deeper than 64");
+        has(std::string(100000, '['), "nested deeper than 64");
+        bad(R"("scene":0)", R"("scene":0,"extras":)" + std::string(64, '[') + std::string(64, ']'), "nested deeper than 64");
         bad(R"("byteLength":92,)", R"("byteLength":93,)", "its buffer 0 has 92 of 93 bytes");
         bad(R"("byteLength":92,)", "", "its buffer 0 has no byteLength");
         bad("base64,A", "base64,*", "its buffer 0 is not written in base64");
