@@ -104,17 +104,17 @@ inline bake::Mesh rich_triangles(int columns, int rows) {
     for (std::size_t p = 0; p < mesh.positions.size(); ++p)
         mesh.normals.push_back(unit(0.01f * float(p % 7), 0.02f * float(p % 5)));
     std::vector<std::vector<std::uint32_t>> uv(mesh.positions.size(), {bake::no_index, bake::no_index});
-    std::vector<std::pair<std::uint32_t, bool>> wanted;
-    for (std::size_t c = 0; c < mesh.corners(); ++c) wanted.emplace_back(mesh.corner_position[c], mesh.face_group[c / 3] == 1);
+    const auto right_of = [&](std::size_t c) { return mesh.face_group[c / 3] == 1; };
+    for (std::size_t c = 0; c < mesh.corners(); ++c) uv[mesh.corner_position[c]][right_of(c)] = 0; // wanted
     for (std::uint32_t p = 0; p < mesh.positions.size(); ++p)
         for (const bool right : {false, true})
-            if (std::find(wanted.begin(), wanted.end(), std::pair(p, right)) != wanted.end()) {
+            if (uv[p][right] == 0) {
                 uv[p][right] = static_cast<std::uint32_t>(mesh.uvs.size());
                 mesh.uvs.emplace_back(mesh.positions[p].x / 4, (mesh.positions[p].y + (right ? 1 : 0)) / 4);
             }
-    for (const auto& [p, right] : wanted) {
-        mesh.corner_normal.push_back(p);
-        mesh.corner_uv.push_back(uv[p][right]);
+    for (std::size_t c = 0; c < mesh.corners(); ++c) {
+        mesh.corner_normal.push_back(mesh.corner_position[c]);
+        mesh.corner_uv.push_back(uv[mesh.corner_position[c]][right_of(c)]);
     }
     return mesh;
 }

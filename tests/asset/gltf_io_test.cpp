@@ -294,6 +294,7 @@ TEST_SUITE("unit") {
         };
         const std::string good = square_text();
         REQUIRE(refusal(good) == "read");
+        REQUIRE(refusal(replaced(good, R"("scene":0)", R"("scene":0,"extras":"\"[)" + std::string(99, '[') + '"')) == "read");
         const auto bad = [&](const std::string& from, const std::string& to, const std::string& part, int code = 3) {
             has(replaced(good, from, to), part, code);
         };
@@ -302,7 +303,8 @@ TEST_SUITE("unit") {
         has("[1]", "is not a glTF");
         has(good.substr(0, good.size() - 3), "is not a glTF");
         has(R"({"asset":{"version":"1.0"}})", "is glTF '1.0'");
-        has(std::string(100000, '[') + std::string(100000, ']'), "nested deeper than 64");
+        has(std::string(100000, '['), "nested deeper than 64");
+        bad(R"("scene":0)", R"("scene":0,"extras":)" + std::string(64, '[') + std::string(64, ']'), "nested deeper than 64");
         bad(R"("byteLength":92,)", R"("byteLength":93,)", "its buffer 0 has 92 of 93 bytes");
         bad(R"("byteLength":92,)", "", "its buffer 0 has no byteLength");
         bad("base64,A", "base64,*", "its buffer 0 is not written in base64");
@@ -393,15 +395,13 @@ TEST_SUITE("stability") {
             const std::string name = binary ? "x.glb" : "x.gltf";
             REQUIRE(outcome_of(folder.write(name, good)).code == 0);
             for (std::size_t at = 0; at < good.size(); ++at) {
-                const Outcome cut = outcome_of(folder.write(name, good.substr(0, at)));
-                CHECK(cut.code == 3);
-                for (const char other : {static_cast<char>(random()), '9', '-', '['}) {
-                    std::string wrong = good;
-                    wrong[at] = other;
-                    const Outcome outcome = outcome_of(folder.write(name, wrong));
-                    CHECK((outcome.code == 0 || outcome.code == 3 || outcome.code == 4));
-                    CHECK(outcome.reason.find('\n') == std::string::npos);
-                }
+                if (at % 4 == 0) CHECK(outcome_of(folder.write(name, good.substr(0, at))).code == 3);
+                const char others[] = {static_cast<char>(random()), '9', '-', static_cast<char>(random())};
+                std::string wrong = good;
+                wrong[at] = others[random() % 4];
+                const Outcome outcome = outcome_of(folder.write(name, wrong));
+                CHECK((outcome.code == 0 || outcome.code == 3 || outcome.code == 4));
+                CHECK(outcome.reason.find('\n') == std::string::npos);
             }
         }
     }
