@@ -79,6 +79,21 @@ TEST_CASE("lobe: kernels are the papers' up to a constant, with their derivative
         check(PhongLobe{float(exponent)}, [=](double c) { return oracle::phong_kernel(c, exponent); });
 }
 
+TEST_CASE("lobe: powers of the cosine are std::pow's") {
+    double worst = 0;
+    for (const double n : {0.0, 0.3, 1.0, 2.5, 40.0, 1e4, 1e6})
+        for (double t = 1e-9; t < 0.9999; t *= 1.07) {
+            const double expected = std::exp(n * std::log1p(-double(float(t)))), exponent = std::abs(n * std::log1p(-t));
+            if (exponent > 80) continue;
+            worst = std::max(worst, std::abs(double(power_of_cosine(float(t), float(n))) / expected - 1) / (1 + exponent));
+        }
+    CHECK(worst < 5e-7);
+    CHECK(power_of_cosine(0, 1e6f) == 1);
+    CHECK(power_of_cosine(1, 0) == 0);
+    CHECK(power_of_cosine(1.5f, 3) == 0);
+    CHECK(power_of_cosine(0.999f, 1e6f) == 0);
+}
+
 TEST_CASE("lobe: a source across the horizon is let in by its part above it") {
     for (const double c : {-0.3, -0.1, 0.0, 0.07, 0.2}) {
         const double r = 0.2;
@@ -155,6 +170,21 @@ TEST_CASE("convolve: smaller nodes and tolerance lead to the exact sum") {
     // Every texel by itself: the oracle has the white sum of texels below it, where convolve has the lobe's integral; the
     // two differ by the texels that the horizon cuts.
     CHECK(all < 1e-4);
+}
+
+TEST_CASE("convolve: a tree without its finest levels is as good for wide lobes, at a fraction of the memory") {
+    CHECK(finest_level_for(512, 2) == 0);
+    CHECK(finest_level_for(2048, 2) == 2);
+    CHECK(finest_level_for(2048, 0.02f) == 1);
+    CHECK(finest_level_for(2048, 0.001f) == 0);
+    const Cube sky = test::rough_sky(44, 2);
+    const RadianceTree whole(sky), pruned(sky, 2);
+    const SkyNode a = whole.node(1, 3, 9, 20), b = pruned.node(1, 3, 9, 20);
+    CHECK(a.Q == b.Q);
+    CHECK(a.F[1] == b.F[1]);
+    const GgxLobe lobe = GgxLobe::of_alpha(0.7);
+    // What it leaves out is a node's own unevenness, 11 nodes to an edge and 1.5 decades of noise.
+    CHECK(test::largest_difference(convolve(whole, lobe, 12), convolve(pruned, lobe, 12)) < 0.03 * whole.mean());
 }
 
 } // TEST_SUITE

@@ -45,9 +45,6 @@ Tile tile_at(int face, int x0, int y0, int edge, int size) {
     return tile;
 }
 
-/// Width of a lobe about its centre; of the clamped cosine, which has none of its own, 2.
-template <class Lobe> float width_of(const Lobe& lobe) noexcept { return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f)); }
-
 /// Decides whether a tile takes a node whole.
 template <class Lobe> class Opening {
 public:
@@ -94,7 +91,7 @@ void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const 
         if (near * near / 2 >= 1) continue; // below the horizon of every direction
         if (at.level == 0) {
             found.texels.push_back(node);
-        } else if (opening.takes_whole(node, near, apart + reach)) {
+        } else if (at.level == tree.finest() || opening.takes_whole(node, near, apart + reach)) {
             found.nodes.push_back(node);
         } else {
             const int n = tree.size(at.level - 1);
@@ -142,7 +139,8 @@ void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& 
 
 /// Direction k's mean under the lobe. Within the sky's own range, which a mean cannot leave.
 template <class Lobe>
-float mean_light(const RadianceTree& tree, const Lobe& lobe, const Tile& tile, const Sums& sums, int k, int c, bool integral_known) noexcept {
+float mean_light(const RadianceTree& tree, const Lobe& lobe, const Tile& tile, const Sums& sums, int k, int c,
+                 bool integral_known) noexcept {
     const float light = sums.light[c][k], white = sums.white[k];
     if (white < std::numeric_limits<float>::min()) // a lobe that no texel's centre lies in
         return tree.texel_at(Vec3f(tile.nx[k], tile.ny[k], tile.nz[k]), c);
@@ -157,6 +155,12 @@ float mean_light(const RadianceTree& tree, const Lobe& lobe, const Tile& tile, c
 
 } // namespace
 
+int finest_level_for(int sky_size, float lobe_width) noexcept {
+    int level = 0;
+    while (sky_size >> (level + 1) >= 512 && 8 * 2.0f / float(sky_size >> (level + 1)) <= lobe_width) ++level;
+    return level;
+}
+
 template <class Lobe>
 Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options) {
     const int channels = tree.channels();
@@ -165,14 +169,16 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
     while (edge > 2 && 2.0f * float(edge) / float(size) > 4 * width_of(lobe)) edge /= 2;
     const int tiles = (size + edge - 1) / edge;
     const Opening<Lobe> opening(tree, lobe, options);
-    // A sum over texels knows the lobe's integral when they are finer than the lobe.
-    const bool integral_known = width_of(lobe) > 4 / float(tree.size(0));
+    // A sum over texels knows the lobe's integral when it is wider than a texel: by the spectrum of GGX to
+    // exp(-2 sqrt 2 pi 1.2) = 2e-5 at the widest texel, of 2 / size.
+    const bool integral_known = width_of(lobe) > 1.2f * 2 / float(tree.size(0));
 
     Cube out = make_cube(size, channels);
     for_rows(std::int64_t(6) * tiles * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
         Sources found;
         for (std::int64_t i = begin; i < end; ++i) {
-            const Tile tile = tile_at(int(i / (tiles * tiles)), int(i % tiles) * edge, int(i / tiles % tiles) * edge, edge, size);
+            const int face = int(i / (tiles * tiles)), x0 = int(i % tiles) * edge, y0 = int(i / tiles % tiles) * edge;
+            const Tile tile = tile_at(face, x0, y0, edge, size);
             find_sources(tree, opening, tile, found);
             Sums sums{};
             add_nodes(found.nodes, lobe, tile, channels, sums);

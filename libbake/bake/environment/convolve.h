@@ -4,8 +4,8 @@
 //   out(n) = (light(n) + (I - white(n)) E) / I
 //
 // with K at a node's centre, its even spread included; I the lobe's integral, and E the sky's level outside its suns. So
-// white stays white whatever the nodes leave out, and suns, which are opened to their texels, are exact. Lobes as narrow
-// as two texels or less have out = light / white.
+// white stays white whatever the nodes leave out, and suns, which are opened to their texels, are exact. Lobes about as
+// narrow as a texel have out = light / white.
 //
 // Barnes and Hut, A hierarchical O(N log N) force-calculation algorithm, Nature 1986. Tiles of 8 x 8 directions share a
 // walk, which opens a node while the lobe changes too much across it, or while its light is too uneven.
@@ -14,6 +14,13 @@
 #include "bake/environment/radiance_tree.h"
 
 namespace bake {
+
+/// Width of a lobe about its centre, radians; of the clamped cosine, which has none of its own, 2.
+template <class Lobe> float width_of(const Lobe& lobe) noexcept { return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f)); }
+
+/// The level of a tree over a sky of that size that is fine enough for lobes as wide: eight nodes to a width and 512 to
+/// an edge, which keep a sun's flux, place and size.
+int finest_level_for(int sky_size, float lobe_width) noexcept;
 
 struct ConvolveOptions {
     /// Largest node, over the width of the lobe there: how exactly even light is summed.

@@ -30,7 +30,9 @@ Cube irradiance(const Cube& sky, const IrradianceOptions& options) {
         throw Error(Refusal::usage, "irradiance of " + std::to_string(options.size) + " texels: needs at least 1");
     if (options.method == IrradianceMethod::direct) {
         // The clamped cosine is GGX of alpha 1. Irradiance is looked at in the dark, too: ten times as exact as a lobe.
-        Cube mean = convolve(RadianceTree(sky), GgxLobe{}, options.size, {.node_width = 0.5f, .tolerance = 1e-5f});
+        const GgxLobe cosine;
+        const RadianceTree tree(sky, finest_level_for(sky.size(), width_of(cosine)));
+        Cube mean = convolve(tree, cosine, options.size, {.node_width = 0.5f, .tolerance = 1e-5f});
         if (!options.over_pi) scale(mean, std::numbers::pi);
         return mean;
     }

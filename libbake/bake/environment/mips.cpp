@@ -29,28 +29,40 @@ Image<float> framed(const Cube& sky, int face_index) {
     return wide;
 }
 
-/// Fluxes of row y of a face after the exchange between neighbours, n * channels values.
-void exchange_row(const Image<float>& wide, const std::vector<double>& omega, int y, double* flux) noexcept {
-    const int n = wide.width() - 2, channels = wide.channels();
-    const auto solid_angle = [&](int i, int j) {
-        // A texel across an edge is as large as the one before it.
-        return omega[std::size_t(std::clamp(j, 0, n - 1)) * n + std::clamp(i, 0, n - 1)];
-    };
-    for (int x = 0; x < n; ++x) {
-        const double own = solid_angle(x, y);
-        const float* centre = &wide.at(x + 1, y + 1);
-        double* sum = flux + std::size_t(x) * channels;
-        for (int c = 0; c < channels; ++c) sum[c] = own * double(centre[c]);
+/// What the texels of a row exchange with their eight neighbours; the same for every face.
+struct Exchange {
+    /// Of neighbour (dx, dy), e_jk for each texel and channel: n * channels values.
+    std::array<std::vector<double>, 9> with;
+
+    Exchange(int n, int channels) {
+        for (std::vector<double>& row : with) row.resize(std::size_t(n) * channels);
+    }
+    void set_row(const std::vector<double>& omega, int n, int channels, int y) noexcept {
         for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
-                if (dx == 0 && dy == 0) continue;
-                const double other = solid_angle(x + dx, y + dy);
-                const double e = (dx != 0 && dy != 0 ? 1.0 / 16 : 1.0 / 8) * 2 * own * other / (own + other);
-                const float* neighbour = &wide.at(x + 1 + dx, y + 1 + dy);
-                for (int c = 0; c < channels; ++c) sum[c] += e * (double(neighbour[c]) - double(centre[c]));
+                // A texel across an edge is as large as the one before it.
+                const double* own = &omega[std::size_t(y) * n];
+                const double* other = &omega[std::size_t(std::clamp(y + dy, 0, n - 1)) * n];
+                const double weight = dx != 0 && dy != 0 ? 1.0 / 16 : 1.0 / 8;
+                double* row = with[3 * dy + dx + 4].data();
+                for (int x = 0; x < n; ++x) {
+                    const double there = other[std::clamp(x + dx, 0, n - 1)];
+                    const double e = weight * 2 * own[x] * there / (own[x] + there);
+                    for (int c = 0; c < channels; ++c) row[x * channels + c] = e;
+                }
             }
     }
-}
+    /// Adds to the fluxes of row y of a face what its neighbours give and take.
+    void apply(const Image<float>& wide, int y, double* flux) const noexcept {
+        const int channels = wide.channels(), count = (wide.width() - 2) * channels;
+        const float* own = wide.row(y + 1) + channels;
+        for (const int neighbour : {0, 1, 2, 3, 5, 6, 7, 8}) {
+            const float* other = wide.row(y + neighbour / 3) + neighbour % 3 * channels;
+            const double* e = with[neighbour].data();
+            for (int i = 0; i < count; ++i) flux[i] += e[i] * (double(other[i]) - double(own[i]));
+        }
+    }
+};
 
 /// The pieces into which the edges of n fine and m coarse texels cut an axis.
 struct Pieces {
@@ -93,34 +105,39 @@ Cube resized(const Cube& sky, int m, MipFilter filter) {
         });
 
     Cube coarse = make_cube(m, channels);
-    for_rows(std::int64_t(6) * m, 4, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<double> flux(std::size_t(n) * channels), sum(std::size_t(m) * channels), area(m);
-        for (std::int64_t row = begin; row < end; ++row) {
-            const int f = int(row / m), Y = int(row % m);
-            std::fill(sum.begin(), sum.end(), 0.0);
+    for_rows(m, 2, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<double> flux(std::size_t(n) * channels), sums(std::size_t(6) * m * channels), area(m);
+        Exchange exchange(filter == MipFilter::tent ? n : 0, channels);
+        for (auto Y = int(begin); Y < int(end); ++Y) {
+            std::fill(sums.begin(), sums.end(), 0.0);
             std::fill(area.begin(), area.end(), 0.0);
             const auto first = std::lower_bound(pieces.coarse.begin(), pieces.coarse.end(), Y) - pieces.coarse.begin();
             for (int j = int(first); j < count && pieces.coarse[j] == Y; ++j) {
                 const int y = pieces.fine[j];
                 const double* omega_row = &omega[std::size_t(y) * n];
-                if (filter == MipFilter::tent) {
-                    exchange_row(wide[f], omega, y, flux.data());
-                } else {
+                const double* cell_row = &cells[std::size_t(j) * count];
+                if (filter == MipFilter::tent) exchange.set_row(omega, n, channels, y);
+                for (int i = 0; i < count; ++i) area[pieces.coarse[i]] += cell_row[i];
+                for (int f = 0; f < 6; ++f) {
                     const float* from = sky.faces[f].row(y);
                     for (int x = 0; x < n; ++x)
                         for (int c = 0; c < channels; ++c)
                             flux[x * channels + c] = omega_row[x] * double(from[x * channels + c]);
-                }
-                for (int i = 0; i < count; ++i) {
-                    const int x = pieces.fine[i], X = pieces.coarse[i];
-                    const double cell = cells[std::size_t(j) * count + i], share = cell / omega_row[x];
-                    area[X] += cell;
-                    for (int c = 0; c < channels; ++c) sum[X * channels + c] += share * flux[x * channels + c];
+                    if (filter == MipFilter::tent) exchange.apply(wide[f], y, flux.data());
+                    double* sum = &sums[std::size_t(f) * m * channels];
+                    for (int i = 0; i < count; ++i) {
+                        const int x = pieces.fine[i], X = pieces.coarse[i];
+                        const double share = count == n ? 1 : cell_row[i] / omega_row[x];
+                        for (int c = 0; c < channels; ++c) sum[X * channels + c] += share * flux[x * channels + c];
+                    }
                 }
             }
-            float* to = coarse.faces[f].row(Y);
-            for (int X = 0; X < m; ++X)
-                for (int c = 0; c < channels; ++c) to[X * channels + c] = float(sum[X * channels + c] / area[X]);
+            for (int f = 0; f < 6; ++f) {
+                const double* sum = &sums[std::size_t(f) * m * channels];
+                float* to = coarse.faces[f].row(Y);
+                for (int X = 0; X < m; ++X)
+                    for (int c = 0; c < channels; ++c) to[X * channels + c] = float(sum[X * channels + c] / area[X]);
+            }
         }
     });
     return coarse;

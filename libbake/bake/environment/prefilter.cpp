@@ -25,18 +25,24 @@ void check(const PrefilterOptions& options) {
 
 std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options) {
     check(options);
-    const RadianceTree tree(sky);
+    const bool ggx = options.lobe == SpecularLobe::ggx;
+    float narrowest = 2;
+    for (const double value : options.roughness)
+        if (!ggx || value > 0)
+            narrowest = std::min(narrowest, ggx ? width_of(GgxLobe::of_alpha(value)) : width_of(PhongLobe{float(value)}));
+    const RadianceTree tree(sky, finest_level_for(sky.size(), narrowest));
+
     const int first = options.size == 0 ? sky.size() : options.size;
     std::vector<Cube> chain;
     for (std::size_t level = 0; level < options.roughness.size(); ++level) {
         const int size = std::max(1, level < 31 ? first >> level : 0);
         const double value = options.roughness[level];
-        if (options.lobe == SpecularLobe::phong)
+        if (!ggx)
             chain.push_back(convolve(tree, PhongLobe{float(value)}, size));
-        else if (value == 0)
-            chain.push_back(resize_by_area(sky, size));
-        else
+        else if (value > 0)
             chain.push_back(convolve(tree, GgxLobe::of_alpha(value), size));
+        else
+            chain.push_back(resize_by_area(sky, size));
     }
     return chain;
 }

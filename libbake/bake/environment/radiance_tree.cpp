@@ -93,9 +93,14 @@ constexpr double sphere = 4 * std::numbers::pi;
 int RadianceTree::size(int level) const noexcept { return level == 0 ? sky_.size() : levels_[level - 1].size; }
 
 SkyNode RadianceTree::node(int level, int face, int x, int y) const noexcept {
-    const int n = size(level);
-    if (level > 0)
-        return load(&levels_[level - 1].values[((std::size_t(face) * n + y) * n + x) * stride_], channels_);
+    if (level == 0) return texel(face, x, y);
+    if (level < finest_) return from_children(level, face, x, y);
+    const std::size_t n = std::size_t(size(level));
+    return load(&levels_[level - 1].values[((face * n + y) * n + x) * stride_], channels_);
+}
+
+SkyNode RadianceTree::texel(int face, int x, int y) const noexcept {
+    const int n = sky_.size();
     SkyNode texel;
     texel.omega = omega_[std::size_t(y) * n + x];
     texel.h = texel.rho = texel.Q = 0;
@@ -106,6 +111,15 @@ SkyNode RadianceTree::node(int level, int face, int x, int y) const noexcept {
     return texel;
 }
 
+SkyNode RadianceTree::from_children(int level, int face, int x, int y) const noexcept {
+    const int n = size(level - 1);
+    SkyNode children[4];
+    int count = 0;
+    for (int j = 2 * y; j < std::min(2 * y + 2, n); ++j)
+        for (int i = 2 * x; i < std::min(2 * x + 2, n); ++i) children[count++] = node(level - 1, face, i, j);
+    return parent_of(children, count, channels_);
+}
+
 float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
     const CubePoint<float> at = cube_point(d);
     const int n = sky_.size();
@@ -113,8 +127,8 @@ float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
     return sky_.faces[static_cast<int>(at.face)].at(index(at.s), index(at.t), channel);
 }
 
-RadianceTree::RadianceTree(const Cube& sky)
-    : sky_(sky), channels_(sky.channels()), stride_(fixed_values + 4 * channels_) {
+RadianceTree::RadianceTree(const Cube& sky, int finest)
+    : sky_(sky), channels_(sky.channels()), stride_(fixed_values + 4 * channels_), finest_(finest) {
     assert(!sky.empty() && channels_ >= 1 && channels_ <= max_sky_channels);
     const int n = sky.size();
     const std::vector<double> omega = texel_solid_angles(n);
@@ -139,22 +153,18 @@ RadianceTree::RadianceTree(const Cube& sky)
             }
 
     while (size(last_level()) > 1) {
-        const int below = last_level(), children_size = size(below), m = (children_size + 1) / 2;
-        Level level{m, std::vector<float>(std::size_t(6) * m * m * stride_)};
+        const int level = last_level() + 1, m = (size(last_level()) + 1) / 2;
+        levels_.push_back({m, {}});
+        if (level < finest_) continue;
+        std::vector<float> values(std::size_t(6) * m * m * stride_);
         for_rows(std::int64_t(6) * m, 4, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row)
-                for (int x = 0; x < m; ++x) {
-                    const int face = int(row / m), y = int(row % m);
-                    SkyNode children[4];
-                    int count = 0;
-                    for (int j = 2 * y; j < std::min(2 * y + 2, children_size); ++j)
-                        for (int i = 2 * x; i < std::min(2 * x + 2, children_size); ++i)
-                            children[count++] = node(below, face, i, j);
-                    store(parent_of(children, count, channels_), channels_, &level.values[(row * m + x) * stride_]);
-                }
+                for (int x = 0; x < m; ++x)
+                    store(from_children(level, int(row / m), x, int(row % m)), channels_, &values[(row * m + x) * stride_]);
         });
-        levels_.push_back(std::move(level));
+        levels_.back().values = std::move(values);
     }
+    assert(finest_ <= last_level());
 }
 
 } // namespace bake

@@ -25,14 +25,16 @@ struct SkyNode {
 };
 
 /// Level 0 are the texels themselves, level l >= 1 has ceil(size / 2^l) nodes along an edge, the last has one per face.
-/// The sky must outlive the tree.
+/// Levels below `finest` are not kept, but made anew when asked for. The sky must outlive the tree.
 class RadianceTree {
 public:
-    /// `sky` is finite and not empty, with 1 to 4 channels. Takes 23 bytes per texel at three channels.
-    explicit RadianceTree(const Cube& sky);
+    /// `sky` is finite and not empty, with 1 to 4 channels. Takes 25 bytes per texel at three channels, a quarter of that
+    /// for finest = 2, a sixteenth for 3: level 0 is never kept.
+    explicit RadianceTree(const Cube& sky, int finest = 0);
 
     int channels() const noexcept { return channels_; }
     int last_level() const noexcept { return static_cast<int>(levels_.size()); }
+    int finest() const noexcept { return finest_; }
     int size(int level) const noexcept; ///< nodes along an edge
     /// Node (x, y) of a face. Level 0: h, rho, Q and D are 0.
     SkyNode node(int level, int face, int x, int y) const noexcept;
@@ -46,12 +48,15 @@ public:
     float most(int channel) const noexcept { return most_[channel]; }   ///< largest
 
 private:
+    SkyNode texel(int face, int x, int y) const noexcept;
+    SkyNode from_children(int level, int face, int x, int y) const noexcept;
+
     struct Level {
         int size;
-        std::vector<float> values; ///< stride_ per node, face by face, row by row
+        std::vector<float> values; ///< stride_ per node, face by face, row by row; none below finest_
     };
     const Cube& sky_;
-    int channels_, stride_;
+    int channels_, stride_, finest_;
     double mean_ = 0, even_level_[max_sky_channels] = {};
     float least_[max_sky_channels] = {}, most_[max_sky_channels] = {};
     std::vector<float> omega_; ///< of the texels of a face
