@@ -217,7 +217,7 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& sides, dou
             if (!found.inside && enough_inside == 0) enough_inside = std::max(rates.across, rates.up);
             const bool spent = rates.across >= most && rates.up >= most;
             // Along the border a finer lattice helps up to a point; then the sides are too coarse.
-            if (spent || (enough_inside && std::max(rates.across, rates.up) > 2 * enough_inside + 2))
+            if (spent || (enough_inside && std::max(rates.across, rates.up) > enough_inside + enough_inside / 3 + 1))
                 return {enough_inside ? std::min(rates.across, std::max(1u, enough_inside)) : rates.across,
                         enough_inside ? std::min(rates.up, std::max(1u, enough_inside)) : rates.up, true};
             const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
@@ -285,7 +285,7 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
     // Fits the wanted cells and those beside sides that change; which these were.
     const auto fit_cells = [&](std::vector<bool> now, double density) {
         std::vector<bool> changed = now;
-        for (int round = 0; round < 8; ++round) {
+        for (;;) {
             std::vector<char> too_coarse(cells.count(), 0);
             for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
                 CellFitter fitter(surface, blend, cells);
@@ -299,35 +299,39 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
                     too_coarse[c] = fit.sides_too_coarse;
                 }
             });
-            std::vector<bool> finer(complex.edges, false);
-            bool any = false;
+            std::vector<std::uint16_t> finer(plan.rates.edge);
             for (std::uint32_t c = 0; c < cells.count(); ++c) {
                 if (!too_coarse[c]) continue;
-                // Sides coarser than the lattice, or all where there are none.
+                // Sides coarser than the lattice, half the way to it; all of them where there are none.
                 bool found = false;
                 for (const bool all : {false, true}) {
-                    for (int i = 0; i < complex.patches[c].sides() && !found; ++i) {
-                        const std::uint32_t e = complex.patches[c].edge[i];
+                    if (found) continue;
+                    for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                        const std::uint32_t e = complex.patches[c].edge[i], rate = plan.rates.edge[e];
                         const std::uint32_t lattice = i % 2 == 0 ? plan.rates.across[c] : plan.rates.up[c];
-                        if (plan.rates.edge[e] < most && (all || plan.rates.edge[e] < lattice)) finer[e] = any = true;
+                        if (!all && rate >= lattice) continue;
+                        found = true;
+                        const std::uint32_t next = std::max(rate + std::max(1u, rate / 3), (rate + lattice) / 2);
+                        finer[e] = std::uint16_t(std::max<std::uint32_t>(finer[e], std::min(most, next)));
                     }
-                    for (int i = 0; i < complex.patches[c].sides(); ++i) found |= finer[complex.patches[c].edge[i]];
+                }
+            }
+            bool any = false;
+            for (std::uint32_t c = 0; c < cells.count(); ++c) {
+                now[c] = false;
+                for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                    const std::uint32_t e = complex.patches[c].edge[i];
+                    if (finer[e] > plan.rates.edge[e]) now[c] = changed[c] = any = true;
                 }
             }
             if (!any) break;
-            for (std::uint32_t e = 0; e < complex.edges; ++e)
-                if (finer[e]) plan.rates.edge[e] = std::uint16_t(std::min(most, plan.rates.edge[e] + std::max(1u, plan.rates.edge[e] / 3u)));
-            for (std::uint32_t c = 0; c < cells.count(); ++c) {
-                now[c] = false;
-                for (int i = 0; i < complex.patches[c].sides(); ++i)
-                    if (finer[complex.patches[c].edge[i]]) now[c] = changed[c] = true;
-            }
+            plan.rates.edge = std::move(finer);
         }
         return changed;
     };
     std::vector<bool> wanted(cells.count(), true);
-    for (double density = 1; density <= 8; density *= 2) {
-        const std::vector<bool> changed = fit_cells(wanted, density);
+    for (int round = 0; round < 12; ++round) {
+        const std::vector<bool> changed = fit_cells(wanted, std::exp2(std::min(round, 3)));
         cut_poles_as_cells(complex, plan.rates);
         // What the samples did not show is measured, and fitted again among more of them.
         std::vector<char> failed(cells.count(), 0);
