@@ -5,6 +5,8 @@
 
 namespace bake {
 
+class Progress;
+
 /// What the points say of themselves, gathered in a fixed order.
 struct PointTally {
     double height_min = 0, height_max = 0;

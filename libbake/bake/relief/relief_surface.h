@@ -4,7 +4,8 @@
 //
 // s and t are the parameters of the jet; N' is turned by sigma so that it is outward.
 #pragma once
-#include "bake/relief/displace.h"
+#include "bake/relief/displace_types.h"
+#include "bake/surface/base_surface.h"
 #include <memory>
 
 namespace bake {
