@@ -98,6 +98,7 @@ void write_faces(const Plan& plan, const Mesh& base, Mesh& mesh) {
         RingBuilder builder;
         for (auto i = begin; i < end; ++i)
             for (std::uint32_t c = jobs[i].cell; c < jobs[i].cell_end; ++c) {
+                if (is_collapsed(complex.patches[c])) continue;
                 const PatchRates r = layout.of_cell(c);
                 const PatchRing ring = builder.ring(layout, c, r);
                 const std::uint64_t skipped = std::uint64_t(jobs[i].row) * r.across;

@@ -203,8 +203,9 @@ void run(const Job& job, const Target& to, Scratch& s, PointTally& tally) {
         s.st.clear(), s.number.clear();
         const std::uint32_t rows = r.sides == 4 ? r.up : r.across;
         const bool whole = job.row_end == 0;
+        const bool collapsed = is_collapsed(to.layout.cells->complex().patches[cell]);
         if (whole || job.row == 0) gather_border(to.layout, cell, r, s);
-        gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
+        if (!collapsed) gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
         if (s.st.empty()) continue;
         s.points.resize(std::max(s.points.size(), s.st.size()));
         const std::uint32_t patch = to.layout.cells->patch(cell);
