@@ -21,7 +21,8 @@ os.chdir(work)
 
 def touch(size):
     """A virtual machine may have given free memory back, and fetching it takes longer than the work. In a process of its
-    own: what is run next would be charged with ours."""
+    own: what is run next would be charged with ours. And nobody is to wait for the disk to take what was written before."""
+    os.sync()
     subprocess.run([sys.executable, "-c", f"room = bytearray({size}); room[::4096] = b'1' * len(room[::4096])"], check=True)
 
 
