@@ -1,5 +1,6 @@
 // Where displacement could break: one case each.
 #include "bake/base/error.h"
+#include "oracle/surfaces.h"
 #include "relief/displace_meshes.h"
 
 using namespace bake;
@@ -68,6 +69,24 @@ TEST_CASE("displace, extraordinary vertex: the limit surface of a cube is displa
     CHECK(check(out.mesh).topology.closed_components == 1);
     CHECK(opposed(out.mesh) == 0);
     CHECK(out.report.no_normal == 0);
+}
+
+TEST_CASE("displace, extraordinary vertex: no curvature without limit reaches its normal, nor the fold count") {
+    // Curvature grows without bound towards the corners of a cube's limit: either sign of b would turn one inside out.
+    const BaseSurface base(cube(), SubdivisionOptions{});
+    for (const double b : {-0.02, 0.02}) {
+        const Displaced out = displace(base, constant(b), levels(5));
+        CHECK(out.report.folded == 0);
+        CHECK(out.report.fold_margin > 0.5);
+        double worst = 0;
+        for (std::size_t c = 0; c < out.mesh.corners(); c += 4) {
+            const auto at = [&](std::size_t k) { return Vec3d(out.mesh.positions[out.mesh.corner_position[c + k]]); };
+            const Vec3d facet = glm::cross(at(2) - at(0), at(3) - at(1));
+            for (std::size_t k = 0; k < 4; ++k)
+                worst = std::max(worst, oracle::angle_deg(facet, Vec3d(out.mesh.normals[out.mesh.corner_normal[c + k]])));
+        }
+        CHECK(worst < 5); // a face of 1/32 of the cube's turns by about 3
+    }
 }
 
 TEST_CASE("displace, boundary and corner: the boundary of an open cage stays one loop with its points displaced") {

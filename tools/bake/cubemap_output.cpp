@@ -179,8 +179,8 @@ CubemapWritten write_converted(const Environment& sky, const CubemapTarget& targ
     if (!is_cube_format(target.to)) return write_picture(target, to_picture(sky, projection_of(target.to), target.size, picture_height(target), options, progress));
     const FaceGrid grid{target.size, target.to == SkyFormat::openexr_cube};
     const bool crossed = target.to == SkyFormat::hcross || target.to == SkyFormat::vcross;
-    // Shared texels of edge samples need all six faces; a cross interleaves them.
-    if (!crossed && !grid.edges)
+    // Texels that faces share are joined when shared out exactly; a cross interleaves the faces.
+    if (!crossed && faces_alone(sky, grid, options))
         return write_by_face(target, sky.channels(), [&](CubeFace face) { return to_face(sky, grid, face, options, progress); });
     Cube cube = to_cube(sky, grid, options, progress);
     if (crossed) return write_picture(target, laid_out(cube, target));

@@ -77,7 +77,9 @@ constexpr const char *cube_format = "CubeFace Environment", *latlong_format = "L
 
 EnvironmentTag environment_tag(const OIIO::ImageSpec& spec) {
     const auto format = spec.get_string_attribute("textureformat");
-    return format == cube_format ? EnvironmentTag::cube : format == latlong_format ? EnvironmentTag::latlong : EnvironmentTag::none;
+    if (format != cube_format && format != latlong_format) return EnvironmentTag::none;
+    // Which of the two, the shape says: exrenvmap passes OpenImageIO's own attribute on unchanged beside the new envmap.
+    return spec.height == 6 * std::int64_t(spec.width) ? EnvironmentTag::cube : EnvironmentTag::latlong;
 }
 
 Window picture_window(const OIIO::ImageSpec& spec) {
@@ -344,7 +346,7 @@ void next_level(FormatWriter& writer) {
     OIIO::ImageSpec& spec = writer.spec;
     spec.width = spec.full_width = std::max(1, spec.width / 2);
     spec.height = spec.full_height = std::max(1, spec.height / 2);
-    if (environment_tag(spec) == EnvironmentTag::cube) spec.full_height = spec.full_width;
+    if (spec.get_string_attribute("textureformat") == cube_format) spec.full_height = spec.full_width;
     writer.next_row = 0;
     // In TIFF the levels are images of their own, which OIIO reads back as levels.
     const auto mode = writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;

@@ -21,6 +21,10 @@ Lattice::Lattice(Projection projection, int width, int height, const glm::dmat3&
         const Vec3d d = picture_direction(projection, width, height, i, 0.5 * height);
         meridians_.emplace_back(d.x, d.z);
     }
+    for (int j = 0; j <= height; ++j) {
+        const Vec3d d = picture_direction(projection, width, height, 0.5 * width, j);
+        parallels_.emplace_back(d.y, std::sqrt(d.x * d.x + d.z * d.z));
+    }
     // cos theta weighs the rows' parts: the middle of the light lies towards the equator.
     const double rows = edges_ ? height - 1 : height, h = pi / rows;
     for (int y = 0; y < height; ++y) {
@@ -38,11 +42,12 @@ Vec3d Lattice::point(double x, double y) const noexcept {
 }
 
 void Lattice::points(int x0, int parts, double y, int count, Vec3d* directions) const noexcept {
-    if (!meridians_.empty() && parts == 1) {
-        const Vec3d edge = picture_direction(projection_, width_, height_, 0.5 * width_, y);
-        const double level = std::sqrt(edge.x * edge.x + edge.z * edge.z);
-        for (int k = 0; k < count; ++k)
-            directions[k] = turn_ * Vec3d(meridians_[x0 + k].x * level, edge.y, meridians_[x0 + k].y * level);
+    const auto row = static_cast<int>(std::ceil(y)); // the outer half rows of edge samples begin at .5, which is as 0
+    if (!meridians_.empty() && parts == 1 && (row == y || row <= 1 || row >= height_)) {
+        const Vec2d parallel = parallels_[row == y ? row : row <= 1 ? 0 : height_];
+        // turn_ * (sin phi cos theta, sin theta, cos phi cos theta), its parts common to the row taken out
+        const Vec3d right = turn_[0] * parallel.y, up = turn_[1] * parallel.x, ahead = turn_[2] * parallel.y;
+        for (int k = 0; k < count; ++k) directions[k] = right * meridians_[x0 + k].x + up + ahead * meridians_[x0 + k].y;
         return;
     }
     for (int k = 0; k < count; ++k) directions[k] = turn_ * point(x0 + double(k) / parts, y);

@@ -38,7 +38,8 @@ private:
     Projection projection_ = Projection::latlong;
     int width_, height_;
     glm::dmat3 turn_;
-    std::vector<Vec2d> meridians_;  ///< sin phi, cos phi at column borders
+    std::vector<Vec2d> meridians_;   ///< sin phi, cos phi at column borders
+    std::vector<Vec2d> parallels_;   ///< sin theta, cos theta at row borders
     std::vector<double> row_middle_; ///< centroid y of each row
 };
 

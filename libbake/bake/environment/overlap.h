@@ -6,6 +6,7 @@
 // and with them the solid angle, J = (1 + sc^2 + tc^2)^(-3/2) being linear over so small a quadrilateral.
 #pragma once
 #include "bake/environment/cube.h"
+#include <cstdlib>
 #include <vector>
 
 namespace bake {
@@ -28,6 +29,13 @@ struct CellMoments {
     double area = 0, x = 0, y = 0;
 };
 
+/// The part of an edge that lies in one cell: what it adds to that cell, and to each cell at its right in the row.
+struct EdgePart {
+    int x, y; ///< the cell
+    CellMoments here;
+    double beyond_area, beyond_y; ///< and beyond_area / 2 for x
+};
+
 /// Cells [low_x, high_x) x [low_y, high_y).
 struct CellWindow {
     int low_x, high_x, low_y, high_y;
@@ -46,9 +54,17 @@ struct Overlap {
     double a0 = 0, ax = 0, ay = 0, b0 = 0, bx = 0, by = 0;
 };
 
+/// The cell a coordinate lies in, as everything here rounds it, so that all agree. Without the library call that
+/// std::floor is on a plain x86-64: faces have 2^17 cells at most along a side, and planes end at 5 times that.
+inline int cell_of(double x) noexcept {
+    constexpr int off = 1 << 20;
+    return int(x + off) - off;
+}
+
 /// A point in a face's plane, in cells.
 struct PlanePoint {
-    double x = 0, y = 0, ma = 0; ///< ma: the component along the face's axis; x and y hold where it is above .2
+    double x = 0, y = 0, ma = 0;      ///< ma: the component along the face's axis; x and y hold where it is above .2
+    int column = 0, row = 0;          ///< the cell
 };
 /// From directions to the plane of a face.
 struct FacePlane {
@@ -58,12 +74,29 @@ struct FacePlane {
     FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
     PlanePoint project(const Vec3d& d) const noexcept {
         const double ma = glm::dot(axis, d), inverse = 1 / (ma > 0.2 ? ma : 0.2);
-        return {middle + glm::dot(s, d) * inverse, middle + glm::dot(t, d) * inverse, ma};
+        const double x = middle + glm::dot(s, d) * inverse, y = middle + glm::dot(t, d) * inverse;
+        return {x, y, ma, cell_of(x), cell_of(y)};
     }
 };
 
-/// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it, beyond the window
-/// too. False, and nothing else, when it lies off the window or behind the face.
-bool overlap(const FaceGrid& grid, const CellWindow& window, const PlanePoint* corners, Overlap& result);
+/// An edge's parts, cell by cell: part_count of them.
+void cut_edge(const PlanePoint& from, const PlanePoint& to, EdgePart* parts) noexcept;
+inline int part_count(const PlanePoint& from, const PlanePoint& to) noexcept {
+    return std::abs(to.row - from.row) + std::abs(to.column - from.column) + 1;
+}
+
+/// Some parts of a list.
+struct EdgeParts {
+    const EdgePart* first = nullptr;
+    int count = 0;
+};
+
+/// Whether a quadrilateral lies ahead of the face and its bounding box meets the window.
+bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) noexcept;
+
+/// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it. `edges`: its upper
+/// edge from left to right, its right one downwards, its lower one from left to right, its left one downwards; shared
+/// with its neighbours.
+void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const EdgeParts edges[4], Overlap& result);
 
 } // namespace bake

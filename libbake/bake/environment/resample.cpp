@@ -145,6 +145,10 @@ Samples resolve(const Environment& source, double density, bool same, const Resa
     return density > 2 * source.density() ? Samples::grid4 : Samples::exact;
 }
 
+bool faces_alone(const Environment& source, const FaceGrid& grid, const ResampleOptions& options) {
+    return !grid.edges || resolve(source, density_of(grid), same_lattice(source, grid), options) != Samples::exact;
+}
+
 Image<float> to_face(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options, Progress* progress) {
     const Samples samples = resolve(source, density_of(grid), same_lattice(source, grid), options);
     if (samples == Samples::exact) return FaceRain(source, grid, options.turn).face(face, nullptr, progress);

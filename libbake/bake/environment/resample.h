@@ -35,7 +35,9 @@ Samples resolve(const Environment& source, double density, bool same_lattice, co
 
 /// A cube, channels as in the source. In a cube with edge samples, texels that two or three faces share are equal.
 Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOptions& options = {}, Progress* progress = nullptr);
-/// One face of it, so that a large cube need not be whole in memory; not for exact with edge samples.
+/// Whether faces can be made one by one: not by exact with edge samples, whose shared texels are joined.
+bool faces_alone(const Environment& source, const FaceGrid& grid, const ResampleOptions& options);
+/// One face of it, so that a large cube need not be whole in memory; where faces_alone.
 Image<float> to_face(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options = {}, Progress* progress = nullptr);
 /// A picture of the whole sky.
 Image<float> to_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options = {},

@@ -9,7 +9,10 @@
 namespace bake {
 namespace {
 
-constexpr int tile_texels = 128, block_texels = 16;
+constexpr int block_texels = 16;
+
+/// Texels that meet two tiles are shared out twice; sums of large tiles leave the cache.
+int tile_of(int face) noexcept { return face < 2048 ? 256 : 512; }
 
 /// A texel is cut into this many parts along x and y, so that their sides, which are taken as great circles, stay within
 /// 2e-4 of a result's texel, and no part spans more than 4 degrees.
@@ -36,6 +39,13 @@ bool meet(const CellWindow& a, const CellWindow& b) noexcept {
 
 /// The window of a block, from the lattice points round it; empty when it lies off the face.
 CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, CubeFace face, const Block& block) {
+    const FacePlane plane(grid, face);
+    const double reach = 2 * block_texels * lattice.texel_angle(); // from a corner of the block to any other
+    if (reach < 0.2) {
+        Vec3d corner;
+        lattice.points(block.x0, 1, lattice.border_y(block.y0), 1, &corner);
+        if (glm::dot(plane.axis, corner) < (0.3 - reach) * glm::length(corner)) return {0, 0, 0, 0};
+    }
     std::vector<Vec3d> points;
     const int columns = block.x1 - block.x0 + 1;
     points.resize(2 * columns);
@@ -48,7 +58,6 @@ CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, CubeFace f
         }
     double x_low = 1e9, x_high = -1e9, y_low = 1e9, y_high = -1e9;
     bool all_ahead = true, any_ahead = false;
-    const FacePlane plane(grid, face);
     for (const Vec3d& d : points) {
         const PlanePoint p = plane.project(d);
         const double ma = p.ma / glm::length(d);
@@ -65,9 +74,32 @@ CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, CubeFace f
     return any_ahead || coarse ? whole_face(grid) : CellWindow{0, 0, 0, 0};
 }
 
+/// The edges of a row of a lattice, cut when they are first asked for.
+struct EdgeRow {
+    std::vector<EdgePart> parts;
+    std::vector<int> first, count; ///< count 0: not cut yet
+    int used = 0;
+
+    void reset(int edges) {
+        used = 0;
+        first.resize(edges);
+        count.assign(edges, 0);
+    }
+    void cut(int k, const PlanePoint& from, const PlanePoint& to) {
+        if (count[k] > 0) return;
+        first[k] = used;
+        count[k] = part_count(from, to);
+        used += count[k];
+        if (std::size_t(used) > parts.size()) parts.resize(2 * std::size_t(used));
+        cut_edge(from, to, parts.data() + first[k]);
+    }
+    EdgeParts operator[](int k) const noexcept { return {parts.data() + first[k], count[k]}; }
+};
+
 struct Scratch {
     std::vector<Vec3d> directions;
     std::vector<PlanePoint> upper, lower;
+    EdgeRow upper_edges, lower_edges, side_edges;
     Overlap overlap;
 };
 
@@ -110,14 +142,24 @@ struct FaceRain::Impl {
             for (int k = 0; k < points; ++k) row[k] = plane.project(scratch.directions[k]);
         };
         project_row(source.lattice.border_y(block.y0), scratch.lower);
+        scratch.lower_edges.reset(points);
         for (int y = block.y0; y < block.y1; ++y)
             for (int part = 0; part < parts; ++part) {
                 std::swap(scratch.upper, scratch.lower);
+                std::swap(scratch.upper_edges, scratch.lower_edges);
+                scratch.lower_edges.reset(points);
+                scratch.side_edges.reset(points);
                 const double top = source.lattice.border_y(y + double(part) / parts), bottom = source.lattice.border_y(y + double(part + 1) / parts);
                 project_row(bottom, scratch.lower);
                 for (int k = 0; k + 1 < points; ++k) {
-                    const PlanePoint corners[4] = {scratch.upper[k], scratch.upper[k + 1], scratch.lower[k + 1], scratch.lower[k]};
-                    if (!overlap(grid, window, corners, scratch.overlap)) continue;
+                    const PlanePoint* const corners[4] = {&scratch.upper[k], &scratch.upper[k + 1], &scratch.lower[k + 1], &scratch.lower[k]};
+                    if (!may_meet(window, *corners[0], *corners[1], *corners[2], *corners[3])) continue;
+                    scratch.upper_edges.cut(k, *corners[0], *corners[1]);
+                    scratch.lower_edges.cut(k, *corners[3], *corners[2]);
+                    scratch.side_edges.cut(k, *corners[0], *corners[3]);
+                    scratch.side_edges.cut(k + 1, *corners[1], *corners[2]);
+                    const EdgeParts edges[4] = {scratch.upper_edges[k], scratch.side_edges[k + 1], scratch.lower_edges[k], scratch.side_edges[k]};
+                    overlap(grid, corners, edges, scratch.overlap);
                     const int x = block.x0 + k / parts;
                     const double left = source.lattice.border_x(block.x0 + double(k) / parts), right = source.lattice.border_x(block.x0 + double(k + 1) / parts);
                     const Vec2d light = source.lattice.centroid(x, y);
@@ -140,7 +182,7 @@ struct FaceRain::Impl {
             for (int c = std::max(0, window.low_x - o.column); c < std::min(o.columns, window.high_x - o.column); ++c) {
                 const CellMoments& m = o.cells[std::size_t(r) * o.columns + c];
                 const double area = o.orientation * m.area;
-                if (area == 0) continue;
+                if (area <= 0) continue; // rounding
                 const double gx = o.orientation * m.x + (o.column + c) * area, gy = o.orientation * m.y + (o.row + r) * area;
                 const double omega = o.jacobian * area + o.jacobian_x * gx + o.jacobian_y * gy;
                 const double a = o.jacobian_middle * (a0 * area + ax * gx + ay * gy);
@@ -187,7 +229,7 @@ Image<float> FaceRain::face(CubeFace face, std::vector<double>* frame, Progress*
 
     Image<float> image(n, n, channels);
     if (frame) frame->assign(std::size_t(4) * n * (channels + 1), 0.0);
-    const int tiles = (n + tile_texels - 1) / tile_texels;
+    const int tile_texels = tile_of(n), tiles = (n + tile_texels - 1) / tile_texels;
     for_rows(std::int64_t(tiles) * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
         Scratch scratch;
         std::vector<double> sums;
@@ -230,7 +272,7 @@ void add_seen(const Environment& sky, const FaceGrid& grid, CubeFace face, const
         for (int c = std::max(0, window.low_x - o.column); c < std::min(o.columns, window.high_x - o.column); ++c) {
             const CellMoments& m = o.cells[std::size_t(r) * o.columns + c];
             const double area = o.orientation * m.area;
-            if (area == 0) continue;
+            if (area <= 0) continue; // rounding
             const int column = o.column + c, row = o.row + r, x = grid.texel(column), y = grid.texel(row);
             const double gx = o.orientation * m.x, gy = o.orientation * m.y;
             const double omega = o.jacobian * area + o.jacobian_x * (gx + column * area) + o.jacobian_y * (gy + row * area);
@@ -258,6 +300,7 @@ Image<float> gather_picture(const Environment& sky, Projection projection, int w
         std::vector<Vec3d> upper(points), lower(points);
         std::vector<double> sums(std::size_t(width) * (channels + 1));
         Overlap o;
+        EdgeRow side_edges;
         lattice.points(0, parts, lattice.border_y(double(begin)), points, lower.data());
         for (auto y = int(begin); y < int(end); ++y) {
             std::fill(sums.begin(), sums.end(), 0.0);
@@ -273,9 +316,15 @@ Image<float> gather_picture(const Environment& sky, Projection projection, int w
                         if (glm::dot(plane.axis, middle) < 1.8) continue;
                         const PlanePoint at = plane.project(middle);
                         if (std::abs(at.x - grid.middle()) > 1.3 * grid.scale() + 1 || std::abs(at.y - grid.middle()) > 1.3 * grid.scale() + 1) continue;
-                        PlanePoint corners[4];
-                        for (int i = 0; i < 4; ++i) corners[i] = plane.project(d[i]);
-                        if (overlap(grid, whole_face(grid), corners, o)) add_seen(sky, grid, face, o, &sums[std::size_t(k / parts) * (channels + 1)]);
+                        PlanePoint p[4];
+                        for (int i = 0; i < 4; ++i) p[i] = plane.project(d[i]);
+                        if (!may_meet(whole_face(grid), p[0], p[1], p[2], p[3])) continue;
+                        side_edges.reset(4);
+                        for (int i = 0; i < 4; ++i) side_edges.cut(i, p[i < 2 ? i : i == 2 ? 3 : 0], p[i == 0 ? 1 : i == 3 ? 3 : 2]);
+                        const PlanePoint* const corners[4] = {&p[0], &p[1], &p[2], &p[3]};
+                        const EdgeParts edges[4] = {side_edges[0], side_edges[1], side_edges[2], side_edges[3]};
+                        overlap(grid, corners, edges, o);
+                        add_seen(sky, grid, face, o, &sums[std::size_t(k / parts) * (channels + 1)]);
                     }
                 }
             }

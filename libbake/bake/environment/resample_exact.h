@@ -3,18 +3,20 @@
 #include "bake/environment/environment.h"
 #include "bake/environment/overlap.h"
 #include <glm/mat3x3.hpp>
+#include <memory>
 #include <vector>
 
 namespace bake {
 
 class Progress;
 
-/// Gathers what the source's texels throw on one face. `sums`, for edge samples only: channels() + 1 values for each
-/// texel of the face's frame, the flux and the solid angle, by frame_index.
+/// What the texels of a source, which must outlive it, throw on the faces of a cube. `turn`: source to result.
 class FaceRain {
 public:
     FaceRain(const Environment& source, const FaceGrid& grid, const glm::dmat3& turn);
     ~FaceRain();
+    /// One face. `frame`, when given, becomes channels() + 1 values, flux and solid angle, for each of the texels at the
+    /// face's edges, by frame_index.
     Image<float> face(CubeFace face, std::vector<double>* frame, Progress* progress) const;
 
 private:

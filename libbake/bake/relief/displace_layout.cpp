@@ -99,7 +99,7 @@ DisplaceLayout make_layout(const PatchCells& cells, const CellRates& rates, bool
     for (const std::uint32_t e : poles) layout.edge_first[e] = 0;
     layout.inner_first.resize(complex.patches.size());
     for_rows(cells.count(), grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto c = std::uint32_t(begin); c < end; ++c) layout.inner_first[c] = inner_points(layout.of_cell(c));
+        for (auto c = std::uint32_t(begin); c < end; ++c) layout.inner_first[c] = is_collapsed(complex.patches[c]) ? 0 : inner_points(layout.of_cell(c));
     });
     layout.points = number(layout.inner_first, number(layout.edge_first, complex.vertices));
 
@@ -137,7 +137,8 @@ DisplaceLayout make_layout(const PatchCells& cells, const CellRates& rates, bool
             bool at_pole = false;
             for (int i = 0; i < r.sides; ++i) at_pole |= is_point(complex.patches[c], i);
             FaceCounter count;
-            if (!at_pole && pattern(r) == PatchPattern::lattice) {
+            if (is_collapsed(complex.patches[c])) {}
+            else if (!at_pole && pattern(r) == PatchPattern::lattice) {
                 count.faces = std::uint64_t(r.across) * r.up;
                 count.corners = std::uint64_t(r.sides) * count.faces;
             } else emit_faces(r, builder.ring(layout, c, r), layout.inner_first[c], count);

@@ -60,6 +60,7 @@ void meet(const ReliefSurface& surface, Seam seam, const Meeting& meeting, const
             first = sides[l].uv_group != sides[k].uv_group || sides[l].normal_group != sides[k].normal_group;
         if (!first) continue;
         ReliefValue shared = views[k].value;
+        if (!views[k].point.curved) continue; // the faces give it
         if (surface.along_normal()) {
             shared.at = out.value;
             out.margin = std::min(out.margin, fold_margin(views[k].point.jet, out.value.x));
@@ -123,10 +124,10 @@ void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& 
         tally.height(along_normal ? value.at.x : glm::dot(value.at, point.jet.n));
         if (point.jet.n == Vec3d(0)) ++tally.no_normal;
         else if (point.jet.sigma == 0) ++tally.no_tangents;
-        const double margin = along_normal ? fold_margin(point.jet, value.at.x) : 1.0;
+        const double margin = along_normal && point.curved ? fold_margin(point.jet, value.at.x) : 1.0;
         tally.fold(margin, point);
         to.store(index, d.p, tally);
-        to.store_normal(index, unit_or_zero(d.normal), tally);
+        to.store_normal(index, point.curved ? unit_or_zero(d.normal) : Vec3d(0), tally);
         if (to.layout.has_uv) to.mesh.uvs[index] = Vec2f(point.uv);
         if (!to.margin.empty()) to.margin[index] = float(margin);
     }
@@ -202,8 +203,9 @@ void run(const Job& job, const Target& to, Scratch& s, PointTally& tally) {
         s.st.clear(), s.number.clear();
         const std::uint32_t rows = r.sides == 4 ? r.up : r.across;
         const bool whole = job.row_end == 0;
+        const bool collapsed = is_collapsed(to.layout.cells->complex().patches[cell]);
         if (whole || job.row == 0) gather_border(to.layout, cell, r, s);
-        gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
+        if (!collapsed) gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
         if (s.st.empty()) continue;
         s.points.resize(std::max(s.points.size(), s.st.size()));
         const std::uint32_t patch = to.layout.cells->patch(cell);

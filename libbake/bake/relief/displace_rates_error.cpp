@@ -74,9 +74,10 @@ public:
     struct Fit {
         std::uint32_t across, up;
         bool sides_too_coarse = false;
+        double density = 1; ///< samples per texel that it took
     };
-    /// `density`: samples per texel to begin with.
-    Fit fit(std::uint32_t cell, const PatchRates& sides, double error, std::uint32_t most, double density);
+    /// Begins with `density` samples per texel and, where `again`, with the lattice that `rates` has.
+    Fit fit(std::uint32_t cell, const PatchRates& rates, double error, std::uint32_t most, double density, bool again);
     /// The first uniform rate from `least` on that is within `error`.
     std::uint32_t uniform(std::uint32_t cell, std::uint32_t least, double error, std::uint32_t most);
     double error(std::uint32_t cell, const PatchRates& rates) { return cell_error(patch_, cells_, cell, rates, HUGE_VAL).max(); }
@@ -203,23 +204,24 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     return out;
 }
 
-CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& sides, double error, std::uint32_t most, double density) {
+CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, double error, std::uint32_t most, double density, bool again) {
     for (double finer = density;; finer *= 2) {
         sample(cell, finer);
-        PatchRates rates = first_try(sides, error, most);
-        std::uint32_t enough_inside = 0;
+        PatchRates rates = again ? start : first_try(start, error, most);
+        std::uint32_t enough_inside = 0; // the rate from which on only faces along the border are too far
         int tries = 0;
         for (;;) {
             // Samples must be denser than faces to say anything.
             if (finer < 64 && std::max(rates.across * 2 > samples_.across, rates.up * 2 > samples_.up) && samples_.across < 1024 && samples_.up < 1024) break;
             const Misfit found = misfit(cell, fitted(rates), error);
-            if (!found.any()) return {rates.across, rates.up, false};
+            if (!found.any()) return {rates.across, rates.up, false, finer};
             if (!found.inside && enough_inside == 0) enough_inside = std::max(rates.across, rates.up);
-            const bool spent = rates.across >= most && rates.up >= most;
-            // Along the border a finer lattice helps up to a point; then the sides are too coarse.
-            if (spent || (enough_inside && std::max(rates.across, rates.up) > 2 * enough_inside + 2))
-                return {enough_inside ? std::min(rates.across, std::max(1u, enough_inside)) : rates.across,
-                        enough_inside ? std::min(rates.up, std::max(1u, enough_inside)) : rates.up, true};
+            // Along the border a finer lattice helps up to a point; then coarser sides must follow.
+            bool coarser_side = false;
+            for (int i = 0; i < rates.sides; ++i) coarser_side |= rates.side[i] < (i % 2 == 0 ? rates.across : rates.up);
+            const bool beyond = enough_inside && std::max(rates.across, rates.up) > enough_inside + enough_inside / 3 + 1;
+            if (rates.across >= most && rates.up >= most) return {rates.across, rates.up, false, finer};
+            if (beyond && coarser_side) return {rates.across, rates.up, true, finer};
             const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
             // Where one row is enough along the lines, the other direction is tried first; points inside need both.
             const int attempt = tries++;
@@ -273,61 +275,58 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
 
 RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
     if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
-    const auto most = std::uint32_t(std::clamp(rates.most, 1, 65535));
+    std::uint32_t most = std::uint32_t(std::clamp(rates.most, 1, 65535));
     // Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
     double aim = 0.85 * rates.error;
     RatePlan plan;
     plan.split = choose_split(surface, blend, aim, most);
+    most = std::max(1u, most / plan.split); // of a cell
     const PatchCells cells(surface.base().complex(), plan.split);
     const PatchComplex& complex = cells.complex();
     plan.rates.edge = edge_rates(surface, blend, cells, aim, most);
     plan.rates.across.assign(cells.count(), 1), plan.rates.up.assign(cells.count(), 1);
+    std::vector<float> dense(cells.count(), 0.0f); // samples per texel that a cell took, 0: not fitted yet
     // Fits the wanted cells and those beside sides that change; which these were.
     const auto fit_cells = [&](std::vector<bool> now, double density) {
         std::vector<bool> changed = now;
-        for (int round = 0; round < 8; ++round) {
+        for (;;) {
             std::vector<char> too_coarse(cells.count(), 0);
             for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
                 CellFitter fitter(surface, blend, cells);
                 for (auto c = std::uint32_t(begin); c < end; ++c) {
                     if (!now[c]) continue;
-                    PatchRates sides;
-                    sides.sides = complex.patches[c].sides();
-                    for (int i = 0; i < sides.sides; ++i) sides.side[i] = plan.rates.edge[complex.patches[c].edge[i]];
-                    const CellFitter::Fit fit = fitter.fit(c, sides, aim, most, density);
+                    PatchRates start{.sides = complex.patches[c].sides(), .across = plan.rates.across[c], .up = plan.rates.up[c]};
+                    for (int i = 0; i < start.sides; ++i) start.side[i] = plan.rates.edge[complex.patches[c].edge[i]];
+                    const CellFitter::Fit fit = fitter.fit(c, start, aim, most, std::max(density, double(dense[c])), dense[c] > 0);
                     plan.rates.across[c] = std::uint16_t(fit.across), plan.rates.up[c] = std::uint16_t(fit.up);
+                    dense[c] = float(fit.density);
                     too_coarse[c] = fit.sides_too_coarse;
                 }
             });
-            std::vector<bool> finer(complex.edges, false);
-            bool any = false;
+            std::vector<std::uint16_t> finer(plan.rates.edge);
             for (std::uint32_t c = 0; c < cells.count(); ++c) {
                 if (!too_coarse[c]) continue;
-                // Sides coarser than the lattice, or all where there are none.
-                bool found = false;
-                for (const bool all : {false, true}) {
-                    for (int i = 0; i < complex.patches[c].sides() && !found; ++i) {
-                        const std::uint32_t e = complex.patches[c].edge[i];
-                        const std::uint32_t lattice = i % 2 == 0 ? plan.rates.across[c] : plan.rates.up[c];
-                        if (plan.rates.edge[e] < most && (all || plan.rates.edge[e] < lattice)) finer[e] = any = true;
-                    }
-                    for (int i = 0; i < complex.patches[c].sides(); ++i) found |= finer[complex.patches[c].edge[i]];
+                for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                    std::uint16_t& rate = finer[complex.patches[c].edge[i]];
+                    rate = std::max(rate, i % 2 == 0 ? plan.rates.across[c] : plan.rates.up[c]);
+                }
+            }
+            bool any = false;
+            for (std::uint32_t c = 0; c < cells.count(); ++c) {
+                now[c] = false;
+                for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                    const std::uint32_t e = complex.patches[c].edge[i];
+                    if (finer[e] > plan.rates.edge[e]) now[c] = changed[c] = any = true;
                 }
             }
             if (!any) break;
-            for (std::uint32_t e = 0; e < complex.edges; ++e)
-                if (finer[e]) plan.rates.edge[e] = std::uint16_t(std::min(most, plan.rates.edge[e] + std::max(1u, plan.rates.edge[e] / 3u)));
-            for (std::uint32_t c = 0; c < cells.count(); ++c) {
-                now[c] = false;
-                for (int i = 0; i < complex.patches[c].sides(); ++i)
-                    if (finer[complex.patches[c].edge[i]]) now[c] = changed[c] = true;
-            }
+            plan.rates.edge = std::move(finer);
         }
         return changed;
     };
     std::vector<bool> wanted(cells.count(), true);
-    for (double density = 1; density <= 8; density *= 2) {
-        const std::vector<bool> changed = fit_cells(wanted, density);
+    for (int round = 0; round < 12; ++round) {
+        const std::vector<bool> changed = fit_cells(wanted, std::exp2(std::min(round, 3)));
         cut_poles_as_cells(complex, plan.rates);
         // What the samples did not show is measured, and fitted again among more of them.
         std::vector<char> failed(cells.count(), 0);
@@ -336,7 +335,8 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
             for (auto c = std::uint32_t(begin); c < end; ++c)
                 if (changed[c]) failed[c] = fitter.error(c, rates_of_cell(cells, plan.rates, c)) > rates.error;
         });
-        wanted.assign(failed.begin(), failed.end());
+        for (std::uint32_t c = 0; c < cells.count(); ++c)
+            wanted[c] = failed[c] && (plan.rates.across[c] < most || plan.rates.up[c] < most);
         if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
         aim *= 0.8;
     }

@@ -17,18 +17,23 @@ template <class Number> MeetingTable gather(const PatchComplex& complex, std::ve
     table.of = std::move(of);
     const auto each = [&](const auto& visit) {
         for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
-            for (int i = 0; i < complex.patches[p].sides(); ++i) {
+            for (int i = 0; i < complex.patches[p].sides() && !is_collapsed(complex.patches[p]); ++i) {
                 const std::uint32_t n = number(complex.patches[p], i);
                 if (n != no_index && table.of[n] != no_index) visit(table.meetings[table.of[n]], p, i);
             }
     };
     each([](Meeting& m, std::uint32_t, int) { ++m.last; });
     std::uint32_t sides = 0;
+    std::size_t kept = 0;
     for (Meeting& m : table.meetings) {
         const std::uint32_t count = m.last;
         m.first = m.last = sides;
         sides += count;
+        // What only collapsed patches have is plain.
+        table.of[m.which] = count == 0 ? no_index : std::uint32_t(kept);
+        if (count > 0) table.meetings[kept++] = m;
     }
+    table.meetings.resize(kept);
     table.sides.resize(sides);
     each([&](Meeting& m, std::uint32_t p, int i) {
         table.sides[m.last++] = {p, std::uint8_t(i), complex.patches[p].reversed[i], 0, 0};
@@ -122,7 +127,7 @@ MeetingTable vertex_meetings(const PatchComplex& complex) {
     for (std::uint32_t v = 0; v < complex.vertices; ++v)
         if (complex.sharp_vertex[v]) of[v] = 0;
     for (const PatchComplex::Patch& patch : complex.patches)
-        for (int i = 0; i < patch.sides(); ++i)
+        for (int i = 0; i < patch.sides() && !is_collapsed(patch); ++i)
             if (is_point(patch, i) || complex.seam[patch.edge[i]] || complex.crease[patch.edge[i]])
                 of[patch.vertex[i]] = of[patch.vertex[(i + 1) % patch.sides()]] = 0;
     MeetingTable table = gather(complex, std::move(of), [](const PatchComplex::Patch& p, int i) { return p.vertex[i]; });

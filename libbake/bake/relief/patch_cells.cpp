@@ -62,7 +62,14 @@ void PatchCells::refine() {
             return patch.edge[side] * K + (patch.reversed[side] ? K - 1 - k : k);
         };
         const std::uint32_t first_vertex = next_vertex, first_edge = next_edge;
-        if (sides == 4) {
+        if (is_collapsed(patch)) {
+            // Its cells are points: they hold the place of what is numbered by patch.
+            for (std::uint32_t c = 0; c < K * K; ++c, next_edge += 4) {
+                PatchComplex::Patch cell{{patch.vertex[0], patch.vertex[0], patch.vertex[0], no_index}, {next_edge, next_edge + 1, next_edge + 2, no_index}, {}, patch.face};
+                if (sides == 4) cell.vertex[3] = patch.vertex[0], cell.edge[3] = next_edge + 3;
+                out.patches.push_back(cell);
+            }
+        } else if (sides == 4) {
             next_vertex += (K - 1) * (K - 1), next_edge += 2 * K * (K - 1);
             const auto vertex = [&](std::uint32_t i, std::uint32_t j) {
                 if (j == 0) return side_vertex(0, i);
@@ -135,15 +142,48 @@ namespace {
 template <class Number>
 std::vector<std::uint32_t> lowest(const PatchComplex& complex, std::uint32_t count, const Number& number) {
     std::vector<std::uint32_t> owner(count, no_index);
-    for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
+    bool collapsed = false;
+    const auto claim = [&](std::uint32_t p) {
         for (int i = 0; i < complex.patches[p].sides(); ++i) {
             std::uint32_t& o = owner[number(complex.patches[p], i)];
             if (o == no_index) o = 4 * p + std::uint32_t(i);
         }
+    };
+    for (std::uint32_t p = 0; p < complex.patches.size(); ++p) {
+        if (is_collapsed(complex.patches[p])) collapsed = true;
+        else claim(p);
+    }
+    for (std::uint32_t p = 0; p < complex.patches.size() && collapsed; ++p)
+        if (is_collapsed(complex.patches[p])) claim(p);
     return owner;
 }
 
 } // namespace
+
+bool is_collapsed(const PatchComplex::Patch& patch) noexcept {
+    const int sides = patch.sides();
+    bool suspicious = false;
+    for (int i = 0; i < sides; ++i)
+        for (int j = 0; j < i; ++j) suspicious |= patch.edge[i] == patch.edge[j];
+    for (int i = 0; i < sides; ++i) suspicious |= is_point(patch, i);
+    if (!suspicious) return false;
+    int left[4], count = 0;
+    for (int i = 0; i < sides; ++i)
+        if (!is_point(patch, i)) left[count++] = i;
+    for (bool cancelled = true; cancelled && count > 1;) {
+        cancelled = false;
+        for (int k = 0; k < count && !cancelled; ++k) {
+            const int next = (k + 1) % count;
+            if (patch.edge[left[k]] != patch.edge[left[next]] || patch.reversed[left[k]] == patch.reversed[left[next]]) continue;
+            int kept = 0;
+            for (int m = 0; m < count; ++m)
+                if (m != k && m != next) left[kept++] = left[m];
+            count = kept;
+            cancelled = true;
+        }
+    }
+    return count == 0;
+}
 
 std::vector<std::uint32_t> edge_owners(const PatchComplex& complex) {
     return lowest(complex, complex.edges, [](const PatchComplex::Patch& p, int i) { return p.edge[i]; });

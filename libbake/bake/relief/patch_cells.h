@@ -32,7 +32,7 @@ private:
     PatchComplex refined_;
 };
 
-/// Per edge of a complex the lowest patch on it, which answers for the points there: 4 patch + side.
+/// Per edge of a complex the lowest patch on it (collapsed ones last), which answers for the points there: 4 patch + side.
 std::vector<std::uint32_t> edge_owners(const PatchComplex& complex);
 /// Per vertex: 4 patch + corner.
 std::vector<std::uint32_t> vertex_owners(const PatchComplex& complex);
@@ -41,5 +41,9 @@ std::vector<std::uint32_t> vertex_owners(const PatchComplex& complex);
 inline bool is_point(const PatchComplex::Patch& patch, int side) noexcept {
     return patch.vertex[side] == patch.vertex[(side + 1) % patch.sides()];
 }
+
+/// Sides with a length cancel against neighbours: a triangle a a b, a quad a a b b or a b c b. There is nothing of it to
+/// see; the faces beside it hang together without it.
+bool is_collapsed(const PatchComplex::Patch& patch) noexcept;
 
 } // namespace bake

@@ -56,7 +56,40 @@ struct LimitBase {
     bool quarters = false;             ///< every quad of the cage is four patches
     std::vector<std::uint32_t> limit;  ///< patches: that of the surface it lies in
     std::vector<std::uint8_t> corner;  ///< patches: 0 for a whole one, 1 + k for the quarter at corner k
+    std::vector<std::uint8_t> extraordinary = {}; ///< patches: bit k for corner k
 };
+
+/// Which corners of the patches are inner vertices of another number of patches than a regular lattice has.
+std::vector<std::uint8_t> extraordinary_corners(const PatchComplex& complex) {
+    std::vector<std::uint8_t> edge_patches(complex.edges, 0);
+    for (const PatchComplex::Patch& patch : complex.patches)
+        for (int k = 0; k < patch.sides(); ++k) edge_patches[patch.edge[k]] = std::uint8_t(std::min(edge_patches[patch.edge[k]] + 1, 2));
+    std::vector<std::uint32_t> valence(complex.vertices, 0);
+    std::vector<bool> inner(complex.vertices, true);
+    for (const PatchComplex::Patch& patch : complex.patches)
+        for (int k = 0; k < patch.sides(); ++k) {
+            ++valence[patch.vertex[k]];
+            if (edge_patches[patch.edge[k]] == 2) continue;
+            inner[patch.vertex[k]] = inner[patch.vertex[(k + 1) % patch.sides()]] = false;
+        }
+    std::vector<std::uint8_t> corners(complex.patches.size(), 0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const PatchComplex::Patch& patch = complex.patches[i];
+        const std::uint32_t regular = patch.sides() == 4 ? 4 : 6;
+        for (int k = 0; k < patch.sides(); ++k)
+            if (inner[patch.vertex[k]] && valence[patch.vertex[k]] != regular) corners[i] |= std::uint8_t(1 << k);
+    }
+    return corners;
+}
+
+constexpr Vec2d quad_corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle_corners[] = {{0, 0}, {1, 0}, {0, 1}};
+
+/// The corners among these places that are extraordinary vertices say so.
+void mark_extraordinary(std::uint8_t corners, bool quad, const Vec2d& st, SurfacePoint& point) noexcept {
+    if (corners == 0) return;
+    for (int k = 0; k < (quad ? 4 : 3); ++k)
+        if (corners >> k & 1 && st == (quad ? quad_corners[k] : triangle_corners[k])) point.curved = false;
+}
 
 /// The quarter at corner k of a quad: st = origin + s along_s + t along_t.
 struct Quarter {
@@ -124,7 +157,7 @@ LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, P
 /// rounding; the normal there is what it tends to from the inside of the patch.
 SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Jet2<double> s{limit.p, limit.p_s, limit.p_t, limit.p_ss, limit.p_st, limit.p_tt};
-    SurfacePoint point{jet_of(s), limit.uv, limit.uv_s, limit.uv_t};
+    SurfacePoint point{.jet = jet_of(s), .uv = limit.uv, .uv_s = limit.uv_s, .uv_t = limit.uv_t};
     const double area = glm::length(glm::cross(s.p_u, s.p_v)), square = glm::length(s.p_u) * glm::length(s.p_v);
     if (area > 1e-5 * square) return point; // the limit is right to a tenth of that
     const Vec3d along_s = glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv);
@@ -146,7 +179,8 @@ void turn(const Quarter& q, SurfacePoint& point) noexcept {
     along(point.uv_s, point.uv_t);
 }
 
-void evaluate(const LimitBase& base, std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) noexcept {
+void evaluate(const LimitBase& base, bool quad, std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) noexcept {
+    const std::uint8_t extraordinary = base.extraordinary.empty() ? 0 : base.extraordinary[patch];
     const Quarter* quarter = base.corner[patch] == 0 ? nullptr : &quarter_at[base.corner[patch] - 1];
     LimitPoint points[chunk];
     Vec2d turned[chunk];
@@ -161,6 +195,7 @@ void evaluate(const LimitBase& base, std::uint32_t patch, std::span<const Vec2d>
         for (std::size_t i = 0; i < places.size(); ++i) {
             out[done + i] = point_of(points[i], places[i]);
             if (quarter) turn(*quarter, out[done + i]);
+            mark_extraordinary(extraordinary, quad, st[done + i], out[done + i]);
         }
     }
 }
@@ -186,7 +221,7 @@ void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d>
     for (std::size_t i = 0; i < st.size(); ++i) {
         const Vec2d uv((cell % base.columns + st[i].x) / base.columns, (cell / base.columns + st[i].y) / base.rows);
         SurfacePoint& point = out[i];
-        point = {base.shape.jet(uv.x, uv.y, int(patch) / cells), uv, {du, 0}, {0, dv}};
+        point = {.jet = base.shape.jet(uv.x, uv.y, int(patch) / cells), .uv = uv, .uv_s = {du, 0}, .uv_t = {0, dv}};
         point.jet.p_u *= du, point.jet.n_u *= du;
         point.jet.p_v *= dv, point.jet.n_v *= dv;
         if (point.jet.n == Vec3d(0)) point.jet.n = base.shape.side_normal(uv.x, uv.y, int(patch) / cells);
@@ -212,13 +247,14 @@ void BaseSurface::Base::hang_together(Patches patches) {
         for (auto i = begin; i < end; ++i) {
             SurfacePoint points[8];
             const std::span<const Vec2d> places(patches[i].sides() == 4 ? quad : triangle, 8);
-            if (const auto* limit = std::get_if<LimitBase>(&kind)) bake::evaluate(*limit, std::uint32_t(i), places, points);
+            if (const auto* limit = std::get_if<LimitBase>(&kind)) bake::evaluate(*limit, patches[i].sides() == 4, std::uint32_t(i), places, points);
             if (const auto* shape = std::get_if<ShapeBase>(&kind)) bake::evaluate(*shape, std::uint32_t(i), places, points);
             for (int k = 0; k < 8; ++k) values[8 * i + k] = {Vec3f(points[k].jet.n), points[k].uv};
         }
     });
     const auto rim = [&](std::uint32_t patch, int k) { return values[8 * std::size_t(patch) + k]; };
     complex = make_complex(std::move(patches), rim, true, 1e-7); // uvs are floats near 1
+    if (auto* limit = std::get_if<LimitBase>(&kind)) limit->extraordinary = extraordinary_corners(complex);
 }
 
 BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
@@ -256,7 +292,8 @@ const PatchComplex& BaseSurface::complex() const noexcept { return base_->comple
 
 void BaseSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept {
     if (const auto* mesh = std::get_if<MeshBase>(&base_->kind)) bake::evaluate(*mesh, patch, st, out);
-    if (const auto* limit = std::get_if<LimitBase>(&base_->kind)) bake::evaluate(*limit, patch, st, out);
+    if (const auto* limit = std::get_if<LimitBase>(&base_->kind))
+        bake::evaluate(*limit, base_->complex.patches[patch].sides() == 4, patch, st, out);
     if (const auto* shape = std::get_if<ShapeBase>(&base_->kind)) bake::evaluate(*shape, patch, st, out);
 }
 
@@ -270,7 +307,11 @@ void BaseSurface::evaluate_lattice(std::uint32_t patch, int rate, std::span<Surf
         for (int j = 0; j <= rate; ++j) {
             const int last = quad ? rate : rate - j;
             limit->surface.evaluate_rows(limit->limit[patch], rate, j, j + 1, Derivatives::second, row);
-            for (int i = 0; i <= last; ++i) out[at++] = point_of(row[std::size_t(i)], {double(i) / rate, double(j) / rate});
+            for (int i = 0; i <= last; ++i, ++at) {
+                const Vec2d st(double(i) / rate, double(j) / rate);
+                out[at] = point_of(row[std::size_t(i)], st);
+                mark_extraordinary(limit->extraordinary[patch], quad, st, out[at]);
+            }
         }
         return;
     }

@@ -40,7 +40,7 @@ SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const V
     SurfaceValues values = surface_values(point, has_uv);
     const SurfaceSample sample{Vec3f(values.n), float(glm::length(values.p_u)), float(glm::length(values.p_v)),
                                float(values.mean_curvature), float(values.gauss_curvature), values.degenerate};
-    if (values.degenerate == Degenerate::none || values.degenerate == Degenerate::no_chart) return sample;
+    if (point.curved && (values.degenerate == Degenerate::none || values.degenerate == Degenerate::no_chart)) return sample;
     const bool quad = surface.complex().patches[patch].sides() == 4;
     const Vec2d middle(quad ? 0.5 : 1 / 3.0), inside = st + (middle - st) / 1024.0;
     SurfacePoint near;
