@@ -1,4 +1,5 @@
 // Rates that follow the relief and the camera.
+#include "cli/command.h"
 #include "relief/displace_meshes.h"
 
 using namespace bake;
@@ -81,6 +82,32 @@ TEST_CASE("displace: without relief, rates by error follow the curvature of the 
         // One quad along the height for each around, and not much more.
         CHECK(double(out.report.triangles) >= 2 * around);
         CHECK(double(out.report.triangles) <= 2.5 * around + 16);
+    }
+}
+
+} // TEST_SUITE
+
+TEST_SUITE("real") {
+
+TEST_CASE("displace: rates by error keep it on real heights, with two thirds of a uniform rate's triangles and fewer") {
+    const auto pairs = shared_data() / "textures" / "pairs";
+    if (shared_data().empty()) {
+        MESSAGE("no shared data: skipped");
+        return;
+    }
+    for (const std::string file : {"ambientcg_Rock020/Rock020_1K_Displacement.jpg", "ambientcg_Tiles036/Tiles036_1K_Displacement.jpg",
+                                   "cube2_metal_tech_01/metal_tech_01_hm.png", "bevy_parallax_cube/cube_depth.png"}) {
+        CAPTURE(file);
+        Image<float> values = box_minify(read_height((pairs / file).string()).values, 96, 96);
+        const auto [low, high] = std::minmax_element(values.data(), values.data() + values.size());
+        const double amplitude = 0.05 / double(*high - *low);
+        const Relief height = relief(std::move(values), amplitude);
+        const HeightSampler<float> sampler(height.values, height.interpolation, height.height);
+        const Displaced out = displace(BaseSurface(sheet()), height, by_error(0.005)); // a tenth of the range
+        CHECK(out.report.error_max <= 0.005);
+        CHECK(error_over_plane(out.mesh, [&](double u, double v) { return sampler.sample(u, v).b; }) <= 1.05 * 0.005); // denser than measured
+        CHECK(out.report.triangles * 3 < out.report.uniform_triangles * 2);
+        check_sound(out.mesh);
     }
 }
 

@@ -99,7 +99,7 @@ void CellFitter::sample(std::uint32_t cell, double finer) {
     const std::uint32_t number = cells_.patch(cell);
     samples_.quad = cells_.complex().patches[cell].sides() == 4;
     const auto count = [&](const Vec2d& from, const Vec2d& to) {
-        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 16 * finer, 1024.0));
+        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, 1024.0));
     };
     if (samples_.quad) {
         samples_.across = count(cells_.at(cell, 0, 2, 1, 2), cells_.at(cell, 2, 2, 1, 2));
@@ -208,25 +208,31 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, dou
     for (double finer = density;; finer *= 2) {
         sample(cell, finer);
         PatchRates rates = again ? start : first_try(start, error, most);
-        std::uint32_t enough_inside = 0; // the rate from which on only faces along the border are too far
-        int tries = 0;
-        for (;;) {
+        PatchRates failed = rates, inside_fits = rates; // inside_fits: only faces along the border are too far
+        bool tried = false, inside = false;
+        for (int attempt = 0;; ++attempt) {
             // Samples must be denser than faces to say anything.
-            if (finer < 64 && std::max(rates.across * 2 > samples_.across, rates.up * 2 > samples_.up) && samples_.across < 1024 && samples_.up < 1024) break;
+            if (finer < 64 && (rates.across * 2 > samples_.across || rates.up * 2 > samples_.up) && samples_.across < 1024 && samples_.up < 1024) break;
             const Misfit found = misfit(cell, fitted(rates), error);
-            if (!found.any()) return {rates.across, rates.up, false, finer};
-            if (!found.inside && enough_inside == 0) enough_inside = std::max(rates.across, rates.up);
-            // Along the border a finer lattice helps up to a point; then coarser sides must follow.
-            bool coarser_side = false;
-            for (int i = 0; i < rates.sides; ++i) coarser_side |= rates.side[i] < (i % 2 == 0 ? rates.across : rates.up);
-            const bool beyond = enough_inside && std::max(rates.across, rates.up) > enough_inside + enough_inside / 3 + 1;
+            if (!found.any()) {
+                // Steps are large: half of the last one may do.
+                PatchRates less = rates;
+                less.across = (failed.across + rates.across) / 2, less.up = (failed.up + rates.up) / 2;
+                if (tried && (less.across < rates.across || less.up < rates.up) && !misfit(cell, fitted(less), error).any()) rates = less;
+                return {rates.across, rates.up, false, finer};
+            }
+            failed = rates, tried = true;
+            if (!found.inside && !inside) inside_fits = rates, inside = true;
             if (rates.across >= most && rates.up >= most) return {rates.across, rates.up, false, finer};
-            if (beyond && coarser_side) return {rates.across, rates.up, true, finer};
+            // Along the border a finer lattice helps a little; then coarser sides must follow.
+            bool coarser_side = false;
+            for (int i = 0; i < rates.sides; ++i) coarser_side |= rates.side[i] < (i % 2 == 0 ? inside_fits.across : inside_fits.up);
+            if (inside && coarser_side && rates.across + rates.up > inside_fits.across + inside_fits.up)
+                return {inside_fits.across, inside_fits.up, true, finer};
             const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
             // Where one row is enough along the lines, the other direction is tried first; points inside need both.
-            const int attempt = tries++;
             if (rates.across > 1 || rates.up == 1 || attempt >= 3) rates.across = finer_rate(rates.across);
-            if (rates.up > 1 || rates.across == 1 || attempt >= 3) rates.up = finer_rate(rates.up);
+            if (rates.up > 1 || failed.across == 1 || attempt >= 3) rates.up = finer_rate(rates.up);
         }
     }
 }
@@ -244,6 +250,13 @@ std::uint32_t CellFitter::uniform(std::uint32_t cell, std::uint32_t least, doubl
 }
 
 constexpr std::int64_t cells_per_job = 8;
+
+/// Of a cell, by Euler's formula: quads as two.
+std::uint64_t triangles_of(const PatchRates& r) noexcept {
+    std::uint64_t border = 0;
+    for (int i = 0; i < r.sides; ++i) border += r.side[i];
+    return 2 * std::uint64_t(inner_points(r)) + border - 2;
+}
 
 /// Each from its own points alone; at seams from those of every side.
 std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells, double error,
@@ -273,14 +286,23 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
 
 } // namespace
 
-RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
-    if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
-    std::uint32_t most = std::uint32_t(std::clamp(rates.most, 1, 65535));
+namespace {
+
+struct Attempt {
+    RatePlan plan;
+    std::uint64_t triangles = 0;
+    bool within = false; ///< no cell would need more than `most`
+};
+
+/// A plan of that many cells along a patch; gives up once it has more triangles than `enough`.
+Attempt plan_with_split(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split, std::uint64_t enough) {
     // Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
     double aim = 0.85 * rates.error;
-    RatePlan plan;
-    plan.split = choose_split(surface, blend, aim, most);
-    most = std::max(1u, most / plan.split); // of a cell
+    Attempt out;
+    RatePlan& plan = out.plan;
+    plan.split = split;
+    const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
+    const std::uint32_t most = std::clamp(4 * limit / split, 1u, limit); // of a cell
     const PatchCells cells(surface.base().complex(), plan.split);
     const PatchComplex& complex = cells.complex();
     plan.rates.edge = edge_rates(surface, blend, cells, aim, most);
@@ -337,10 +359,30 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
         });
         for (std::uint32_t c = 0; c < cells.count(); ++c)
             wanted[c] = failed[c] && (plan.rates.across[c] < most || plan.rates.up[c] < most);
-        if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
-        aim *= 0.8;
+        out.triangles = 0;
+        for (std::uint32_t c = 0; c < cells.count(); ++c) out.triangles += triangles_of(rates_of_cell(cells, plan.rates, c));
+        out.within = std::find(failed.begin(), failed.end(), 1) == failed.end();
+        if (out.triangles > enough || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
+        aim = std::max(0.8 * aim, 0.5 * rates.error);
     }
-    return plan;
+    return out;
+}
+
+} // namespace
+
+RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
+    if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
+    // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
+    const auto patches = std::uint64_t(surface.base().complex().patches.size());
+    std::uint32_t split = choose_split(surface, blend, 0.85 * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
+    Attempt best = plan_with_split(surface, blend, rates, split, ~std::uint64_t(0));
+    while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best.triangles) {
+        split *= 2;
+        Attempt next = plan_with_split(surface, blend, rates, split, best.within ? best.triangles : ~std::uint64_t(0));
+        if (next.within != best.within ? best.within : next.triangles > best.triangles) break;
+        best = std::move(next);
+    }
+    return std::move(best.plan);
 }
 
 std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most) {

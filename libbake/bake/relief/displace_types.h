@@ -42,7 +42,7 @@ struct Rates {
     /// of a camera makes it pixels.
     std::function<double(const Vec3d&, const Vec3d&)> measure;
     double error = 0;
-    int most = 1024; ///< segments an edge is never cut into more than
+    int most = 1024; ///< segments an edge is never cut into more than; by error four times as many where only a part needs them
 };
 
 struct DisplaceOptions {
