@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/asset/mesh_io.h"
 #include "bake/base/error.h"
+#include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -67,8 +68,15 @@ inline Outcome outcome_of_text(const std::string& name, const std::string& bytes
     return outcome_of(folder.write(name, bytes));
 }
 
+inline bool same_attributes(const bake::Mesh& a, const bake::Mesh& b) {
+    return std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      [](const bake::Attribute& x, const bake::Attribute& y) {
+                          return x.name == y.name && x.components == y.components && x.values == y.values;
+                      });
+}
+
 inline bool same_mesh(const bake::Mesh& a, const bake::Mesh& b) {
-    return a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs && a.face_begin == b.face_begin &&
+    return same_attributes(a, b) && a.tangents == b.tangents && a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs && a.face_begin == b.face_begin &&
            a.corner_position == b.corner_position && a.corner_normal == b.corner_normal && a.corner_uv == b.corner_uv &&
            a.materials == b.materials && a.groups == b.groups && a.face_material == b.face_material &&
            a.face_group == b.face_group;

@@ -164,7 +164,7 @@ TEST_SUITE("unit") {
         CHECK(outcome_of(folder.file("pipe.ply")).reason.find("not a regular file") != std::string::npos);
         const Outcome off = outcome_of(folder.write("a.off", "OFF\n"));
         CHECK(off.code == 3);
-        CHECK(off.reason.find(".obj or .ply") != std::string::npos);
+        CHECK(off.reason.find(".obj, .ply, .gltf or .glb") != std::string::npos);
         CHECK(outcome_of(folder.write("points.obj", "v 1 2 3\n")).code == 4);
         CHECK(outcome_of(folder.write("empty.obj", "")).code == 4);
         CHECK(outcome_of(folder.write("T.OBJ", square + "f 1 2 3")).code == 0);
@@ -220,7 +220,8 @@ TEST_SUITE("stability") {
     TEST_CASE("read_mesh: our own meshes in trouble are read whole or refused with their line") {
         const auto folder = source_folder() / "meshes/trouble";
         for (const char* name : {"mirrored_uvs", "overlapping_uvs", "nonmanifold_edge", "zero_area_face", "missing_uvs",
-                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge"}) {
+                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge", "nonmanifold_vertex", "flipped_face",
+                                 "duplicate_face", "crease_without_edge"}) {
             const auto path = folder / (std::string(name) + ".obj");
             CHECK_MESSAGE(read_mesh(path.string()).faces() == lines_of_word(path, "f"), name);
         }
@@ -229,6 +230,8 @@ TEST_SUITE("stability") {
         CHECK(outcome_of(folder / "index_zero.obj").reason.substr(0, 17) == "index_zero.obj:5:");
         CHECK(outcome_of(folder / "index_out_of_range.obj").reason.substr(0, 25) == "index_out_of_range.obj:5:");
         CHECK(outcome_of(folder / "cut_short.ply").reason.find("cut short") != std::string::npos);
+        CHECK(outcome_of(folder / "looped_nodes.gltf").reason.find("its node 0 is met twice") != std::string::npos);
+        CHECK(outcome_of(folder / "index_out_of_range.gltf").reason.find("has index 3 of 3 positions") != std::string::npos);
         CHECK(outcome_of(folder / "huge_counts.ply").reason.find("4000000000 rows of 'vertex'") != std::string::npos);
     }
 

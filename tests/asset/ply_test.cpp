@@ -198,6 +198,52 @@ TEST_SUITE("unit") {
         CHECK(back.positions.size() == 5); // 3 twice, by its uvs; the unused position is dropped
     }
 
+    TEST_CASE("read_mesh: floats of vertices by names of their own are attributes, tx ty tz tw tangents, integers neither") {
+        const std::string header =
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float quality\nproperty float x\nproperty float y\n"
+            "property float z\nproperty uchar red\nproperty float tx\nproperty float ty\nproperty float tz\nproperty float tw\n"
+            "property double flow_0\nproperty double flow_1\nproperty float lone_0\nproperty list uchar float weights\n"
+            "property float nx\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        const Mesh mesh = read_text("t.ply", header + "7 0 0 0 255 1 0 0 1 .5 .25 3 1 9 0\n8 1 0 0 255 0 1 0 -1 1 2 4 0 0\n"
+                                                      "9 0 1 0 255 0 0 1 1 0 0 5 2 1 1 1\n3 2 0 1\n");
+        CHECK(mesh.tangents == std::vector<Vec4f>{{0, 0, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, -1}});
+        REQUIRE(mesh.attributes.size() == 4);
+        const auto is = [&](std::size_t i, const std::string& name, int components, const std::vector<float>& values) {
+            CHECK(mesh.attributes[i].name == name);
+            CHECK(mesh.attributes[i].components == components);
+            CHECK(mesh.attributes[i].values == values);
+        };
+        is(0, "quality", 1, {9, 7, 8}); // per corner, in the order of the face
+        is(1, "flow", 2, {0, 0, .5f, .25f, 1, 2});
+        is(2, "lone_0", 1, {5, 3, 4});
+        is(3, "nx", 1, {1, 0, 0}); // no normal without ny and nz
+        const std::string row = "7 0 0 0 255 1 0 0 1 nan .25 3 1 9 0\n";
+        CHECK(refusal(header + row + row + row + "3 0 1 2\n").find("'nan' is not a finite") != std::string::npos);
+    }
+
+    TEST_CASE("write_mesh: a PLY keeps tangents and attributes, whose seams split its vertices") {
+        Mesh mesh = read_text("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+        mesh.tangents.assign(6, Vec4f(1, 0, 0, 1));
+        mesh.attributes = {{"mean_curvature", 1, {1, 2, 3, 1, 3, 4}}, {"x", 3, std::vector<float>(18, 0.5f)}};
+        const TemporaryFolder folder;
+        write_mesh(folder.file("a.ply"), mesh);
+        Mesh back = read_mesh(folder.file("a.ply"));
+        CHECK(back.positions.size() == 4);
+        REQUIRE(back.attributes.size() == 2);
+        CHECK(back.attributes[1].name == "_x"); // x is taken
+        back.attributes[1].name = "x";
+        CHECK(same_mesh(back, mesh));
+
+        mesh.tangents[3].w = -1; // a mirrored seam through the first position
+        mesh.attributes[0].values[4] = 5;
+        write_mesh(folder.file("a.ply"), mesh);
+        back = read_mesh(folder.file("a.ply"));
+        CHECK(back.positions.size() == 6);
+        CHECK(same_corners(back, mesh));
+        CHECK(back.tangents == mesh.tangents);
+        CHECK(back.attributes[0].values == mesh.attributes[0].values);
+    }
+
     TEST_CASE("write_mesh: a PLY of a face with more than 255 corners reads back") {
         std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
         for (int i = 0; i < 300; ++i) text += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";

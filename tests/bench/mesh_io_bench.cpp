@@ -1,7 +1,7 @@
-// Seconds of read_mesh, beside the limit: one plain read of the same bytes by the same threads, in turn in one run.
+// Seconds of read_mesh and write_mesh, beside the limit: one plain read or write of the same bytes, in turn in one run.
 //
-//   mesh_io_bench FILE [repeats]                        median of each, MB/s, their ratio
-//   mesh_io_bench --make-quads N OUT [--no-normals]     a wavy grid of about N quads, as .obj or .ply
+//   mesh_io_bench FILE [repeats]                                 median of each, MB/s, their ratio
+//   mesh_io_bench --make-quads N OUT [--no-normals] [repeats]    a wavy grid of about N quads, by OUT's ending
 //
 // The error column of a reader is 0 by test: every number is the float nearest to its text (tests/asset/mesh_io_test).
 #include "bake/asset/mesh_io.h"
@@ -16,10 +16,19 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
 using namespace bake;
+
+/// Of all threads: what a run takes whatever else the machine does.
+double processor_seconds() {
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
 
 template <class F> double seconds_of(F&& f) {
     const auto start = std::chrono::steady_clock::now();
@@ -77,6 +86,37 @@ Mesh wavy_grid(std::size_t quads, bool normals) {
     return mesh;
 }
 
+/// Writes the file's bytes once more, from memory, in blocks: what cp does.
+void plain_write(const std::string& path, const std::vector<char>& bytes) {
+    std::FILE* const out = std::fopen(path.c_str(), "wb");
+    for (std::size_t at = 0; at < bytes.size(); at += 1 << 20)
+        std::fwrite(&bytes[at], 1, std::min<std::size_t>(1 << 20, bytes.size() - at), out);
+    std::fclose(out);
+}
+
+void measure_write(const Mesh& mesh, const std::string& path, int repeats) {
+    std::vector<double> write, limit, processor;
+    std::vector<char> bytes;
+    for (int i = 0; i < repeats; ++i) {
+        const double before = processor_seconds();
+        write.push_back(seconds_of([&] { write_mesh(path, mesh); }));
+        processor.push_back(processor_seconds() - before);
+        if (bytes.empty()) {
+            bytes.resize(std::filesystem::file_size(path));
+            std::FILE* const in = std::fopen(path.c_str(), "rb");
+            if (std::fread(bytes.data(), 1, bytes.size(), in) != bytes.size()) std::abort();
+            std::fclose(in);
+        }
+        limit.push_back(seconds_of([&] { plain_write(path + ".copy", bytes); }));
+        std::filesystem::remove(path + ".copy");
+    }
+    const double mega = 1e-6 * static_cast<double>(bytes.size());
+    std::printf("%s: %.1f MB, %zu faces, %d threads, median of %d\n", path.c_str(), mega, mesh.faces(), thread_count(), repeats);
+    std::printf("write_mesh   %8.4f s  %8.0f MB/s  (%.4f s of processors)\n", median(write), mega / median(write), median(processor));
+    std::printf("plain write  %8.4f s  %8.0f MB/s  (the limit; ratio %.1f)\n", median(limit), mega / median(limit),
+                median(write) / median(limit));
+}
+
 void measure(const char* path, int repeats) {
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
     std::vector<double> read, limit, split;
@@ -105,16 +145,15 @@ int main(int argc, char** argv) {
         if (argc >= 4 && std::strcmp(argv[1], "--make-quads") == 0) {
             const bool normals = argc < 5 || std::strcmp(argv[4], "--no-normals") != 0;
             const Mesh mesh = wavy_grid(static_cast<std::size_t>(std::atoll(argv[2])), normals);
-            const double seconds = seconds_of([&] { write_mesh(argv[3], mesh); });
-            std::printf("write_mesh   %8.4f s  %8.0f MB/s\n", seconds,
-                        1e-6 * static_cast<double>(std::filesystem::file_size(argv[3])) / seconds);
+            const int repeats = std::atoi(argv[argc - 1]);
+            measure_write(mesh, argv[3], argc > 4 && repeats > 0 ? repeats : 1);
             return 0;
         }
         if (argc == 2 || argc == 3) {
             measure(argv[1], argc == 3 ? std::max(1, std::atoi(argv[2])) : 5);
             return 0;
         }
-        std::fprintf(stderr, "usage: mesh_io_bench FILE [repeats] | --make-quads N OUT [--no-normals]\n");
+        std::fprintf(stderr, "usage: mesh_io_bench FILE [repeats] | --make-quads N OUT [--no-normals] [repeats]\n");
         return 2;
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());

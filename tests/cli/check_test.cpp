@@ -99,7 +99,55 @@ TEST_SUITE("cli") {
     CHECK(folder.check("--pair a.png").code == 2);
 }
 
-TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
+    TEST_CASE("bake check --against: distances of two meshes, and exit 1 over --limit") {
+        const Folder folder;
+        const std::string low = folder.write("low.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+        const std::string high =
+            folder.write("high.obj", "v 0 0 .25\nv 1 0 .25\nv 1 1 .25\nv 0 1 .25\nf 1 2 3 4\n");
+        const Result plain = folder.check(low + " --against " + high);
+        CHECK(plain.code == 0);
+        CHECK(plain.out.find("low.obj against ") != std::string::npos);
+        CHECK(plain.out.find("hausdorff      0.25 to 0.25") != std::string::npos);
+        const Result over = folder.check("--json --limit 0.2 --against " + high + " " + low + " " + high);
+        CHECK(over.code == 1);
+        const auto json = nlohmann::json::parse(over.out);
+        REQUIRE(json["files"].size() == 2);
+        CHECK(json["files"][0]["kind"] == "distance");
+        CHECK(json["files"][0]["hausdorff"]["upper"] == 0.25);
+        CHECK(double(json["files"][0]["there"]["rms"]) == doctest::Approx(0.25));
+        CHECK(json["files"][0]["back"]["facet_normals_deg"]["max"] == 0);
+        CHECK(json["files"][0]["warnings"].size() == 1);
+        CHECK(double(json["files"][1]["hausdorff"]["upper"]) < 1e-15);
+        CHECK(folder.check("--limit 0.25 " + low + " --against " + high).code == 0);
+
+        CHECK(folder.check("--limit 0.1 " + low).code == 2);
+        CHECK(folder.check("--limit 0 " + low + " --against " + high).code == 2);
+        CHECK(folder.check("--against " + high).code == 2);
+        CHECK(folder.check("--audit " + low + " --against " + high).code == 2);
+        CHECK(folder.check(low + " --against " + folder.write("text.png", "not a mesh")).code == 3);
+        CHECK(folder.check(low + " --against " + (folder.path / "absent.obj").string()).code == 3);
+    }
+
+    TEST_CASE("bake check --audit: what cuts itself is told with its place") {
+        const Folder folder;
+        const std::string cross = folder.write("cross.obj", "v 0 0 0\nv 2 0 0\nv 1 2 0\nv 1 1 -1\nv 1 1 1\nv 1 3 0\n"
+                                                            "f 1 2 3\nf 4 5 6\n");
+        const Result r = folder.check("--audit " + cross);
+        CHECK(r.code == 0);
+        const auto json = nlohmann::json::parse(folder.check("--json --audit " + cross).out)["files"][0];
+        if (!json.contains("audit")) {
+            CHECK(r.out.find("no audit: this build has no CGAL") != std::string::npos);
+            return;
+        }
+        CHECK(json["audit"]["self_intersections"] == 1);
+        CHECK(json["audit"]["first_intersection"]["faces"] == nlohmann::json({0, 1}));
+        CHECK(json["audit"]["closed"] == false);
+        CHECK(r.out.find("1 self intersection, not closed (0 of 2 components are)") != std::string::npos);
+        CHECK(r.out.find("first in faces 0 and 1 near (1 1.5 0)") != std::string::npos);
+        CHECK(folder.check("--audit --strict " + cross).code == 1);
+    }
+
+    TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
         const fs::path data =
             fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
         if (!fs::exists(data)) {

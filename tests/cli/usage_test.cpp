@@ -21,7 +21,7 @@ TEST_CASE("usage: help and version are exit 0 on stdout; every verb's help has e
     CHECK(version.out.starts_with("bake "));
     CHECK(lines(version.out) == 1);
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"--help"}, {"bump-table", "--help"}, {"normal-map", "--help"}, {"check", "--help"}, {"render", "--help"}, {"explain", "-h"}}) {
+         {std::vector<std::string>{"--help"}, {"bump-table", "--help"}, {"normal-map", "--help"}, {"surface", "--help"}, {"check", "--help"}, {"render", "--help"}, {"explain", "-h"}}) {
         const Run help = run_bake(folder, arguments);
         CHECK(help.code == 0);
         CHECK(help.err == "");

@@ -1,6 +1,5 @@
 #include "bake/surface/mesh_check.h"
 #include "bake/asset/mesh_io.h"
-#include "bake/surface/mesh_audit.h"
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
@@ -240,33 +239,6 @@ TEST_SUITE("unit") {
         CHECK(c.bad_normals == 1);
         CHECK(c.opposed_normals == 1);
         CHECK(c.faces_without_normal == 0);
-    }
-
-    TEST_CASE("audit: a cube is closed and outward, a turned one is not, and a needle through it is found") {
-        const Mesh cube = make_mesh(cube_corners, cube_faces);
-        const MeshAudit good = audit(cube, triangulate(cube));
-        if (!good.available) {
-            MESSAGE("built without CGAL");
-            return;
-        }
-        CHECK(good.closed);
-        CHECK(good.outward);
-        CHECK(good.self_intersections == 0);
-        CHECK(good.volume == doctest::Approx(1));
-        Faces turned = cube_faces;
-        for (auto& f : turned) std::reverse(f.begin(), f.end());
-        const Mesh inside_out = make_mesh(cube_corners, turned);
-        CHECK_FALSE(audit(inside_out, triangulate(inside_out)).outward);
-
-        std::vector<Vec3f> positions = cube_corners;
-        positions.insert(positions.end(), {{0.4f, 0.45f, -1}, {0.42f, 0.45f, -1}, {0.4f, 0.45f, 2}});
-        Faces faces = cube_faces;
-        faces.push_back({8, 9, 10});
-        const Mesh needle = make_mesh(positions, faces);
-        const MeshAudit cut = audit(needle, triangulate(needle));
-        CHECK(cut.self_intersections >= 2);
-        CHECK(cut.self_intersections <= 4);
-        CHECK_FALSE(cut.closed);
     }
 }
 

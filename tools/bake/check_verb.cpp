@@ -1,4 +1,5 @@
 // bake check: what is in each file given, and what is wrong with it.
+#include "options.h"
 #include "verb.h"
 #include "bake/verdict/inspect.h"
 #include <cstdio>
@@ -11,6 +12,7 @@ namespace {
 struct CheckArgs {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> pairs;
+    std::string against;
     InspectOptions options;
     bool strict = false;
 };
@@ -20,8 +22,12 @@ struct Results {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     int code = 0;         ///< of the first bad file
     bool wrong = false;   ///< some file has a warning
+    bool over = false;    ///< some distance is over --limit
     bool printed = false; ///< text: something stands above
 };
+
+bool over_limit(const DistanceReport& report) { return report.over_limit(); }
+template <class Report> bool over_limit(const Report&) { return false; }
 
 template <class Inspect> void add_result(Results& results, const std::string& file, bool json, const Inspect& inspect) {
     const auto refuse = [&](const std::string& message, Refusal why) {
@@ -32,6 +38,7 @@ template <class Inspect> void add_result(Results& results, const std::string& fi
     try {
         const auto report = inspect();
         results.wrong = results.wrong || !report.findings.warnings.empty();
+        results.over = results.over || over_limit(report);
         if (json) {
             results.files.push_back(nlohmann::ordered_json::parse(to_json(report)));
         } else {
@@ -49,7 +56,9 @@ template <class Inspect> void add_result(Results& results, const std::string& fi
 int run(const CheckArgs& args, const CommonArgs& common) {
     Results results;
     for (const std::string& file : args.files) {
-        if (named_like_a_mesh(file))
+        if (!args.against.empty())
+            add_result(results, file, common.json, [&] { return inspect_distance(file, args.against, args.options); });
+        else if (named_like_a_mesh(file))
             add_result(results, file, common.json, [&] { return inspect_mesh(file, args.options); });
         else
             add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
@@ -62,14 +71,14 @@ int run(const CheckArgs& args, const CommonArgs& common) {
         std::printf("%s\n", all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
     }
     if (results.code != 0) return results.code;
-    return args.strict && results.wrong ? static_cast<int>(Refusal::over_limit) : 0;
+    return results.over || (args.strict && results.wrong) ? static_cast<int>(Refusal::over_limit) : 0;
 }
 
 } // namespace
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
-    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply) and images to look at");
+    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to look at");
     const auto pair = sub.add_option("--pair", args->pairs,
                                      "A height texture and the normal map said to be of it; may be given again")
                           ->allow_extra_args(false) // a file may follow
@@ -80,21 +89,37 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                    "Grey of the pair's height: mean, r, g, b, a or luma; mean unless given")
         ->transform(CLI::CheckedTransformer(greys, CLI::ignore_case).description(""))
         ->type_name("CHANNEL");
+    add_mesh_options(sub, args->options.read);
     sub.add_option("--overlap-size", args->options.uv.overlap_size,
                    "Samples along a UV tile that overlaps are measured with; 0: not measured")
         ->check(CLI::Range(0, 8192))
         ->capture_default_str();
     sub.add_flag("--audit", args->options.audit,
                  "Meshes: self intersections, orientation and volume too, exactly (slow)");
+    const auto against =
+        sub.add_option("--against", args->against,
+                       "A mesh: how far those given lie from it, in place of the reports on them")
+            ->type_name("MESH");
+    sub.add_option("--limit", args->options.limit, "With --against: exit with 1 if they may lie farther apart, object units")
+        ->needs(against)
+        ->check(CLI::PositiveNumber);
+    sub.add_option("--samples", args->options.distance.samples,
+                   "With --against: points of equal area for means and normals, at least one per triangle")
+        ->needs(against)
+        ->check(CLI::Range(1, 1000000000))
+        ->capture_default_str();
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
     add_examples(sub, "  bake check head.obj head_height.png\n"
                       "  bake check --strict --json *.obj\n"
                       "  bake check --audit head.ply\n"
+                      "  bake check displaced.ply --against reference.ply --limit 0.001\n"
                       "  bake check --pair brick_height.png brick_normal.png\n"
                       "  bake check --pair rock_albedo_height.png rock_normal.png --height-channel a");
     return [args, &common, files, pair] {
         if (files->empty() && pair->empty())
             throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
+        if (!args->against.empty() && (files->empty() || !pair->empty() || args->options.audit))
+            throw Error(Refusal::usage, "check: --against takes meshes alone; give --audit and --pair in a run of their own");
         return run(*args, common);
     };
 }

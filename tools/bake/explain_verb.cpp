@@ -19,7 +19,7 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
     if (!inside(input.uv.x) || !inside(input.uv.y))
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
     const HeightTexture height = load_height(args.map.height);
-    const Mesh mesh = read_mesh(args.map.mesh);
+    const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
     input.mesh = &mesh;
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);
@@ -32,7 +32,7 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
 
 std::function<int()> explain_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<ExplainArgs>();
-    sub.add_option("mesh", args->map.mesh, "UV-mapped mesh (.obj, .ply)")->required();
+    sub.add_option("mesh", args->map.mesh, "UV-mapped mesh (.obj, .ply, .gltf, .glb)")->required();
     sub.add_option("--uv", args->uv, "Where, in the unit square, v up")->required()->type_name("U,V");
     add_normal_map_options(sub, args->map);
     add_examples(sub, "  bake explain torus.obj --height bricks.png --amplitude 1% --uv 0.25,0.5\n");

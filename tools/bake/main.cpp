@@ -25,7 +25,9 @@ struct VerbEntry {
 
 constexpr VerbEntry verbs[] = {
     {"bump-table", "Bump lookup table (slopes along u and v) from a grayscale height texture", bump_table_verb},
+    {"displace", "A mesh really displaced by a height: welded, crack-free, with exact normals", displace_verb},
     {"normal-map", "Normal map from a height texture, on a plane or on a mesh", normal_map_verb},
+    {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface", surface_verb},
     {"check", "What is in a mesh or an image, and what will go wrong with it", check_verb},
     {"cubemap", "Environment from six faces or one picture: assembled, converted, filtered, captured", cubemap_verb},
     {"render", "Preview render of a scene", render_verb},

@@ -11,6 +11,7 @@ void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
     sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]")->check(not_empty());
     sub.add_option("--midlevel", args.midlevel, "Value that lies on the surface")->capture_default_str();
     sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")->check(not_empty())->type_name("W,H");
+    add_mesh_options(sub, args.read);
     add_height_options(sub, args.height);
     add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}}, "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");

@@ -7,6 +7,7 @@ namespace bake {
 
 struct NormalMapArgs {
     std::string mesh, out, amplitude, extent, size;
+    MeshOptions read;
     HeightArgs height;
     double midlevel = 0.5;
     NormalMethod method = NormalMethod::exact;

@@ -90,7 +90,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     const HeightTexture height = load_height(args.height);
     Mesh mesh;
-    if (!args.mesh.empty()) mesh = read_mesh(args.mesh);
+    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
     watch.lap("read");
     const NormalMapOptions options = resolve_options(args, height, mesh);
     // Opened before the work, so that a long bake does not fail at its end.
@@ -131,7 +131,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
 
 std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
-    sub.add_option("mesh", args->mesh, "UV-mapped mesh (.obj, .ply); without it the map is that of a flat rectangle");
+    sub.add_option("mesh", args->mesh, "UV-mapped mesh (.obj, .ply, .gltf, .glb); without it the map is that of a flat rectangle");
     sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required()->check(not_empty());
     add_normal_map_options(sub, *args);
     add_choice<Depth>(sub, "--depth", args->depth,

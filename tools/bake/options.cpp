@@ -14,13 +14,21 @@ CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
 }
 
+void add_mesh_options(CLI::App& sub, MeshOptions& options) {
+    sub.add_flag("--flip-v", options.flip_v, "Turn the mesh's v over: for files whose v does not run as their format says");
+}
+
 void add_height_options(CLI::App& sub, HeightArgs& args) {
-    const std::vector<std::pair<std::string, Wrap>> wraps = {
-        {"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}};
     std::vector<std::pair<std::string, Filter>> filters = {{"auto", Filter::automatic}};
     for (const Filter filter : all_filters) filters.emplace_back(name(filter), filter);
     add_choice(sub, "--filter", args.filter, filters,
                "Derivative filter; auto: sobel for 256 levels or fewer, else c2");
+    add_height_reading_options(sub, args);
+}
+
+void add_height_reading_options(CLI::App& sub, HeightArgs& args) {
+    const std::vector<std::pair<std::string, Wrap>> wraps = {
+        {"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}};
     add_choice(sub, "--wrap", args.wrap, wraps, "What lies beyond the picture's border");
     // Per axis: unset until given.
     const auto per_axis = [&](const char* flag, std::optional<Wrap>& wrap, const char* help) {
@@ -52,8 +60,9 @@ namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
-/// The whole of `text` as a finite number.
-std::optional<double> number(const std::string& text) {
+} // namespace
+
+std::optional<double> parse_number(const std::string& text) {
     std::size_t used = 0;
     double value = 0;
     try {
@@ -65,16 +74,24 @@ std::optional<double> number(const std::string& text) {
     return value;
 }
 
-} // namespace
-
 Amplitude parse_amplitude(const std::string& text) {
     Amplitude amplitude;
     amplitude.percent = !text.empty() && text.back() == '%';
-    const auto value = number(amplitude.percent ? text.substr(0, text.size() - 1) : text);
+    const auto value = parse_number(amplitude.percent ? text.substr(0, text.size() - 1) : text);
     if (!value) throw usage("--amplitude " + text + ": is not a number; write 0.02, or 1% of the bounding box's diagonal");
     if (std::abs(*value) > 1e12) throw usage("--amplitude " + text + ": is out of range; write at most 1e12");
     amplitude.value = amplitude.percent ? *value / 100 : *value;
     return amplitude;
+}
+
+Amplitude parse_length(const std::string& flag, const std::string& text) {
+    Amplitude length;
+    length.percent = !text.empty() && text.back() == '%';
+    const auto value = parse_number(length.percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || !(*value > 0) || *value > 1e12)
+        throw usage(flag + " " + text + ": is not a positive number; write 0.02, or 1% of the bounding box's diagonal");
+    length.value = length.percent ? *value / 100 : *value;
+    return length;
 }
 
 void check_steepness(const std::string& amplitude, double value, double length) {
@@ -90,8 +107,8 @@ void check_not_input(const std::string& out, const std::string& input) {
 
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive) {
     const std::size_t comma = text.find(',');
-    const auto first = number(text.substr(0, comma));
-    const auto second = comma == std::string::npos ? std::nullopt : number(text.substr(comma + 1));
+    const auto first = parse_number(text.substr(0, comma));
+    const auto second = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
     const auto in_range = [](double value) { return value >= 1e-12 && value <= 1e12; };
     if (!first || !second || (positive && !(in_range(*first) && in_range(*second))))
         throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") + "numbers, such as 2,1");
@@ -100,8 +117,8 @@ Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive
 
 std::pair<int, int> parse_size(const std::string& text) {
     const std::size_t cross = text.find('x');
-    const auto width = number(text.substr(0, cross));
-    const auto height = cross == std::string::npos ? width : number(text.substr(cross + 1));
+    const auto width = parse_number(text.substr(0, cross));
+    const auto height = cross == std::string::npos ? width : parse_number(text.substr(cross + 1));
     const auto fits = [](const std::optional<double>& n) { return n && *n >= 1 && *n <= 65536 && *n == int(*n); };
     if (!fits(width) || !fits(height)) throw usage("--size " + text + ": is not a size; write 1024 or 2048x1024, up to 65536");
     return {int(*width), int(*height)};

@@ -1,6 +1,7 @@
 // Options that several verbs share, and how their values are written.
 #pragma once
 #include "bake/asset/image_io.h"
+#include "bake/asset/mesh_io.h"
 #include "bake/base/text.h"
 #include "bake/relief/bump_table.h"
 #include "bake/relief/error_budget.h"
@@ -34,6 +35,9 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
     return sub.add_option_function<std::string>(flag, set, help)->check(one_of(names))->type_name(joined)->default_str(current);
 }
 
+/// How a mesh is read, given the same way by every verb that reads one.
+void add_mesh_options(CLI::App& sub, MeshOptions& options);
+
 /// How a height texture is read, given the same way by every verb that reads one.
 struct HeightArgs {
     std::string path;
@@ -47,6 +51,8 @@ struct HeightArgs {
     Wrap wrap_v() const { return along_v.value_or(wrap); }
 };
 void add_height_options(CLI::App& sub, HeightArgs& args);
+/// The same without --filter, for verbs that take no slopes from texels.
+void add_height_reading_options(CLI::App& sub, HeightArgs& args);
 /// Reads the texture as asked, inverted and dequantised.
 HeightTexture load_height(const HeightArgs& args);
 
@@ -56,6 +62,10 @@ struct Amplitude {
     bool percent = false;
 };
 Amplitude parse_amplitude(const std::string& text);
+/// The same for any length: positive, at most 1e12.
+Amplitude parse_length(const std::string& flag, const std::string& text);
+/// The whole of `text` as a finite number.
+std::optional<double> parse_number(const std::string& text);
 /// Throws Error{Refusal::usage} for slopes that floats cannot hold: an amplitude above 1e9 times the length it is over.
 void check_steepness(const std::string& amplitude, double value, double length);
 /// Throws Error{Refusal::usage} when the output would replace the input it is made from.

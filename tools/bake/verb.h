@@ -22,7 +22,9 @@ using Verb = std::function<int()>(CLI::App& sub, const CommonArgs& common);
 
 Verb bump_table_verb;
 Verb normal_map_verb;
+Verb displace_verb;
 Verb check_verb;
+Verb surface_verb;
 Verb render_verb;
 Verb explain_verb;
 Verb cubemap_verb;

@@ -15,7 +15,7 @@ BlockWriter::~BlockWriter() {
     if (stream_) std::fclose(stream_);
 }
 
-void BlockWriter::write(const std::string& block) {
+void BlockWriter::write(std::string_view block) {
     if (std::fwrite(block.data(), 1, block.size(), stream_) != block.size()) refuse();
 }
 

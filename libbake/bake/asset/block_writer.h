@@ -3,8 +3,11 @@
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bake {
@@ -18,7 +21,7 @@ public:
     BlockWriter(const BlockWriter&) = delete;
     BlockWriter& operator=(const BlockWriter&) = delete;
 
-    void write(const std::string& block);
+    void write(std::string_view block);
     void commit();
 
 private:
@@ -29,22 +32,56 @@ private:
     std::FILE* stream_;
 };
 
-/// Writes rows [0, rows) in order; append_row(block, row) appends the bytes of one to a block. The bytes do not depend
+/// Puts the four bytes of a float or an integer, low byte first on any machine, and moves `to` behind them.
+template <class T> void put_bytes(char*& to, T value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (int i = 0; i < 4; ++i) *to++ = static_cast<char>(bits >> (8 * i));
+}
+
+/// Writes rows [0, rows) in order; append_row(block, row) appends the text of one to a block. The bytes do not depend
 /// on the number of threads; memory is that of some tens of thousand rows.
 template <class AppendRow> void write_rows(BlockWriter& out, std::size_t rows, AppendRow&& append_row) {
-    const std::size_t block_rows = 4096, most_blocks = 64;
-    std::vector<std::string> blocks(std::min(most_blocks, (rows + block_rows - 1) / block_rows));
-    for (std::size_t first = 0; first < rows; first += block_rows * most_blocks) {
-        const std::size_t count = std::min(block_rows * most_blocks, rows - first);
-        for_rows(static_cast<std::int64_t>(count), block_rows, [&](std::int64_t begin, std::int64_t end) {
-            std::string& block = blocks[static_cast<std::size_t>(begin) / block_rows];
-            for (std::int64_t row = begin; row < end; ++row) append_row(block, first + static_cast<std::size_t>(row));
-        });
-        for (std::string& block : blocks) {
-            out.write(block);
+    const std::size_t grain = 8192;
+    std::vector<std::string> blocks(static_cast<std::size_t>(slot_count()));
+    in_order(
+        static_cast<std::int64_t>((rows + grain - 1) / grain),
+        [&](std::int64_t band, int slot) {
+            std::string& block = blocks[static_cast<std::size_t>(slot)];
             block.clear();
-        }
-    }
+            const std::size_t first = static_cast<std::size_t>(band) * grain;
+            for (std::size_t row = first; row < std::min(rows, first + grain); ++row) append_row(block, row);
+        },
+        [&](std::int64_t, int slot) { out.write(blocks[static_cast<std::size_t>(slot)]); });
+}
+
+/// The same for rows whose bytes are counted beforehand: rows [first, end) take bytes(first, end), and
+/// fill(first, end, to) writes them all.
+template <class Bytes, class Fill> void write_blocks(BlockWriter& out, std::size_t rows, Bytes&& bytes, Fill&& fill) {
+    const std::size_t grain = 1 << 15;
+    std::vector<std::vector<char>> blocks(static_cast<std::size_t>(slot_count()));
+    const auto size = [&](std::int64_t band) {
+        const std::size_t first = static_cast<std::size_t>(band) * grain;
+        return bytes(first, std::min(rows, first + grain));
+    };
+    in_order(
+        static_cast<std::int64_t>((rows + grain - 1) / grain),
+        [&](std::int64_t band, int slot) {
+            std::vector<char>& block = blocks[static_cast<std::size_t>(slot)];
+            if (block.size() < size(band)) block.resize(size(band));
+            const std::size_t first = static_cast<std::size_t>(band) * grain;
+            fill(first, std::min(rows, first + grain), block.data());
+        },
+        [&](std::int64_t band, int slot) { out.write({blocks[static_cast<std::size_t>(slot)].data(), size(band)}); });
+}
+
+/// The same for rows of `row_bytes` each; fill_row(to, row) writes one.
+template <class FillRow>
+void write_fixed_rows(BlockWriter& out, std::size_t rows, std::size_t row_bytes, FillRow&& fill_row) {
+    write_blocks(
+        out, rows, [row_bytes](std::size_t first, std::size_t end) { return (end - first) * row_bytes; },
+        [&](std::size_t first, std::size_t end, char* to) {
+            for (std::size_t row = first; row < end; ++row, to += row_bytes) fill_row(to, row);
+        });
 }
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "bake/asset/image_io.h"
 #include "bake/asset/picture_formats.h"
+#include "bake/asset/plain_png.h"
 #include "bake/asset/plain_tiff.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
@@ -56,6 +57,9 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
     if (const auto tiff = find_plain_tiff(path, limits)) {
         info = tiff->info;
         image = read_plain_tiff(path, *tiff);
+    } else if (auto png = read_plain_png(path, limits)) {
+        info = std::move(png->info);
+        image = std::move(png->image);
     } else {
         if (is_cut_short_tiff(path)) throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
         image = picture_formats().read(path, info, limits);

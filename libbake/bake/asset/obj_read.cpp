@@ -8,12 +8,13 @@
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 namespace bake {
 namespace {
 
-enum class Keyword { position, uv, normal, face, group, material, other };
+enum class Keyword { position, uv, normal, face, group, material, tag, other };
 
 struct Counts {
     std::size_t positions = 0, uvs = 0, normals = 0, faces = 0, corners = 0;
@@ -31,6 +32,9 @@ struct Piece {
     std::string fault;
     bool any_uv = false, any_normal = false;
     std::vector<NameChange> groups, materials;
+    std::vector<SubdivisionTags::Crease> creases;
+    std::vector<SubdivisionTags::Corner> corners;
+    std::optional<SubdivisionTags::Boundary> boundary;
 };
 
 /// The keyword at the start of the line; p moves behind it.
@@ -49,6 +53,7 @@ Keyword read_keyword(const char*& p) noexcept {
     case 'f': return is("f") ? Keyword::face : Keyword::other;
     case 'g': return is("g") ? Keyword::group : Keyword::other;
     case 'o': return is("o") ? Keyword::group : Keyword::other;
+    case 't': return is("t") ? Keyword::tag : Keyword::other;
     case 'u': return is("usemtl") ? Keyword::material : Keyword::other;
     default: return Keyword::other;
     }
@@ -173,6 +178,58 @@ std::string read_name(const char* p, const char* end) {
     return std::string(p, end);
 }
 
+/// One number, 0 or more, that ends the line.
+bool read_sharpness(const char* p, float& sharpness) noexcept {
+    skip_blanks(p);
+    if (!parse_float(p, sharpness) || !ends_number(*p) || !std::isfinite(sharpness)) return false;
+    skip_blanks(p);
+    return at_end(p) && sharpness >= 0;
+}
+
+/// A tag of a subdivision cage, p behind the `t`, in OpenSubdiv's form: name, counts of integers/floats/strings, and
+/// those. Positions are counted from 0. Other names are skipped. Gives what is wrong, empty when nothing is.
+std::string read_tag(const char* p, std::size_t positions, Piece& piece) {
+    skip_blanks(p);
+    const std::string_view name = word_at(p);
+    p += name.size();
+    skip_blanks(p);
+    const std::string_view counts = word_at(p);
+    p += counts.size();
+    std::int64_t a = 0, b = 0;
+    const auto position_fault = [positions](std::int64_t position) {
+        return "the tag asks for position " + std::to_string(position) + " of " + std::to_string(positions) +
+               ", counted from 0; the file was cut short or its tags are of another mesh";
+    };
+    const auto read_position = [&p](std::int64_t& position) {
+        skip_blanks(p);
+        return parse_integer(p, position) && ends_number(*p);
+    };
+    const auto in_range = [positions](std::int64_t i) { return i >= 0 && std::size_t(i) < positions; };
+    float sharpness = 0;
+    if (name == "crease") {
+        if (counts != "2/1/0" || !read_position(a) || !read_position(b) || !read_sharpness(p, sharpness))
+            return "not a crease; write t crease 2/1/0 a b sharpness, the positions counted from 0";
+        for (const std::int64_t i : {a, b})
+            if (!in_range(i)) return position_fault(i);
+        piece.creases.push_back({std::uint32_t(a), std::uint32_t(b), sharpness});
+    } else if (name == "corner") {
+        if (counts != "1/1/0" || !read_position(a) || !read_sharpness(p, sharpness))
+            return "not a corner; write t corner 1/1/0 a sharpness, the position counted from 0";
+        if (!in_range(a)) return position_fault(a);
+        piece.corners.push_back({std::uint32_t(a), sharpness});
+    } else if (name == "interpolateboundary") {
+        const bool read = counts == "1/0/0" && read_position(a);
+        skip_blanks(p);
+        if (!read || !at_end(p) || a < 0 || a > 2)
+            return "not a boundary rule; write t interpolateboundary 1/0/0 n, n being 0 (none), 1 (edge and corner) or 2 "
+                   "(edge only)";
+        piece.boundary = a == 0   ? SubdivisionTags::Boundary::none
+                         : a == 1 ? SubdivisionTags::Boundary::edge_and_corner
+                                  : SubdivisionTags::Boundary::edge_only;
+    }
+    return {};
+}
+
 LineCursor lines_of(const char* begin, const char* end) {
     LineCursor line;
     line.next = begin;
@@ -242,6 +299,9 @@ Piece read_piece(const char* begin, const char* end, Counts done, const Counts& 
         }
         case Keyword::group: piece.groups.push_back({done.faces, read_name(p, line.end)}); break;
         case Keyword::material: piece.materials.push_back({done.faces, read_name(p, line.end)}); break;
+        case Keyword::tag:
+            if (std::string why = read_tag(p, total.positions, piece); !why.empty()) fail(line, std::move(why));
+            break;
         case Keyword::other: break;
         }
     }
@@ -332,6 +392,10 @@ Mesh read_obj(const std::string& path) {
                         path + ":" + std::to_string(line_number(file.begin(), piece.fault_at)) + ": " + piece.fault);
         any_uv |= piece.any_uv;
         any_normal |= piece.any_normal;
+        SubdivisionTags& tags = mesh.tags;
+        tags.creases.insert(tags.creases.end(), piece.creases.begin(), piece.creases.end());
+        tags.corners.insert(tags.corners.end(), piece.corners.begin(), piece.corners.end());
+        tags.boundary = piece.boundary.value_or(tags.boundary);
     }
     if (!any_uv) mesh.corner_uv = {};
     if (!any_normal) mesh.corner_normal = {};

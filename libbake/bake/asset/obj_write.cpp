@@ -72,6 +72,22 @@ void write_obj(const std::string& path, const Mesh& mesh) {
         }
         block += '\n';
     });
+    const SubdivisionTags& tags = mesh.tags;
+    if (!tags.creases.empty() || !tags.corners.empty() || tags.boundary != SubdivisionTags::Boundary::edge_only) {
+        constexpr const char* rules[] = {"0", "2", "1"}; // in the order of SubdivisionTags::Boundary
+        write_rows(out, 1, [&](std::string& block, std::size_t) {
+            block += std::string("t interpolateboundary 1/0/0 ") + rules[int(tags.boundary)] + "\n";
+        });
+    }
+    // Positions of tags are counted from 0, those of faces from 1.
+    write_rows(out, tags.creases.size(), [&](std::string& block, std::size_t i) {
+        block += "t crease 2/1/0 " + std::to_string(tags.creases[i].a) + ' ' + std::to_string(tags.creases[i].b);
+        append_floats(block, "", &tags.creases[i].sharpness, 1);
+    });
+    write_rows(out, tags.corners.size(), [&](std::string& block, std::size_t i) {
+        block += "t corner 1/1/0 " + std::to_string(tags.corners[i].position);
+        append_floats(block, "", &tags.corners[i].sharpness, 1);
+    });
     out.commit();
 }
 

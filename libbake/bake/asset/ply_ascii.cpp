@@ -77,9 +77,7 @@ struct Rows {
 
 void read_vertices(Rows& rows, const PlyElement& element, const PlyLayout& layout, Mesh& mesh) {
     const auto count = static_cast<std::size_t>(element.rows);
-    mesh.positions.resize(count);
-    if (layout.columns[3] >= 0) mesh.normals.resize(count);
-    if (layout.columns[6] >= 0) mesh.uvs.resize(count);
+    resize_vertices(layout, count, mesh);
     // Per property, where its values go.
     std::vector<PlyColumn> target(element.properties.size(), PlyColumn{nullptr, 0});
     for (std::size_t c = 0; c < layout.columns.size(); ++c)

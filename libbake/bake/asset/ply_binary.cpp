@@ -121,9 +121,7 @@ constexpr std::size_t grain = 8192; // rows of a block
 const char* read_vertices(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
                           const PlyLayout& layout, const std::string& path, Mesh& mesh) {
     const auto count = static_cast<std::size_t>(element.rows);
-    mesh.positions.resize(count);
-    if (layout.columns[3] >= 0) mesh.normals.resize(count);
-    if (layout.columns[6] >= 0) mesh.uvs.resize(count);
+    resize_vertices(layout, count, mesh);
     std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
         std::size_t& bad = first_bad[first / grain];

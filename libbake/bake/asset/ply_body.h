@@ -2,20 +2,21 @@
 #pragma once
 #include "bake/asset/mesh.h"
 #include "bake/asset/ply_header.h"
-#include <array>
+#include <utility>
 
 namespace bake {
 
 /// Properties of the header that a mesh is made of, by their index in their element; -1 where there is none.
 struct PlyLayout {
     int vertex = -1, face = -1;      ///< elements
-    std::array<int, 8> columns;      ///< of the vertex: x y z nx ny nz u v
+    std::vector<int> columns;        ///< of the vertex: x y z nx ny nz u v tx ty tz tw, then those of the attributes
+    std::vector<std::pair<std::string, int>> attributes; ///< name and components
     int indices = -1, texcoord = -1; ///< lists of the face
 };
 
 /// What the body of a PLY holds.
 struct PlyBody {
-    Mesh mesh;                     ///< positions, normals and uvs per vertex, faces
+    Mesh mesh;                     ///< positions, normals, uvs, tangents and attributes per vertex, faces
     std::vector<Vec2f> texcoord;   ///< corners, or none: uvs of the face lists
     std::vector<bool> no_texcoord; ///< faces, or none: true where the list is empty
 };
@@ -26,6 +27,9 @@ struct PlyColumn {
     std::size_t stride;
 };
 PlyColumn column_of(Mesh& mesh, std::size_t c) noexcept;
+
+/// Room for the values of `count` vertices.
+void resize_vertices(const PlyLayout& layout, std::size_t count, Mesh& mesh);
 
 PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const PlyLayout& layout,
                         const std::string& path);

@@ -1,19 +1,58 @@
 #include "bake/asset/distinct_corners.h"
+#include "bake/asset/number_distinct.h"
 #include "bake/asset/ply.h"
 #include "bake/asset/ply_body.h"
 #include "bake/asset/text_line.h"
 #include "bake/base/error.h"
-#include <bit>
+#include <algorithm>
 
 namespace bake {
 namespace {
+
+/// Names of one vector's components differ in their last digit alone: "flow_0", "flow_1".
+bool continues_vector(const std::string& name, const std::string& vector, int component) {
+    return component < 4 && name == vector + '_' + static_cast<char>('0' + component);
+}
+
+/// Float properties of other names are attributes; integers (colours, flags) are skipped.
+void take_attributes(const PlyElement& vertex, PlyLayout& layout) {
+    for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+        const PlyProperty& property = vertex.properties[i];
+        const bool real = property.type == PlyType::float32 || property.type == PlyType::float64;
+        const auto column = static_cast<int>(i);
+        if (!real || property.is_list || std::count(layout.columns.begin(), layout.columns.begin() + 12, column)) continue;
+        std::string vector = property.name;
+        int components = 1;
+        if (vector.size() > 2 && vector.ends_with("_0")) {
+            vector.resize(vector.size() - 2);
+            const auto next = [&] {
+                const std::size_t k = i + static_cast<std::size_t>(components);
+                return k < vertex.properties.size() && vertex.properties[k].type == property.type &&
+                       !vertex.properties[k].is_list && continues_vector(vertex.properties[k].name, vector, components);
+            };
+            while (next()) ++components;
+        }
+        layout.attributes.emplace_back(components > 1 ? vector : property.name, components);
+        for (int k = 0; k < components; ++k) layout.columns.push_back(column + k);
+        i += static_cast<std::size_t>(components) - 1;
+    }
+}
+
+/// Values of vertices, spread to the corners.
+template <class Value> void spread(const Mesh& mesh, std::vector<Value>& values, std::size_t components) {
+    std::vector<Value> corners;
+    corners.reserve(mesh.corners() * components);
+    for (const std::uint32_t p : mesh.corner_position)
+        for (std::size_t k = 0; k < components; ++k) corners.push_back(values[p * components + k]);
+    values = std::move(corners);
+}
 
 PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     const auto refuse = [&path](const std::string& why) {
         throw Error(Refusal::unreadable, path + ": " + why + "; export it as a polygon mesh");
     };
     PlyLayout layout;
-    layout.columns.fill(-1);
+    layout.columns.assign(12, -1);
     for (std::size_t i = 0; i < header.elements.size(); ++i) {
         if (header.elements[i].name == "vertex") layout.vertex = static_cast<int>(i);
         if (header.elements[i].name == "face") layout.face = static_cast<int>(i);
@@ -33,6 +72,8 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     if (!take(0, {"x", "y", "z"})) refuse("its vertices have no x, y and z");
     take(3, {"nx", "ny", "nz"});
     if (!take(6, {"u", "v"}) && !take(6, {"s", "t"})) take(6, {"texture_u", "texture_v"});
+    take(8, {"tx", "ty", "tz", "tw"});
+    take_attributes(vertex, layout);
 
     if (layout.face < 0 || header.elements[static_cast<std::size_t>(layout.face)].rows == 0) return layout;
     const PlyElement& face = header.elements[static_cast<std::size_t>(layout.face)];
@@ -51,12 +92,12 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
 /// Gives corners of one position the same uv index where their uvs are equal, so that faces hang together.
 void weld_texcoord(PlyBody& body) {
     Mesh& mesh = body.mesh;
-    std::vector<std::uint64_t> key(mesh.corners());
-    for (std::size_t c = 0; c < key.size(); ++c) {
-        const Vec2f uv = body.texcoord[c] + 0.0f; // -0 is 0
-        key[c] = std::uint64_t(std::bit_cast<std::uint32_t>(uv.x)) << 32 | std::bit_cast<std::uint32_t>(uv.y);
-    }
-    DistinctCorners distinct = distinct_corners(mesh.corner_position, mesh.positions.size(), key);
+    const auto key = [&body](std::uint32_t c) noexcept {
+        return std::uint64_t(float_bits(body.texcoord[c].x)) << 32 | float_bits(body.texcoord[c].y);
+    };
+    DistinctCorners distinct = distinct_corners(
+        mesh.corners(), mesh.positions.size(), [&mesh](std::uint32_t c) { return mesh.corner_position[c]; }, key,
+        [key](std::uint32_t a, std::uint32_t b) { return key(a) == key(b); });
     mesh.corner_uv = std::move(distinct.corner);
     mesh.uvs.resize(distinct.first.size());
     for (std::size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i] = body.texcoord[distinct.first[i]];
@@ -70,7 +111,21 @@ void weld_texcoord(PlyBody& body) {
 PlyColumn column_of(Mesh& mesh, std::size_t c) noexcept {
     if (c < 3) return {&mesh.positions.data()->x + c, 3};
     if (c < 6) return {&mesh.normals.data()->x + (c - 3), 3};
-    return {&mesh.uvs.data()->x + (c - 6), 2};
+    if (c < 8) return {&mesh.uvs.data()->x + (c - 6), 2};
+    if (c < 12) return {&mesh.tangents.data()->x + (c - 8), 4};
+    std::size_t k = c - 12, a = 0;
+    for (; k >= static_cast<std::size_t>(mesh.attributes[a].components); ++a)
+        k -= static_cast<std::size_t>(mesh.attributes[a].components);
+    return {mesh.attributes[a].values.data() + k, static_cast<std::size_t>(mesh.attributes[a].components)};
+}
+
+void resize_vertices(const PlyLayout& layout, std::size_t count, Mesh& mesh) {
+    mesh.positions.resize(count);
+    if (layout.columns[3] >= 0) mesh.normals.resize(count);
+    if (layout.columns[6] >= 0) mesh.uvs.resize(count);
+    if (layout.columns[8] >= 0) mesh.tangents.resize(count);
+    for (const auto& [name, components] : layout.attributes)
+        mesh.attributes.push_back({name, components, std::vector<float>(count * static_cast<std::size_t>(components))});
 }
 
 Mesh read_ply(const std::string& path) {
@@ -85,6 +140,8 @@ Mesh read_ply(const std::string& path) {
     if (!mesh.normals.empty()) mesh.corner_normal = mesh.corner_position;
     if (!body.texcoord.empty()) weld_texcoord(body);
     else if (!mesh.uvs.empty()) mesh.corner_uv = mesh.corner_position;
+    if (!mesh.tangents.empty()) spread(mesh, mesh.tangents, 1);
+    for (Attribute& a : mesh.attributes) spread(mesh, a.values, static_cast<std::size_t>(a.components));
     return std::move(body.mesh);
 }
 

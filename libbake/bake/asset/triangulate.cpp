@@ -159,28 +159,32 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
 
 } // namespace
 
-std::vector<Triangle> triangulate(const Mesh& mesh) {
-    const auto faces = static_cast<std::int64_t>(mesh.faces());
-    std::vector<Triangle> triangles(mesh.corners() - 2 * mesh.faces());
-    for_rows(faces, 8192, [&](std::int64_t first, std::int64_t last) {
-        Polygon polygon;
-        for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
-            const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
-            assert(corners >= 3);
-            Triangle* const out =
-                &triangles[c - 2 * std::size_t(f)]; // the faces before have two triangles less than corners
-            if (corners == 3) {
-                out[0] = {{c, c + 1, c + 2}, f};
-            } else if (corners == 4 && splits_second_to_fourth(mesh, c)) {
-                out[0] = {{c, c + 1, c + 3}, f};
-                out[1] = {{c + 1, c + 2, c + 3}, f};
-            } else if (corners == 4) {
-                out[0] = {{c, c + 1, c + 2}, f};
-                out[1] = {{c, c + 2, c + 3}, f};
-            } else {
-                clip_ears(mesh, f, polygon, out);
-            }
+void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Triangle* out) {
+    Polygon polygon;
+    for (auto f = static_cast<std::uint32_t>(first); f < end; ++f) {
+        const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
+        assert(corners >= 3);
+        if (corners == 3) {
+            out[0] = {{c, c + 1, c + 2}, f};
+        } else if (corners == 4 && splits_second_to_fourth(mesh, c)) {
+            out[0] = {{c, c + 1, c + 3}, f};
+            out[1] = {{c + 1, c + 2, c + 3}, f};
+        } else if (corners == 4) {
+            out[0] = {{c, c + 1, c + 2}, f};
+            out[1] = {{c, c + 2, c + 3}, f};
+        } else {
+            clip_ears(mesh, f, polygon, out);
         }
+        out += corners - 2;
+    }
+}
+
+std::vector<Triangle> triangulate(const Mesh& mesh) {
+    std::vector<Triangle> triangles(mesh.corners() - 2 * mesh.faces());
+    for_rows(static_cast<std::int64_t>(mesh.faces()), 8192, [&](std::int64_t begin, std::int64_t end) {
+        const auto first = static_cast<std::size_t>(begin);
+        // The faces before have two triangles less than corners.
+        triangulate_faces(mesh, first, static_cast<std::size_t>(end), triangles.data() + mesh.face_begin[first] - 2 * first);
     });
     return triangles;
 }

@@ -18,4 +18,7 @@ struct Triangle {
 /// A face of n corners always gives n - 2 triangles.
 std::vector<Triangle> triangulate(const Mesh& mesh);
 
+/// The triangles of faces [first, end) alone, to `out`: as many as they have corners, less two per face. By this thread.
+void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Triangle* out);
+
 } // namespace bake

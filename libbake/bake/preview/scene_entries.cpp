@@ -5,6 +5,7 @@
 #include "bake/environment/environment_io.h"
 #include "bake/environment/resample.h"
 #include <map>
+#include <tuple>
 
 namespace bake {
 namespace {
@@ -47,11 +48,11 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     return material;
 }
 
-void load_mesh(const MeshEntry& entry, std::map<std::pair<std::string, bool>, Shape*>& loaded, Scene& scene) {
+void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bool>, Shape*>& loaded, Scene& scene) {
     throw_if_interrupted();
-    Shape*& shape = loaded[{entry.file, entry.flat}];
+    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v}];
     if (!shape) {
-        scene.shapes.push_back(make_shape(read_mesh(entry.file), {.flat = entry.flat}));
+        scene.shapes.push_back(make_shape(read_mesh(entry.file, {.flip_v = entry.flip_v}), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
     }
     const Material& material = *scene.materials[entry.material + 1];
@@ -108,7 +109,7 @@ Scene load(const SceneEntries& entries) {
     scene.materials.push_back(std::make_unique<Material>()); // the plain grey one, material -1
     for (const MaterialEntry& entry : entries.materials)
         scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
-    std::map<std::pair<std::string, bool>, Shape*> shapes;
+    std::map<std::tuple<std::string, bool, bool>, Shape*> shapes;
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
 

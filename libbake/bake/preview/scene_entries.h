@@ -21,6 +21,7 @@ struct MeshEntry {
     int material = -1; ///< index in materials; -1: plain grey
     Placement placement;
     bool flat = false;
+    bool flip_v = false; ///< as MeshOptions
     int line = 0;
 };
 

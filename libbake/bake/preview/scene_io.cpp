@@ -272,10 +272,10 @@ void read_material(const Section& in, SceneEntries& scene) {
 }
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat"});
+    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v"});
     MeshEntry m;
     m.line = line_of(in.table);
-    if (!read_path(in, "file", m.file)) refuse(in, in.table, "\"file\" is missing; give an .obj or .ply file");
+    if (!read_path(in, "file", m.file)) refuse(in, in.table, "\"file\" is missing; give an .obj, .ply, .gltf or .glb file");
     m.line = line_of(*in.table.get("file"));
     if (std::string name; read(in, "material", name)) {
         const auto same = [&](const MaterialEntry& material) { return material.name == name; };
@@ -292,6 +292,7 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
         if (m.placement.scale[i] == 0)
             refuse(in, *in.table.get("scale"), "\"scale\" is 0, which leaves no surface; give another");
     read(in, "flat", m.flat);
+    read(in, "flip-v", m.flip_v);
     scene.meshes.push_back(std::move(m));
 }
 

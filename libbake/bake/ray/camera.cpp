@@ -30,4 +30,14 @@ Ray primary_ray(const CameraFrame& frame, double x, double y, int width, int hei
     return {frame.position, Vec3f(unit_or_zero(direction))};
 }
 
+double pixels_at_most(const CameraFrame& frame, const Vec3d& at, double length, int height) noexcept {
+    if (!(length > 0)) return 0;
+    const Vec3d towards = at - Vec3d(frame.position);
+    // Nearer than its own length the segment may fill the picture; a depth of a half of the distance is 60 degrees off.
+    const double distance = std::max(glm::length(towards), length);
+    const double depth = std::max(glm::dot(towards, Vec3d(frame.forward)), 0.5 * distance);
+    // A segment seen square on covers length / distance as an angle; radially the flat picture stretches it twice.
+    return length * distance / (depth * depth) * height / (2.0 * frame.half_height);
+}
+
 } // namespace bake

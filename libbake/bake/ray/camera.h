@@ -25,4 +25,8 @@ CameraFrame camera_frame(const Camera& camera) noexcept;
 /// upper left pixel, whose centre is (0.5, 0.5). Pixels are square. The direction is unit length.
 Ray primary_ray(const CameraFrame& frame, double x, double y, int width, int height) noexcept;
 
+/// Pixels that a short segment near `at` may cover in a picture `height` pixels high, however it is turned: never less
+/// than what it does cover inside the picture (within 60 degrees of its middle). Finite everywhere, behind the camera too.
+double pixels_at_most(const CameraFrame& frame, const Vec3d& at, double length, int height) noexcept;
+
 } // namespace bake

@@ -291,29 +291,32 @@ HeightSampler<T>::HeightSampler(const Image<T>& values, Interpolation interpolat
                   : padded_along_u(padded_along_v(values, options.wrap_v, degree), options.wrap_u, degree);
 }
 
-template <class T> Height<T> HeightSampler<T>::at(T u, T v) const noexcept {
+template <class T> template <class U> Height<U> HeightSampler<T>::sample(U u, U v) const noexcept {
     const auto [x, side_u] = texel_position(u, width_, options_.wrap_u);
-    const auto [y, side_v] = texel_position(T(1) - v, height_, options_.wrap_v);
+    const auto [y, side_v] = texel_position(U(1) - v, height_, options_.wrap_v);
     const int ix = std::clamp(int(std::floor(x)), -1, width_ - 1), iy = std::clamp(int(std::floor(y)), -1, height_ - 1);
-    const Weights<T> wx = tap_weights(interpolation_, x - ix), wy = tap_weights(interpolation_, y - iy);
-    T value = 0, along_x = 0, along_y = 0;
+    const Weights<U> wx = tap_weights(interpolation_, x - ix), wy = tap_weights(interpolation_, y - iy);
+    U value = 0, along_x = 0, along_y = 0;
     for (int j = 0; j < 4; ++j) {
         const T* row = padded_.row(iy - 1 + j + pad) + ix - 1 + pad;
-        T sum = 0, slope = 0;
+        U sum = 0, slope = 0;
         for (int i = 0; i < 4; ++i) {
-            sum += wx.w[i] * row[i];
-            slope += wx.d[i] * row[i];
+            sum += wx.w[i] * U(row[i]);
+            slope += wx.d[i] * U(row[i]);
         }
         value += wy.w[j] * sum;
         along_x += wy.w[j] * slope;
         along_y += wy.d[j] * sum;
     }
-    const T amplitude = T(options_.amplitude);
-    return {amplitude * (value - T(options_.midlevel)), amplitude * along_x * side_u * T(width_),
-            -amplitude * along_y * side_v * T(height_)};
+    const U amplitude = U(options_.amplitude);
+    return {amplitude * (value - U(options_.midlevel)), amplitude * along_x * side_u * U(width_),
+            -amplitude * along_y * side_v * U(height_)};
 }
 
 template class HeightSampler<float>;
 template class HeightSampler<double>;
+template Height<float> HeightSampler<float>::sample(float, float) const noexcept;
+template Height<double> HeightSampler<float>::sample(double, double) const noexcept;
+template Height<double> HeightSampler<double>::sample(double, double) const noexcept;
 
 } // namespace bake

@@ -51,7 +51,9 @@ public:
 
     /// Height and slopes per unit of u and v at any finite u, v. Beyond a clamped border the height is that of the
     /// border and its slope across the border 0.
-    Height<T> at(T u, T v) const noexcept;
+    Height<T> at(T u, T v) const noexcept { return sample<T>(u, v); }
+    /// The same with coordinates and weights of another precision than the values'.
+    template <class U> Height<U> sample(U u, U v) const noexcept;
 
 private:
     Interpolation interpolation_;

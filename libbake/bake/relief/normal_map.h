@@ -1,5 +1,6 @@
 // Normal maps from a height: on a plane, or on a UV-mapped mesh with the mesh's own metric and curvature.
 #pragma once
+#include "bake/asset/pad_texels.h"
 #include "bake/relief/bump_table.h"
 #include "bake/surface/mesh_surface.h"
 #include "bake/surface/uv_raster.h"
@@ -86,9 +87,5 @@ BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width
 /// The normal map of a height on a mesh: three channels, encoded.
 Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
                         NormalMapReport& report, Progress* progress = nullptr);
-
-/// Fills texels with `owner` false from the nearest texel with it true, up to `padding` texels away (ties: the upper,
-/// then the left one). Returns how many.
-std::int64_t pad_texels(Image<float>& image, const Image<unsigned char>& owner, int padding);
 
 } // namespace bake

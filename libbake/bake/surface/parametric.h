@@ -3,6 +3,7 @@
 // u and v both run from 0 to 1 (p_u is per unit of u); y is up. All charts of closed shapes have N = p_u x p_v outward.
 #pragma once
 #include "bake/asset/mesh.h"
+#include "bake/surface/closure.h"
 #include "bake/surface/jet.h"
 #include <memory>
 #include <string>
@@ -14,12 +15,7 @@ namespace bake {
 /// A point where p_u x p_v = 0: does the normal have a limit there?
 enum class Pole { none, with_normal, without_normal };
 
-/// How the edges of the unit square meet in space.
-enum class Closure {
-    open,     ///< they do not
-    periodic, ///< u (or v) = 0 and 1 are the same curve
-    twisted,  ///< the same curve run the other way: Moebius strip, Klein bottle
-};
+struct AnalyticShape; // parametric_shapes.h
 
 /// One analytic surface, by name and values: cheap to copy, immutable.
 class ParametricSurface {
@@ -46,16 +42,22 @@ public:
     /// (else zero), and sigma, n_u, n_v are 0.
     Jet<double> jet(double u, double v, int patch = 0) const noexcept;
     Pole pole(double u, double v, int patch = 0) const noexcept;
+    /// The outward unit normal where there is one; at a pole what it tends to along the parameter that runs into it
+    /// (one per meridian of a cone's apex); zero where that vanishes too.
+    Vec3d side_normal(double u, double v, int patch = 0) const noexcept;
+
+    const AnalyticShape& shape() const noexcept { return *shape_; }
 
 private:
-    struct Shape;
-    std::shared_ptr<const Shape> shape_;
+    Vec3d limit_normal(double u, double v, int patch) const noexcept;
+    std::shared_ptr<const AnalyticShape> shape_;
 };
 
 /// Names of all shapes, with their keys and defaults: one line each, for --help.
 std::string parametric_shapes();
 
-/// columns x rows quads over every patch: uv = parameters, exact normals, positions shared at closures and poles. Quads
+/// columns x rows quads over every patch, patch by patch and row by row: face (patch rows + j) columns + i has the
+/// corners (i,j) (i+1,j) (i+1,j+1) (i,j+1). uv = parameters, exact normals, positions shared at closures and poles. Quads
 /// at a pole keep four corners, two of which share their position, so that each keeps its own uv
 /// (see without_repeats()). Bezier patches share the positions of common borders when these are bit-equal.
 /// Throws Error{Refusal::usage} for fewer than one column or row, or 3 of them along a periodic direction.

@@ -8,34 +8,12 @@
 #pragma once
 #include "bake/asset/mesh.h"
 #include "bake/surface/jet.h"
+#include "bake/surface/subdivision_types.h"
 #include <memory>
 #include <span>
+#include <string>
 
 namespace bake {
-
-enum class Scheme { catmark, loop };
-
-/// How uvs are smoothed. Borders of the charts stay where they are linear.
-enum class UvSmoothing {
-    none,    ///< bilinear in each face of the cage
-    inside,  ///< smooth inside a chart, its borders straight lines (Blender's default)
-    all,     ///< smooth, borders too
-};
-
-struct SubdivisionOptions {
-    Scheme scheme = Scheme::catmark;
-    UvSmoothing uv = UvSmoothing::inside;
-    /// Times that the neighbourhood of extraordinary vertices and creases is split before an approximation takes its
-    /// place, 1 to 15. Parameters that are multiples of 2^-isolation are exact; elsewhere see docs/surface.md.
-    int isolation = 10;
-};
-
-/// Everything at one parameter. What was not asked for is left as it was.
-struct LimitPoint {
-    Vec3d p, p_s, p_t, p_ss, p_st, p_tt;
-    Vec2d uv, uv_s, uv_t, uv_ss, uv_st, uv_tt; ///< zero without uvs
-};
-enum class Derivatives { none, first, second };
 
 /// Throws Error{Refusal::unsuitable} (naming `path`, the first place and the mend) for a cage that has no limit surface
 /// or that OpenSubdiv would accept and get wrong: an edge of three faces, a vertex where faces meet in two fans, a
@@ -62,11 +40,19 @@ public:
     /// All points of the lattice (i / rate, j / rate), i first: (rate + 1)^2 for a quad patch, those with i + j <= rate
     /// for a triangle. The same bits as evaluate() gives, faster.
     void evaluate_lattice(std::uint32_t patch, int rate, Derivatives order, std::span<LimitPoint> out) const noexcept;
+    /// Its rows j in [row_begin, row_end) only, for callers who work in bands.
+    void evaluate_rows(std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
+                       std::span<LimitPoint> out) const noexcept;
 
 private:
     struct Limit;
     std::unique_ptr<Limit> limit_;
 };
+
+/// The cage after so many levels of subdivision, at most 15: not yet the limit. Uvs, materials, groups and tags are kept
+/// (tags as sharp as the levels leave them, so that refining goes on as if in one go), normals and attributes are not.
+/// check_cage() comes first. Throws Error{Refusal::unsuitable} when it needs more memory than there is.
+Mesh refine(const Mesh& cage, const SubdivisionOptions& options, int levels);
 
 /// Derivatives along the UV chart instead of the patch's own parameters; needs Derivatives::second. All derivatives
 /// zero where the chart has no area.

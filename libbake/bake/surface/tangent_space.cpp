@@ -1,5 +1,6 @@
 #include "bake/surface/tangent_space.h"
 #include "bake/base/parallel.h"
+#include "bake/surface/mesh_surface.h"
 #include "bake/surface/weld.h"
 #include <algorithm>
 #include <cfloat>
@@ -402,6 +403,17 @@ std::vector<Vec4f> corner_tangents(const Mesh& mesh, const std::vector<Triangle>
     const std::vector<Vec4f> tangents = corner_tangents(position, normal, uv, face_begin);
     for (std::size_t k = source.size(); k-- > 0;) out[source[k]] = tangents[k]; // backwards: the first triangle wins
     return out;
+}
+
+void add_tangents(Mesh& mesh) {
+    if (mesh.corner_uv.empty()) return;
+    const std::vector<Triangle> triangles = triangulate(mesh);
+    const std::vector<Vec3f> normals = corner_normals(mesh, triangles);
+    mesh.tangents = corner_tangents(mesh, triangles, normals);
+    if (!mesh.corner_normal.empty()) return;
+    mesh.corner_normal = mesh.corner_position; // without normals of its own, all corners of a position have one
+    mesh.normals.assign(mesh.positions.size(), Vec3f(0));
+    for (std::size_t c = 0; c < mesh.corners(); ++c) mesh.normals[mesh.corner_position[c]] = normals[c];
 }
 
 } // namespace bake

@@ -22,4 +22,7 @@ std::vector<Vec4f> corner_tangents(std::span<const Vec3f> positions, std::span<c
 std::vector<Vec4f> corner_tangents(const Mesh& mesh, const std::vector<Triangle>& triangles,
                                    std::span<const Vec3f> normals);
 
+/// Gives the mesh tangents of its triangles and of its own normals, and normals where it has none; nothing without uvs.
+void add_tangents(Mesh& mesh);
+
 } // namespace bake

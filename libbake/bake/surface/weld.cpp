@@ -78,4 +78,14 @@ Weld weld_corners(std::span<const Vec3f> positions, std::span<const Vec3f> norma
     return weld;
 }
 
+void weld_positions(Mesh& mesh) {
+    const std::size_t count = mesh.positions.size();
+    const Weld weld = weld_corners(mesh.positions, std::vector<Vec3f>(count), std::vector<Vec2f>(count));
+    if (weld.vertices == count) return;
+    std::vector<std::uint32_t> first(weld.vertices, no_index);
+    for (std::uint32_t p = 0; p < count; ++p)
+        if (first[weld.vertex[p]] == no_index) first[weld.vertex[p]] = p;
+    for (std::uint32_t& p : mesh.corner_position) p = first[weld.vertex[p]];
+}
+
 } // namespace bake

@@ -1,6 +1,6 @@
 // Corners that are the same point of a mesh, found by value.
 #pragma once
-#include "bake/base/vec.h"
+#include "bake/asset/mesh.h"
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,5 +15,8 @@ struct Weld {
 /// Gives one vertex to all corners whose position, normal and uv are exactly equal (-0 equals 0).
 /// All arrays have one value per corner; values must not be NaN.
 Weld weld_corners(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<const Vec2f> uvs);
+
+/// Makes bit-equal positions one (-0 equals 0): corners name the first of them, the others stay unused.
+void weld_positions(Mesh& mesh);
 
 } // namespace bake

@@ -1,4 +1,5 @@
 #include "bake/verdict/inspect.h"
+#include "bake/asset/gltf_io.h"
 #include "bake/asset/mesh_io.h"
 #include "bake/base/error.h"
 #include <algorithm>
@@ -87,6 +88,8 @@ void judge_uvs(const MeshReport& report, Findings& out) {
            "baked only as far as the tile goes");
     add_if(out.notes, uv.mirrored_triangles, "mirrored triangle",
            "relief and tangents follow (sigma = -1), text would not read");
+    if (2 * uv.mirrored_triangles > report.check.triangles)
+        out.notes.push_back("most triangles are mirrored: perhaps v does not run as the format says; see --flip-v");
     if (uv.density.p5 > 0 && uv.density.p95 / uv.density.p5 > 4)
         out.notes.push_back("texel density varies " + number(uv.density.p95 / uv.density.p5) +
                             " times between its 5th and 95th percentile");
@@ -116,12 +119,23 @@ Findings judge(const MeshReport& report) {
     Findings out;
     judge_topology(report.check, out);
     judge_uvs(report, out);
+    if (const auto& gltf = report.gltf) {
+        add_if(out.warnings, gltf->missing_images, "image|that is not there", "its textures are not either");
+        if (gltf->normal_textures > 0 && !gltf->tangents)
+            out.notes.push_back("a normal texture and no tangents: viewers make their own, by MikkTSpace if they keep to the format");
+    }
     if (report.audited && !report.audit.available) out.notes.push_back("no audit: this build has no CGAL");
     if (report.audit.available) {
-        add_if(out.warnings, report.audit.self_intersections, "pair|of triangles that cut each other",
-               "the surface intersects itself");
-        if (report.audit.closed && !report.audit.outward)
-            out.warnings.push_back("closed, but its faces do not all look outwards: it bounds no volume");
+        const MeshAudit& a = report.audit;
+        if (a.self_intersections > 0)
+            out.warnings.push_back(counted(a.self_intersections, "pair|of triangles that cut each other") +
+                                   ": the surface intersects itself, first in faces " +
+                                   std::to_string(a.first_faces[0]) + " and " +
+                                   std::to_string(a.first_faces[1]) + " near (" + number(a.first_place.x) + " " +
+                                   number(a.first_place.y) + " " + number(a.first_place.z) + ")");
+        add_if(out.warnings, a.inverted_components, "closed component|inside out",
+               a.nested_components > 0 ? "shells must look outwards, and walls of hollows inwards"
+                                       : "its faces look inwards: it bounds no volume");
     }
     return out;
 }
@@ -209,15 +223,54 @@ Findings judge(const PairReport& report) {
     return out;
 }
 
+namespace {
+
+/// As read_mesh, and a look at what a glTF has beside its mesh.
+Mesh read_parts(const std::string& path, const InspectOptions& options, std::optional<GltfParts>& parts) {
+    if (!is_gltf(path)) return read_mesh(path, options.read);
+    Gltf gltf = read_gltf(path, {.flip_v = !options.read.flip_v});
+    parts.emplace();
+    parts->nodes = gltf.nodes.size();
+    parts->images = gltf.images.size();
+    for (const GltfImage& image : gltf.images) parts->missing_images += image.bytes.empty() ? 1 : 0;
+    for (const GltfMaterial& material : gltf.materials) parts->normal_textures += material.normal ? 1 : 0;
+    parts->tangents = !gltf.mesh.tangents.empty();
+    return flatten(std::move(gltf));
+}
+
+} // namespace
+
+Findings judge(const DistanceReport& report) {
+    Findings out;
+    const MeshDistance& d = report.distance;
+    if (report.over_limit())
+        out.warnings.push_back("over the limit: up to " + number(d.upper) + " apart, " + number(report.limit) +
+                               " allowed" + (d.lower > report.limit ? "" : " (perhaps within: see the lower bound)"));
+    if (d.upper > 1.5 * d.lower && d.upper > 1e-6 * d.diagonal)
+        out.notes.push_back("the bounds are far apart: the meshes are too unlike to settle it in the time allowed");
+    return out;
+}
+
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) {
     MeshReport report;
     report.file = path;
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = read_parts(path, options, report.gltf);
     const std::vector<Triangle> triangles = triangulate(mesh);
     report.check = check_mesh(mesh, triangles, options.mesh);
     report.uv = check_uvs(mesh, triangles, options.uv);
     report.audited = options.audit;
     if (options.audit) report.audit = audit(mesh, triangles);
+    report.findings = judge(report);
+    return report;
+}
+
+DistanceReport inspect_distance(const std::string& path, const std::string& other_path, const InspectOptions& options) {
+    DistanceReport report;
+    report.file = path;
+    report.other = other_path;
+    report.limit = options.limit;
+    const Mesh mesh = read_mesh(path), other = read_mesh(other_path);
+    report.distance = mesh_distance(mesh, triangulate(mesh), other, triangulate(other), options.distance);
     report.findings = judge(report);
     return report;
 }

@@ -1,11 +1,14 @@
 // What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
 #pragma once
+#include "bake/asset/mesh_io.h"
 #include "bake/relief/height.h"
 #include "bake/surface/mesh_audit.h"
 #include "bake/surface/mesh_check.h"
+#include "bake/surface/mesh_distance.h"
 #include "bake/surface/uv_check.h"
 #include "bake/verdict/image_check.h"
 #include "bake/verdict/pair_check.h"
+#include <optional>
 
 namespace bake {
 
@@ -16,13 +19,25 @@ struct Findings {
 
 struct InspectOptions {
     bool audit = false; ///< meshes: self intersections and orientation too, by CGAL, which is slow
+    MeshOptions read; ///< meshes: how they are read
     MeshCheckOptions mesh;
     UvCheckOptions uv;
     Grey height_channel = Grey::mean; ///< pairs: the grey of the height
+    MeshDistanceOptions distance;
+    double limit = 0; ///< distances: warn when the upper bound is larger; 0: none
+};
+
+/// What a glTF holds beside its mesh.
+struct GltfParts {
+    std::size_t nodes = 0;           ///< that place a mesh
+    std::size_t normal_textures = 0; ///< materials that have one
+    std::size_t images = 0, missing_images = 0;
+    bool tangents = false;
 };
 
 struct MeshReport {
     std::string file;
+    std::optional<GltfParts> gltf;
     MeshCheck check;
     UvCheck uv;
     bool audited = false;
@@ -44,16 +59,27 @@ struct PairReport {
     Findings findings;
 };
 
+struct DistanceReport {
+    std::string file, other;
+    MeshDistance distance;
+    double limit = 0;
+    Findings findings;
+    bool over_limit() const noexcept { return limit > 0 && distance.upper > limit; }
+};
+
 /// Throw as read_mesh, read_image and read_height.
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options = {});
 ImageReport inspect_image(const std::string& path, const InspectOptions& options = {});
 PairReport inspect_pair(const std::string& height_path, const std::string& normal_path,
                         const InspectOptions& options = {});
+DistanceReport inspect_distance(const std::string& path, const std::string& other_path,
+                                const InspectOptions& options = {});
 
 /// The findings alone, from measurements already made.
 Findings judge(const MeshReport& report);
 Findings judge(const ImageReport& report);
 Findings judge(const PairReport& report);
+Findings judge(const DistanceReport& report);
 
 /// True for names that end like a mesh, known to read_mesh or not.
 bool named_like_a_mesh(const std::string& path);
@@ -62,10 +88,12 @@ bool named_like_a_mesh(const std::string& path);
 std::string to_text(const MeshReport& report);
 std::string to_text(const ImageReport& report);
 std::string to_text(const PairReport& report);
+std::string to_text(const DistanceReport& report);
 
 /// One JSON object.
 std::string to_json(const MeshReport& report);
 std::string to_json(const ImageReport& report);
 std::string to_json(const PairReport& report);
+std::string to_json(const DistanceReport& report);
 
 } // namespace bake

@@ -1,4 +1,5 @@
 #include "bake/verdict/inspect.h"
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace bake {
@@ -55,6 +56,36 @@ Json channel(const ChannelCheck& c) {
             {"least_step", c.least_step}};
 }
 
+Json place(const Vec3d& p) { return {p.x, p.y, p.z}; }
+
+Json audit(const MeshAudit& a) {
+    Json json = {{"self_intersections", a.self_intersections}};
+    if (a.self_intersections > 0)
+        json["first_intersection"] = {{"faces", {a.first_faces[0], a.first_faces[1]}}, {"place", place(a.first_place)}};
+    json.update({{"closed", a.closed},
+                 {"outward", a.outward},
+                 {"bounds_volume", a.bounds_volume},
+                 {"volume", a.volume},
+                 {"components", a.components},
+                 {"closed_components", a.closed_components},
+                 {"inverted_components", a.inverted_components},
+                 {"nested_components", a.nested_components}});
+    return json;
+}
+
+Json one_way(const OneWayDistance& d, bool shading) {
+    const auto angles = [](const NormalDeviation& n) { return Json{{"mean", n.mean}, {"p95", n.p95}, {"max", n.max}}; };
+    Json json = {{"lower", d.lower},
+                 {"upper", d.upper},
+                 {"mean", d.mean},
+                 {"rms", d.rms},
+                 {"farthest", place(d.farthest)},
+                 {"nearest", place(d.nearest)},
+                 {"facet_normals_deg", angles(d.facet)}};
+    if (shading) json["file_normals_deg"] = angles(d.shading);
+    return json;
+}
+
 } // namespace
 
 std::string to_json(const MeshReport& report) {
@@ -68,6 +99,9 @@ std::string to_json(const MeshReport& report) {
     json["faces_of_size"] = sizes;
     json["materials"] = c.materials;
     json["groups"] = c.groups;
+    if (const auto& gltf = report.gltf)
+        json["gltf"] = {{"nodes", gltf->nodes}, {"normal_textures", gltf->normal_textures}, {"images", gltf->images},
+                        {"missing_images", gltf->missing_images}, {"tangents", gltf->tangents}};
     json["min"] = {c.box.min.x, c.box.min.y, c.box.min.z};
     json["max"] = {c.box.max.x, c.box.max.y, c.box.max.z};
     json["diagonal"] = c.diagonal;
@@ -84,11 +118,7 @@ std::string to_json(const MeshReport& report) {
     json["bad_normals"] = c.bad_normals;
     json["opposed_normals"] = c.opposed_normals;
     json["uv"] = report.uv.triangles > 0 ? uvs(report.uv) : Json(nullptr);
-    if (report.audit.available)
-        json["audit"] = {{"self_intersections", report.audit.self_intersections},
-                         {"closed", report.audit.closed},
-                         {"outward", report.audit.outward},
-                         {"volume", report.audit.volume}};
+    if (report.audit.available) json["audit"] = audit(report.audit);
     add(json, report.findings);
     return dump(json);
 }
@@ -143,6 +173,22 @@ std::string to_json(const PairReport& report) {
                  {"normal_length", c.normal_length},
                  {"not_unit", c.not_unit},
                  {"inward", c.inward}};
+    add(json, report.findings);
+    return dump(json);
+}
+
+std::string to_json(const DistanceReport& report) {
+    const MeshDistance& d = report.distance;
+    Json json = {{"file", report.file},
+                 {"against", report.other},
+                 {"kind", "distance"},
+                 {"hausdorff", {{"lower", d.lower}, {"upper", d.upper}}},
+                 {"mean", std::max(d.there.mean, d.back.mean)},
+                 {"rms", std::max(d.there.rms, d.back.rms)},
+                 {"diagonal", d.diagonal},
+                 {"there", one_way(d.there, d.shading)},
+                 {"back", one_way(d.back, d.shading)}};
+    if (report.limit > 0) json["limit"] = report.limit;
     add(json, report.findings);
     return dump(json);
 }

@@ -71,6 +71,22 @@ std::string uv_rows(const MeshReport& report) {
     return text;
 }
 
+std::string audit_row(const MeshAudit& a) {
+    std::string text = plural(a.self_intersections, "self intersection", "self intersections") + ", ";
+    text += !a.closed ? format("not closed (%zu of %zu components are)", a.closed_components, a.components)
+            : !a.outward ? "closed, not outward"
+            : a.bounds_volume ? "closed and outward: bounds a volume"
+                              : "closed and outward";
+    if (a.nested_components > 0) text += format(", %zu inside others", a.nested_components);
+    if (a.closed_components > 0) text += format(", volume %.6g", a.volume);
+    return row("audit", text);
+}
+
+std::string normal_row(const char* name, const NormalDeviation& there, const NormalDeviation& back) {
+    return row(name, format("mean %.3g, p95 %.3g, max %.3g; back %.3g, %.3g, %.3g degrees", there.mean, there.p95,
+                            there.max, back.mean, back.p95, back.max));
+}
+
 } // namespace
 
 std::string to_text(const MeshReport& report) {
@@ -81,6 +97,11 @@ std::string to_text(const MeshReport& report) {
                                face_sizes(c).c_str(), c.corners, c.triangles));
     if (c.materials > 0 || c.groups > 0)
         text += row("parts", plural(c.groups, "group", "groups") + ", " + plural(c.materials, "material", "materials"));
+    if (const auto& gltf = report.gltf)
+        text += row("glTF", plural(gltf->nodes, "node", "nodes") + ", " +
+                                plural(gltf->normal_textures, "normal texture", "normal textures") + ", " +
+                                plural(gltf->images, "image", "images") +
+                                (gltf->tangents ? ", tangents of its own" : ", no tangents"));
     text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x,
                                  c.box.min.y, c.box.min.z, c.box.max.x, c.box.max.y, c.box.max.z, c.diagonal, c.area));
     text += row("topology", plural(t.components, "component", "components") +
@@ -92,12 +113,7 @@ std::string to_text(const MeshReport& report) {
     text += row("faces", format("%zu flipped, %zu duplicate, %zu zero-area (up to 1e-12 of diagonal^2, or collinear)",
                                 t.flipped_faces, c.duplicate_faces, c.zero_area_faces));
     text += uv_rows(report);
-    if (report.audit.available)
-        text += row("audit", format("%zu self intersections, %s, volume %.6g", report.audit.self_intersections,
-                                    !report.audit.closed   ? "not closed"
-                                    : report.audit.outward ? "closed and outward"
-                                                           : "closed, not outward",
-                                    report.audit.volume));
+    if (report.audit.available) text += audit_row(report.audit);
     return text + endings(report.findings);
 }
 
@@ -147,6 +163,25 @@ std::string to_text(const PairReport& report) {
     text += row("height", c.inverted ? "inverted" : "white is high");
     text += row("green", c.directx ? "DirectX, y down" : "OpenGL, y up");
     text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off", c.normal_length, 100 * c.not_unit));
+    return text + endings(report.findings);
+}
+
+std::string to_text(const DistanceReport& report) {
+    const MeshDistance& d = report.distance;
+    const OneWayDistance& worst = d.there.lower >= d.back.lower ? d.there : d.back;
+    const double part = d.diagonal > 0 ? 1 / d.diagonal : 0;
+    std::string text = report.file + " against " + report.other + "\n";
+    text += row("hausdorff", format("%.6g to %.6g (%.3g to %.3g of the diagonal %.5g)", d.lower, d.upper,
+                                    d.lower * part, d.upper * part, d.diagonal));
+    text += row("farthest", format("(%.5g %.5g %.5g) from (%.5g %.5g %.5g) %s", worst.farthest.x, worst.farthest.y,
+                                   worst.farthest.z, worst.nearest.x, worst.nearest.y, worst.nearest.z,
+                                   &worst == &d.there ? "of the other" : "of the first"));
+    text += row("there", format("mean %.6g, rms %.6g, max %.6g to %.6g", d.there.mean, d.there.rms, d.there.lower,
+                                d.there.upper));
+    text += row("back", format("mean %.6g, rms %.6g, max %.6g to %.6g", d.back.mean, d.back.rms, d.back.lower,
+                               d.back.upper));
+    text += normal_row("facet normals", d.there.facet, d.back.facet);
+    if (d.shading) text += normal_row("file's normals", d.there.shading, d.back.shading);
     return text + endings(report.findings);
 }
 

@@ -1,0 +1,43 @@
+// How far a tessellation lies from the displaced surface.
+//
+// Every face is compared with the surface at parameters denser than its corners: at least its middles, and one per texel
+// of the height. The distance is that of a point of the surface from the face that stands for it there, split along
+// whichever diagonal is worse: an upper bound of its distance from the mesh. Each side of a seam is compared with itself.
+#pragma once
+#include "bake/relief/displace_layout.h"
+#include "bake/relief/seam_blend.h"
+
+namespace bake {
+
+/// The displaced surface of one patch: its points at parameters, with the correction of a blend.
+class DisplacedPatch {
+public:
+    DisplacedPatch(const ReliefSurface& surface, const SeamBlend& blend) : surface_(&surface), blend_(&blend) {}
+    /// One point per parameter. uvs follow in uv() until the next call.
+    std::span<const Vec3d> points(std::uint32_t patch, std::span<const Vec2d> st);
+    std::span<const SurfacePoint> base() const noexcept { return base_; }
+    const ReliefSurface& surface() const noexcept { return *surface_; }
+
+private:
+    const ReliefSurface* surface_;
+    const SeamBlend* blend_;
+    std::vector<SurfacePoint> base_;
+    std::vector<ReliefValue> values_;
+    std::vector<Vec3d> points_;
+};
+
+struct CellError {
+    double inside = 0; ///< largest distance from faces all of whose corners are inside the cell
+    double border = 0; ///< from those with a corner on its border
+    double square_sum = 0;
+    std::uint64_t samples = 0;
+    double max() const noexcept { return std::max(inside, border); }
+};
+
+/// Of one cell at fitted rates. Stops early, with what it has found, once `enough` is exceeded.
+CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& rates, double enough);
+
+/// Distance of a point from a triangle. Ericson, Real-Time Collision Detection, 2005, 5.1.5.
+double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
+
+} // namespace bake

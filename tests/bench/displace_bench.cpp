@@ -1,0 +1,75 @@
+// displace_bench: time and error of displace() on the torus R = 1, r = 0.4 with a relief of 0.01 in 24 x 12 waves, each of
+// its 4 x 4 patches cut into 2^level x 2^level. The oracle is the displaced torus in closed form; the error is the angle of
+// the normal that a shader shows at the middle of a face, interpolated from its corners. The limit is writing as many bytes
+// as the mesh has. Rows as in bench.h; size counts faces.
+#include "bench.h"
+#include "bake/relief/displace.h"
+#include "relief/torus_relief.h"
+#include <cstring>
+
+using namespace bake;
+
+namespace {
+
+// In the coordinates of the product: y up.
+Vec3d y_up(const Vec3d& v) { return {v.x, v.z, -v.y}; }
+
+struct Found {
+    bench::Errors normals;
+    double farthest = 0; ///< of the middles of faces from the displaced surface
+};
+
+Found found(const Mesh& mesh, const oracle::TorusRelief& relief) {
+    Found result;
+    std::vector<float> angles;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+        const std::uint32_t first = mesh.face_begin[f], count = mesh.face_begin[f + 1] - first;
+        Vec3d p(0), n(0);
+        Vec2d uv(0);
+        for (std::uint32_t c = first; c < first + count; ++c) {
+            p += Vec3d(mesh.positions[mesh.corner_position[c]]) / double(count);
+            n += Vec3d(mesh.normals[mesh.corner_normal[c]]);
+            uv += Vec2d(mesh.uvs[mesh.corner_uv[c]]) / double(count);
+        }
+        const Jet<double> s = oracle::unit_torus(uv.x, uv.y);
+        const Vec3d exact = y_up(s.p + oracle::relief(relief, uv.x, uv.y).b * s.n);
+        const Vec3d N = y_up(oracle::relief_normal(relief, uv.x, uv.y));
+        angles.push_back(float(oracle::angle_deg(n, N)));
+        result.farthest = std::max(result.farthest, std::abs(glm::dot(p - exact, N))); // along the normal, to first order
+    }
+    result.normals = bench::errors_of(std::move(angles));
+    return result;
+}
+
+std::size_t bytes(const Mesh& mesh) {
+    return sizeof(Vec3f) * (mesh.positions.size() + mesh.normals.size()) + sizeof(Vec2f) * mesh.uvs.size() +
+           sizeof(std::uint32_t) * (mesh.face_begin.size() + mesh.corner_position.size() + mesh.corner_normal.size() +
+                                    mesh.corner_uv.size());
+}
+
+} // namespace
+
+int main() {
+    const oracle::TorusRelief relief;
+    Relief height;
+    height.values = oracle::relief_texture(relief, 1024).values;
+    height.height = {.amplitude = 2 * relief.A, .midlevel = 0.5};
+    const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 4, 4);
+    for (int levels = 4; levels <= 9; ++levels) {
+        DisplaceOptions options;
+        options.rates.levels = levels;
+        Displaced result;
+        std::vector<char> room;
+        const auto times = bench::in_turn(5, {[&] { result = displace(base, height, options); },
+                                              [&] {
+                                                  room = std::vector<char>();
+                                                  room.resize(bytes(result.mesh));
+                                              }});
+        const Found error = found(result.mesh, relief);
+        bench::print_row("displace", bench::text("torus_levels_%d", levels), std::int64_t(result.mesh.faces()),
+                         1e9 * times[0].median() / double(result.mesh.faces()), error.normals, times[0].ratio_to(times[1]),
+                         "write pass",
+                         bench::text("%.3g ms in all; farthest %.2g of the diagonal", 1e3 * times[0].median(),
+                                     error.farthest / std::sqrt(2 * 2.8 * 2.8 + 0.8 * 0.8)));
+    }
+}

@@ -1,0 +1,124 @@
+// displace_shapes_bench [LEVELS_MORE]: time and error of displacement, memory to memory, per point of the result: shapes whose
+// displaced form is known, and cages under the same height. ratio is against one pass that writes as many bytes as the
+// mesh has, by the same for_rows, measured in turn.
+//
+// error_*_deg: angles of the normals in the mesh that was timed: on shapes against the closed form; on cages against
+// Max's normals of its own faces, which are themselves of order 2 in the edge's length. note: worst position error over
+// the diagonal (shapes), bytes, milliseconds in all.
+#include "bake/asset/mesh_io.h"
+#include "bake/relief/displace.h"
+#include "waves.h"
+#include <cstring>
+#include <filesystem>
+
+using namespace bake;
+using oracle::pi;
+
+namespace {
+
+struct Case {
+    std::string name;
+    BaseSurface base;
+    int levels;
+    std::function<Jet<double>(double, double)> form; ///< of uv; empty: a cage
+    double diagonal = 1;
+};
+
+Jet<double> y_up(Jet<double> s, double du, double dv) {
+    const auto turn = [](const Vec3d& v) { return Vec3d(v.x, v.z, -v.y); };
+    s.p = turn(s.p), s.n = turn(s.n);
+    s.p_u = du * turn(s.p_u), s.p_v = dv * turn(s.p_v), s.n_u = du * turn(s.n_u), s.n_v = dv * turn(s.n_v);
+    return s;
+}
+
+Mesh cube() {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.corner_position = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 2, 3, 7, 6, 1, 2, 6, 5, 0, 4, 7, 3};
+    for (std::uint32_t c = 0; c < 24; ++c) mesh.corner_uv.push_back(c % 4);
+    for (std::uint32_t f = 1; f <= 6; ++f) mesh.face_begin.push_back(4 * f);
+    return mesh;
+}
+
+bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const Mesh& mesh, double& position) {
+    std::vector<Vec3d> own;
+    if (!c.form) {
+        own.assign(mesh.normals.size(), Vec3d(0));
+        for (std::size_t f = 0; f < mesh.faces(); ++f) {
+            const std::uint32_t first = mesh.face_begin[f], n = mesh.face_begin[f + 1] - first;
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const auto at = [&](std::uint32_t i) { return Vec3d(mesh.positions[mesh.corner_position[first + i % n]]); };
+                const Vec3d a = at(k + 1) - at(k), b = at(k + n - 1) - at(k);
+                own[mesh.corner_normal[first + k]] += glm::cross(a, b) / (glm::dot(a, a) * glm::dot(b, b));
+            }
+        }
+    }
+    std::vector<float> errors;
+    position = 0;
+    for (std::size_t corner = 0; corner < mesh.corners(); corner += 3) {
+        const Vec3d n(mesh.normals[mesh.corner_normal[corner]]);
+        if (!c.form) {
+            errors.push_back(float(oracle::angle_deg(n, own[mesh.corner_normal[corner]])));
+            continue;
+        }
+        const Vec2d uv(mesh.uvs[mesh.corner_uv[corner]]);
+        if (uv.y <= 0 || uv.y >= 1) continue; // poles: their uv is that of a face
+        const Jet<double> s = c.form(uv.x, uv.y);
+        const Height<double> h = oracle::relief(r, uv.x, uv.y);
+        position = std::max(position, glm::length(Vec3d(mesh.positions[mesh.corner_position[corner]]) - s.p - h.b * s.n) / c.diagonal);
+        errors.push_back(float(oracle::angle_deg(n, glm::cross(s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v))));
+    }
+    return bench::errors_of(std::move(errors));
+}
+
+void run(const Case& c, int threads) {
+    const ThreadLimit limit(threads);
+    const oracle::TorusRelief r{0.01, 12, 12};
+    Relief height;
+    height.values = oracle::relief_texture(r, 1024).values;
+    height.height = {.amplitude = 2 * r.A, .midlevel = 0.5};
+    DisplaceOptions options;
+    options.rates.levels = c.levels;
+    Displaced out = displace(c.base, height, options);
+    const std::size_t bytes = 12 * (out.mesh.positions.size() + out.mesh.normals.size() + out.mesh.corners()) +
+                              8 * out.mesh.uvs.size() + 4 * out.mesh.faces();
+    const auto times = bench::in_turn(5, {
+        [&] {
+            const std::unique_ptr<char[]> fresh(new char[bytes]);
+            for_rows(std::int64_t(bytes >> 20), 1, [&](std::int64_t begin, std::int64_t end) {
+                std::memset(fresh.get() + (begin << 20), int(begin), std::size_t(end - begin) << 20);
+            });
+        },
+        [&] {
+            out = {};
+            out = displace(c.base, height, options);
+        }});
+    double position = 0;
+    const bench::Errors errors = normal_errors(c, r, out.mesh, position);
+    const double points = double(out.mesh.positions.size());
+    bench::print_row("displace_shapes", c.name, std::int64_t(points), 1e9 * times[1].median() / points, errors, times[1].ratio_to(times[0]),
+                     "writing the bytes",
+                     bench::text("position %.2g of the diagonal; %.0f MB; %.0f ms", position, double(bytes) / 1e6, 1e3 * times[1].median()));
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const int more = argc > 1 ? std::atoi(argv[1]) : 0;
+    if (more < 0 || more > 2) return std::fprintf(stderr, "usage: displace_shapes_bench [LEVELS_MORE], 0 to 2\n"), 2;
+    std::vector<Case> cases;
+    cases.push_back({"torus", BaseSurface(ParametricSurface("torus:R=1,r=0.4"), 32, 32), 5 + more,
+                     [](double u, double v) { return y_up(oracle::torus(1, 0.4, 2 * pi * u, 2 * pi * v), 2 * pi, 2 * pi); }, std::sqrt(2.8 * 2.8 * 2 + 0.8 * 0.8)});
+    cases.push_back({"sphere", BaseSurface(ParametricSurface("sphere:R=1"), 32, 32), 5 + more,
+                     [](double u, double v) { return y_up(oracle::sphere(1, 2 * pi * u, pi * (v - 0.5)), 2 * pi, pi); }, std::sqrt(12.0)});
+    cases.push_back({"cube_limit", BaseSurface(cube(), SubdivisionOptions{}), 9 + more, {}});
+    cases.push_back({"cube_mesh", BaseSurface(cube()), 9 + more, {}});
+    const std::filesystem::path spot = "../shared/data/meshes/spot/spot_control_mesh.obj";
+    if (std::filesystem::exists(spot)) {
+        cases.push_back({"spot_limit", BaseSurface(read_mesh(spot.string()), SubdivisionOptions{}), 5 + more, {}});
+        cases.push_back({"spot_mesh", BaseSurface(read_mesh(spot.string())), 6 + more, {}});
+    }
+    for (const Case& c : cases)
+        for (const int threads : {1, 0}) run(c, threads);
+}

@@ -1,0 +1,58 @@
+// Options of displace, and what they mean for the library.
+#pragma once
+#include "bake/relief/displace.h"
+#include "options.h"
+
+namespace bake {
+
+/// What the relief stands on.
+enum class BaseKind {
+    automatic, ///< none without rates, linear with them
+    none,      ///< the mesh as it is
+    linear,    ///< the mesh, its faces cut finer
+    catmark, loop,
+};
+
+struct DisplaceArgs {
+    std::string mesh, shape, out, amplitude, edge_px, camera, max_error, max_memory;
+    HeightArgs height;
+    std::optional<double> midlevel;
+    std::optional<int> levels;
+    BaseKind kind = BaseKind::automatic;
+    UvSmoothing uv_smoothing = UvSmoothing::inside;
+    Seam seam = Seam::average;
+    std::optional<VectorSpace> vector;
+    Interpolation interpolation = Interpolation::c2;
+    bool measure = false, margin = false, audit = false;
+
+    const std::string& base_name() const { return shape.empty() ? mesh : shape; }
+};
+
+void add_displace_options(CLI::App& sub, DisplaceArgs& args);
+/// Throws Error{Refusal::usage} for options that contradict each other, before anything is read.
+void check_usage(const DisplaceArgs& args);
+/// Segments of the refinements and limits that are asked for without rates, as levels.
+inline constexpr int default_levels = 3;
+
+/// The mesh, the limit of the cage or the shape. Throws Error{Refusal::unsuitable} for a mesh without uvs and a cage
+/// without limit.
+BaseSurface make_base(const DisplaceArgs& args);
+
+/// The relief, and what its file said.
+struct ReliefFile {
+    Relief relief;
+    std::string described; ///< "8-bit height, 231 levels"
+    bool default_amplitude = false;
+};
+/// `size` is the diagonal of what it is laid over.
+ReliefFile load_relief(const DisplaceArgs& args, double size);
+
+/// Reads the camera where one is named.
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size);
+
+/// "2G", "1.5GiB", "500M" or bytes. Throws Error{Refusal::usage}.
+std::uint64_t parse_bytes(const std::string& flag, const std::string& text);
+/// "1.2 GiB".
+std::string describe_bytes(double bytes);
+
+} // namespace bake
