@@ -232,7 +232,11 @@ TEST_CASE("displace: what does not fit in --max-memory is refused with what it n
     const Run run = run_bake(folder, arguments);
     CAPTURE(run.err);
     CHECK(run.seconds < 5);
+#if defined(__SANITIZE_ADDRESS__)
+    CHECK(run.peak_mib < 500); // the sanitizer keeps freed blocks; still less than the 714 MB that are refused
+#else
     CHECK(run.peak_mib < 200);
+#endif
     // Far beyond any machine, without --max-memory.
     check_refused(folder, {"displace", "--shape", "torus", "--height", waves(folder), "--levels", "10", "-o", "a.ply"}, 4, "level");
 }
