@@ -249,15 +249,12 @@ template <class T> struct Weights {
     T w[4], d[4];
 };
 
-template <class T> Weights<T> tap_weights(Interpolation interpolation, T t) noexcept {
+template <Interpolation interpolation, class T> Weights<T> tap_weights(T t) noexcept {
     const T t2 = t * t, t3 = t2 * t;
-    switch (interpolation) {
-    case Interpolation::bilinear: return {{0, 1 - t, t, 0}, {0, -1, 1, 0}};
-    case Interpolation::catmull_rom:
+    if constexpr (interpolation == Interpolation::bilinear) return {{0, 1 - t, t, 0}, {0, -1, 1, 0}};
+    if constexpr (interpolation == Interpolation::catmull_rom)
         return {{(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2, (t3 - t2) / 2},
                 {(-3 * t2 + 4 * t - 1) / 2, (9 * t2 - 10 * t) / 2, (-9 * t2 + 8 * t + 1) / 2, (3 * t2 - 2 * t) / 2}};
-    case Interpolation::c2: break;
-    }
     const T s = 1 - t;
     return {{s * s * s / 6, (3 * t3 - 6 * t2 + 4) / 6, (-3 * t3 + 3 * t2 + 3 * t + 1) / 6, t3 / 6},
             {-s * s / 2, (3 * t2 - 4 * t) / 2, (-3 * t2 + 2 * t + 1) / 2, t2 / 2}};
@@ -292,10 +289,19 @@ HeightSampler<T>::HeightSampler(const Image<T>& values, Interpolation interpolat
 }
 
 template <class T> template <class U> Height<U> HeightSampler<T>::sample(U u, U v) const noexcept {
+    switch (interpolation_) {
+    case Interpolation::bilinear: return sample_by<Interpolation::bilinear>(u, v);
+    case Interpolation::catmull_rom: return sample_by<Interpolation::catmull_rom>(u, v);
+    case Interpolation::c2: break;
+    }
+    return sample_by<Interpolation::c2>(u, v);
+}
+
+template <class T> template <Interpolation interpolation, class U> inline Height<U> HeightSampler<T>::sample_by(U u, U v) const noexcept {
     const auto [x, side_u] = texel_position(u, width_, options_.wrap_u);
     const auto [y, side_v] = texel_position(U(1) - v, height_, options_.wrap_v);
     const int ix = std::clamp(int(std::floor(x)), -1, width_ - 1), iy = std::clamp(int(std::floor(y)), -1, height_ - 1);
-    const Weights<U> wx = tap_weights(interpolation_, x - ix), wy = tap_weights(interpolation_, y - iy);
+    const Weights<U> wx = tap_weights<interpolation>(x - ix), wy = tap_weights<interpolation>(y - iy);
     U value = 0, along_x = 0, along_y = 0;
     for (int j = 0; j < 4; ++j) {
         const T* row = padded_.row(iy - 1 + j + pad) + ix - 1 + pad;

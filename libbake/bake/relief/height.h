@@ -56,6 +56,8 @@ public:
     template <class U> Height<U> sample(U u, U v) const noexcept;
 
 private:
+    template <Interpolation interpolation, class U> Height<U> sample_by(U u, U v) const noexcept;
+
     Interpolation interpolation_;
     HeightOptions options_;
     int width_, height_;

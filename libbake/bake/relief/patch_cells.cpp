@@ -160,13 +160,8 @@ std::vector<std::uint32_t> lowest(const PatchComplex& complex, std::uint32_t cou
 
 } // namespace
 
-bool is_collapsed(const PatchComplex::Patch& patch) noexcept {
+bool detail::sides_cancel(const PatchComplex::Patch& patch) noexcept {
     const int sides = patch.sides();
-    bool suspicious = false;
-    for (int i = 0; i < sides; ++i)
-        for (int j = 0; j < i; ++j) suspicious |= patch.edge[i] == patch.edge[j];
-    for (int i = 0; i < sides; ++i) suspicious |= is_point(patch, i);
-    if (!suspicious) return false;
     int left[4], count = 0;
     for (int i = 0; i < sides; ++i)
         if (!is_point(patch, i)) left[count++] = i;

@@ -42,8 +42,18 @@ inline bool is_point(const PatchComplex::Patch& patch, int side) noexcept {
     return patch.vertex[side] == patch.vertex[(side + 1) % patch.sides()];
 }
 
+namespace detail {
+bool sides_cancel(const PatchComplex::Patch& patch) noexcept;
+}
+
 /// Sides with a length cancel against neighbours: a triangle a a b, a quad a a b b or a b c b. There is nothing of it to
 /// see; the faces beside it hang together without it.
-bool is_collapsed(const PatchComplex::Patch& patch) noexcept;
+inline bool is_collapsed(const PatchComplex::Patch& patch) noexcept {
+    const auto& e = patch.edge;
+    const auto& v = patch.vertex;
+    const bool quad = patch.sides() == 4;
+    const bool repeats = e[0] == e[1] || e[1] == e[2] || e[2] == e[0] || (quad && (e[3] == e[0] || e[3] == e[1] || e[3] == e[2]));
+    return repeats ? detail::sides_cancel(patch) : v[0] == v[1] && v[1] == v[2] && (!quad || v[2] == v[3]);
+}
 
 } // namespace bake
