@@ -216,6 +216,20 @@ TEST_CASE("displace: options that contradict each other are usage errors, named"
     check_refused(folder, {"displace", torus, "-o", "a.ply"}, 2, "--height");
 }
 
+TEST_CASE("displace, NaN texel: refused with the count and the first place") {
+    const Folder folder;
+    const auto refused = [&](const std::string& height, const std::vector<std::string>& more, const std::string& named) {
+        std::vector<std::string> arguments = {"displace", torus, "--height", height, "-o", "a.ply"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        check_refused(folder, arguments, 4, named);
+    };
+    write_picture(folder / "nan.tif", 4, 4, 1, [](int x, int y, int) { return x == 2 && y == 1 ? std::numeric_limits<double>::quiet_NaN() : 0.5; });
+    refused("nan.tif", {}, "nan.tif: 1 values");
+    refused("nan.tif", {}, "(2, 1)");
+    write_picture(folder / "nan3.tif", 4, 4, 3, [](int x, int y, int c) { return x == 2 && y == 1 && c == 1 ? std::numeric_limits<double>::infinity() : 0.5; });
+    refused("nan3.tif", {"--vector", "tangent"}, "(2, 1)");
+}
+
 TEST_CASE("displace: files that do not fit the job are refused as unsuitable or unreadable") {
     const Folder folder;
     waves(folder);
@@ -229,10 +243,6 @@ TEST_CASE("displace: files that do not fit the job are refused as unsuitable or 
     refused({torus, "--height", waves(folder), "--vector", "object"}, 4, "waves.tif: has 1 colour channel");
     refused({"absent.obj", "--height", waves(folder)}, 3, "absent.obj");
     refused({torus, "--height", "absent.png"}, 3, "absent.png");
-    write_picture(folder / "nan.tif", 4, 4, 1, [](int x, int y, int) { return x == 2 && y == 1 ? std::numeric_limits<double>::quiet_NaN() : 0.5; });
-    refused({torus, "--height", "nan.tif"}, 4, "nan.tif: 1 values");
-    write_picture(folder / "nan3.tif", 4, 4, 3, [](int x, int y, int c) { return x == 2 && y == 1 && c == 1 ? std::numeric_limits<double>::infinity() : 0.5; });
-    refused({torus, "--height", "nan3.tif", "--vector", "tangent"}, 4, "(2, 1)");
     write_file(folder / "fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nvt 0 0\nf 1/1 2/1 3/1\nf 2/1 1/1 4/1\nf 1/1 2/1 5/1\n");
     refused({"fan.obj", "--height", waves(folder), "--subdivide", "catmark"}, 4, "fan.obj");
     refused({torus, "--height", waves(folder), "--subdivide", "loop"}, 4, "torus.obj");

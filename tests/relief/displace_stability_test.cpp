@@ -89,17 +89,42 @@ TEST_CASE("displace, extraordinary vertex: no curvature without limit reaches it
     }
 }
 
-TEST_CASE("displace, boundary and corner: the boundary of an open cage stays one loop with its points displaced") {
+TEST_CASE("displace, boundary: that of an open cage stays one loop with its points displaced") {
     Mesh cage = quad(unit_square);
-    cage.tags.boundary = SubdivisionTags::Boundary::edge_and_corner;
+    cage.tags.boundary = SubdivisionTags::Boundary::edge_only;
     const BaseSurface base(std::move(cage), SubdivisionOptions{});
     const Displaced out = displace(base, constant(0.5), levels(3));
     check_sound(out.mesh);
     CHECK(check(out.mesh).topology.boundary_edges == 32);
     CHECK(check(out.mesh).topology.boundary_loops == 1);
     CHECK(bounds(out.mesh).min.z == doctest::Approx(0.5));
-    CHECK(bounds(out.mesh).min.x == doctest::Approx(0));
-    CHECK(bounds(out.mesh).max.y == doctest::Approx(1));
+    CHECK(bounds(out.mesh).max.z == doctest::Approx(0.5));
+    // A round border, a cubic B-spline: at a control point 2/3 of it and 1/6 of each neighbour, midway 23/48 of two and 1/48.
+    CHECK(bounds(out.mesh).min.x == doctest::Approx(1.0 / 24));
+    CHECK(glm::length(out.mesh.positions[0] - Vec3f(1.0f / 6, 1.0f / 6, 0.5f)) < 1e-6f);
+}
+
+TEST_CASE("displace, corner: on the border and inside it stays where the cage has it, one point") {
+    Mesh open = quad(unit_square);
+    open.tags.boundary = SubdivisionTags::Boundary::edge_and_corner;
+    const Displaced sheet = displace(BaseSurface(std::move(open), SubdivisionOptions{}), constant(0.5), levels(3));
+    check_sound(sheet.mesh);
+    CHECK(sheet.mesh.positions[0] == Vec3f(0, 0, 0.5f));
+    Mesh cage = cube();
+    cage.tags.corners = {{6, 10}};
+    const BaseSurface base(std::move(cage), SubdivisionOptions{});
+    const auto nearest = [](const Mesh& mesh) {
+        double least = HUGE_VAL;
+        for (const Vec3f& p : mesh.positions) least = std::min(least, double(glm::length(p - cube_corners[6])));
+        return least;
+    };
+    CHECK(nearest(displace(base, constant(0), levels(3)).mesh) < 1e-6);
+    const Displaced out = displace(base, constant(0.1), levels(3));
+    check_sound(out.mesh);
+    CHECK(check(out.mesh).topology.closed_components == 1);
+    CHECK(check(out.mesh).coincident_positions == 0);
+    // The surface comes to a spike there, without a normal of its own; wherever it goes, it is no farther than b.
+    CHECK(nearest(out.mesh) <= 0.1 + 1e-6);
 }
 
 TEST_CASE("displace, crease: one point along the mean direction, two normals") {
