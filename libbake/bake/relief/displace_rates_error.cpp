@@ -76,16 +76,19 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
     return rates;
 }
 
+/// Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
+constexpr float first_aim = 0.85f;
+
 /// A plan of so many cells along a patch, made in two steps: what samples show, and then what measuring adds.
 class Planner {
 public:
     Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split)
         : surface_(surface), blend_(blend), error_(rates.error), cells_(surface.base().complex(), split),
-          fitted_(cells_.count(), Vec2f(0)) {
+          aim_(cells_.count(), first_aim), fitted_(cells_.count(), Vec2f(0)) {
         const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
         most_ = std::clamp(4 * limit / split, 1u, limit);
         plan_.split = split;
-        plan_.rates.edge = edge_rates(surface, blend, cells_, aim_ * error_, most_);
+        plan_.rates.edge = edge_rates(surface, blend, cells_, first_aim * error_, most_);
         plan_.rates.across.assign(cells_.count(), 1), plan_.rates.up.assign(cells_.count(), 1);
         changed_ = fit(std::vector<bool>(cells_.count(), true), 1);
     }
@@ -113,7 +116,8 @@ public:
             std::vector<bool> wanted(cells_.count());
             for (std::uint32_t c = 0; c < cells_.count(); ++c) wanted[c] = failed[c] && has_room(c);
             if (round == 12 || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return std::move(plan_);
-            aim_ = std::max(0.8 * aim_, 0.5);
+            for (std::uint32_t c = 0; c < cells_.count(); ++c)
+                if (wanted[c]) aim_[c] = std::max(0.8f * aim_[c], 0.5f);
             const CellRates before = plan_.rates;
             changed_ = fit(std::move(wanted), std::exp2(std::min(round, 3)));
             // From here on rounds are alike: what has not helped will not.
@@ -138,7 +142,7 @@ private:
                     PatchRates start{.sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
                     for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
                     const CellFitter::Fit found =
-                        fitter.fit(c, start, aim_ * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
+                        fitter.fit(c, start, aim_[c] * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
                     plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
                     fitted_[c] = Vec2f(found.density);
                     too_coarse[c] = found.sides_too_coarse;
@@ -168,10 +172,10 @@ private:
     const ReliefSurface& surface_;
     const SeamBlend& blend_;
     double error_;
-    double aim_ = 0.85; ///< of it: samples do not see all, least the middles of twisted faces; more where that failed
     PatchCells cells_;
     std::uint32_t most_; ///< segments of a cell
     RatePlan plan_;
+    std::vector<float> aim_;    ///< part of the error that a cell is fitted to
     std::vector<Vec2f> fitted_; ///< samples per texel that a cell took, 0: not fitted yet
     std::vector<bool> changed_;
 };
@@ -182,7 +186,7 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
     if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
     // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
-    std::uint32_t split = choose_split(surface, blend, 0.85 * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
+    std::uint32_t split = choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
     auto best = std::make_unique<Planner>(surface, blend, rates, split);
     while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
         split *= 2;
