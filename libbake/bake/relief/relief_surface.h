@@ -78,8 +78,9 @@ inline double fold_margin(const Jet<double>& s, double b) noexcept {
     // n_u = A p_u, n_v = A p_v on the tangent plane: trace and determinant of A come from cross products.
     const double area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
     if (area == 0 || s.sigma == 0) return 1;
-    const double mean = glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v)) / (2 * area);
-    const double gauss = glm::dot(s.n, glm::cross(s.n_u, s.n_v)) / area;
+    const double per_area = 1 / area;
+    const double mean = 0.5 * per_area * glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v));
+    const double gauss = per_area * glm::dot(s.n, glm::cross(s.n_u, s.n_v));
     const double half = std::sqrt(std::max(0.0, mean * mean - gauss));
     return 1 + b * mean - std::abs(b) * half;
 }
