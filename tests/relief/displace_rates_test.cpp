@@ -1,4 +1,5 @@
 // Rates that follow the relief and the camera.
+#include "bake/asset/mesh_io.h"
 #include "cli/command.h"
 #include "relief/displace_meshes.h"
 
@@ -109,6 +110,21 @@ TEST_CASE("displace: rates by error keep it on real heights, with two thirds of 
         CHECK(out.report.triangles * 3 < out.report.uniform_triangles * 2);
         check_sound(out.mesh);
     }
+}
+
+TEST_CASE("displace: rates by error do not cut a cell without end whose sides are coarser than what they bound") {
+    if (shared_data().empty()) {
+        MESSAGE("no shared data: skipped");
+        return;
+    }
+    // Tiles at 1K over a cage: cliffs inside cells whose sides are straight. No lattice makes up for such sides.
+    const auto tiles = shared_data() / "textures/pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg";
+    const auto cage = shared_data() / "meshes/opensubdiv/catmark_cubes_semisharp.obj";
+    const BaseSurface base(read_mesh(cage.string()), SubdivisionOptions{});
+    const double size = diagonal(bounds(base.mesh()));
+    const Displaced out = displace(base, relief(read_height(tiles.string()).values, 0.01 * size), by_error(0.001 * size));
+    CHECK(out.report.error_max <= 0.001 * size);
+    CHECK(out.report.triangles * 8 < out.report.uniform_triangles);
 }
 
 } // TEST_SUITE

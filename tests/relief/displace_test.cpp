@@ -1,5 +1,6 @@
 // Laws of displacement on small meshes.
 #include "relief/displace_meshes.h"
+#include <cstring>
 
 using namespace bake;
 using namespace bake::test;
@@ -11,6 +12,13 @@ DisplaceOptions levels(int n, Seam seam = Seam::average) {
     options.rates.levels = n;
     options.seam = seam;
     return options;
+}
+
+/// Whether every point of the one is one of the other, to the bit.
+bool are_among(const std::vector<Vec3f>& some, std::vector<Vec3f> all) {
+    const auto before = [](const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) < 0; };
+    std::sort(all.begin(), all.end(), before);
+    return std::all_of(some.begin(), some.end(), [&](const Vec3f& p) { return std::binary_search(all.begin(), all.end(), p, before); });
 }
 
 } // namespace
@@ -102,6 +110,23 @@ TEST_CASE("displace: creases keep one normal per side, seams one uv per side, an
     const Displaced smooth = displace(BaseSurface(cube(false)), relief(noise(16), 0.1), levels(2));
     CHECK(smooth.mesh.normals.size() == points);
     CHECK(smooth.mesh.uvs.size() == points + on_edges + 2 * on_corners);
+}
+
+TEST_CASE("displace: shared points have the same bits at any level") {
+    // What meets a finer neighbour, or replaces a coarser mesh, must lie where that lay. Every side of every patch is
+    // among them: seams of the cube's charts, a crease, a dart, an extraordinary vertex, poles.
+    Mesh cage = cube();
+    cage.tags.creases = {{4, 5, 10}, {5, 6, 10}, {0, 4, 2.5f}};
+    const BaseSurface surfaces[] = {BaseSurface(std::move(cage), SubdivisionOptions{}), BaseSurface(cube(true)),
+                                    BaseSurface(ParametricSurface("torus:R=2,r=0.7"), 6, 4), BaseSurface(ParametricSurface("sphere:R=1"), 6, 4)};
+    for (const BaseSurface& base : surfaces)
+        for (const Seam seam : {Seam::average, Seam::owner, Seam::blend}) {
+            const Relief height = relief(noise(32), 0.1);
+            const Displaced coarse = displace(base, height, levels(3, seam)), fine = displace(base, height, levels(5, seam));
+            CHECK(coarse.mesh.positions.size() * 15 < fine.mesh.positions.size());
+            CHECK(are_among(coarse.mesh.positions, fine.mesh.positions));
+            CHECK_FALSE(are_among(fine.mesh.positions, coarse.mesh.positions));
+        }
 }
 
 TEST_CASE("displace: any number of threads gives the same bytes") {

@@ -16,6 +16,7 @@ struct Outcome {
     std::size_t patches = 0;
     double size = 0;       ///< diagonal of the base
     double edge = 0;       ///< mean edge of the result
+    double max_error = 0;  ///< that was asked for, object units
     double amplitude = 0, midlevel = 0;
     bool default_amplitude = false;
     DisplaceReport report;
@@ -86,6 +87,9 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const Outcome& o) 
     if (args.seam != Seam::blend && r.seam_mismatch > 3 * o.edge)
         note(common, format("%s: the height differs by up to %.4g across a uv seam, %.1f edges of the result: a step shows there; --seam blend spreads it",
                             base.c_str(), r.seam_mismatch, r.seam_mismatch / o.edge));
+    if (o.max_error > 0 && r.error_max > o.max_error)
+        note(common, format("%s: the result is up to %.4g away from the displaced surface, more than --max-error %.4g: no edge is cut into more than %d "
+                            "segments; a finer mesh, a smoother height or a larger --max-error", base.c_str(), r.error_max, o.max_error, 4 * Rates{}.most));
     if (r.folded > 0)
         note(common, format("%s: %llu points are turned inside out, the displacement being beyond the radius of curvature; a smaller --amplitude, "
                             "or a --midlevel that moves it the other way", base.c_str(), count(r.folded)));
@@ -142,6 +146,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     watch.lap("base");
     const ReliefFile file = load_relief(args, o.size);
     const DisplaceOptions options = resolve_options(args, o.size);
+    o.max_error = options.rates.error;
     o.described = file.described;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.default_amplitude = file.default_amplitude;

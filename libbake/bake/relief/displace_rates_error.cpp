@@ -1,9 +1,11 @@
-// Rates by error: the displaced surface of every cell is sampled once, about once per texel, and rates are tried against
-// the samples until the faces stay near enough.
+// Rates by error: each edge by its own points, each cell by its lattice (displace_cell_fit.h), cells of whatever size needs
+// the fewest triangles.
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/relief/displace_cell_fit.h"
 #include "bake/relief/displace_curves.h"
 #include "bake/relief/displace_rates.h"
+#include <memory>
 
 namespace bake {
 namespace {
@@ -37,216 +39,6 @@ std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend,
     std::uint32_t split = 1;
     while (split * 12 <= high && std::uint64_t(patches) * split * split * 4 <= (1u << 21)) split *= 2;
     return split;
-}
-
-/// The displaced surface over one cell, at (i / across, j / up), on a triangle only those with i + j up to across.
-struct CellSamples {
-    std::uint32_t across = 0, up = 0;
-    bool quad = true;
-    std::vector<Vec2d> st;
-    std::vector<Vec3d> at; ///< (across + 1) (up + 1)
-
-    void take(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell) {
-        st.clear();
-        for (std::uint32_t j = 0; j <= up; ++j)
-            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i) st.push_back(cells.at(cell, i, across, j, up));
-        const auto points = patch.points(cells.patch(cell), st);
-        at.assign(std::size_t(across + 1) * (up + 1), Vec3d(0));
-        std::size_t next = 0;
-        for (std::uint32_t j = 0; j <= up; ++j)
-            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i) at[std::size_t(j) * (across + 1) + i] = points[next++];
-    }
-    const Vec3d& operator()(std::uint32_t i, std::uint32_t j) const noexcept { return at[std::size_t(j) * (across + 1) + i]; }
-};
-
-/// Which faces stay too far from the samples.
-struct Misfit {
-    bool inside = false, border = false;
-    bool any() const noexcept { return inside || border; }
-};
-
-/// One thread's work on cells.
-class CellFitter {
-public:
-    CellFitter(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells) : patch_(surface, blend), cells_(cells) {}
-
-    /// The lattice with which the cell's faces are within `error`, given its sides; whether the sides are too coarse.
-    struct Fit {
-        std::uint32_t across, up;
-        bool sides_too_coarse = false;
-        double density = 1; ///< samples per texel that it took
-    };
-    /// Begins with `density` samples per texel and, where `again`, with the lattice that `rates` has.
-    Fit fit(std::uint32_t cell, const PatchRates& rates, double error, std::uint32_t most, double density, bool again);
-    /// The first uniform rate from `least` on that is within `error`.
-    std::uint32_t uniform(std::uint32_t cell, std::uint32_t least, double error, std::uint32_t most);
-    double error(std::uint32_t cell, const PatchRates& rates) { return cell_error(patch_, cells_, cell, rates, HUGE_VAL).max(); }
-
-private:
-    void sample(std::uint32_t cell, double finer);
-    PatchRates first_try(PatchRates rates, double error, std::uint32_t most) const;
-    Misfit misfit(std::uint32_t cell, const PatchRates& rates, double error);
-
-    DisplacedPatch patch_;
-    const PatchCells& cells_;
-    CellSamples samples_;
-    std::array<std::vector<FaceCorner>, 4> side_;
-    std::vector<Vec2d> places_, in_cell_;
-    std::vector<Vec3d> points_;
-};
-
-void CellFitter::sample(std::uint32_t cell, double finer) {
-    const std::uint32_t number = cells_.patch(cell);
-    samples_.quad = cells_.complex().patches[cell].sides() == 4;
-    const auto count = [&](const Vec2d& from, const Vec2d& to) {
-        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, 1024.0));
-    };
-    if (samples_.quad) {
-        samples_.across = count(cells_.at(cell, 0, 2, 1, 2), cells_.at(cell, 2, 2, 1, 2));
-        samples_.up = count(cells_.at(cell, 1, 2, 0, 2), cells_.at(cell, 1, 2, 2, 2));
-    } else {
-        const Vec2d corner[3] = {cells_.at(cell, 0, 1, 0, 1), cells_.at(cell, 1, 1, 0, 1), cells_.at(cell, 0, 1, 1, 1)};
-        samples_.across = samples_.up = std::max({count(corner[0], corner[1]), count(corner[1], corner[2]), count(corner[2], corner[0])});
-    }
-    samples_.take(patch_, cells_, cell);
-}
-
-PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t most) const {
-    rates.across = rates.up = 1;
-    std::vector<Vec3d> line;
-    const std::uint32_t stride_up = std::max(1u, samples_.up / 12), stride_across = std::max(1u, samples_.across / 12);
-    for (std::uint32_t j = stride_up / 2; j < samples_.up; j += stride_up) {
-        line.clear();
-        for (std::uint32_t i = 0; i <= (samples_.quad ? samples_.across : samples_.across - j); ++i) line.push_back(samples_(i, j));
-        if (line.size() < 3) continue;
-        const std::uint32_t part = samples_.across / std::uint32_t(line.size() - 1); // a triangle's lines get shorter
-        rates.across = std::max(rates.across, std::min(most, part * rate_within(line, error, most)));
-    }
-    for (std::uint32_t i = stride_across / 2; i < samples_.across; i += stride_across) {
-        line.clear();
-        for (std::uint32_t j = 0; j <= (samples_.quad ? samples_.up : samples_.up - i); ++j) line.push_back(samples_(i, j));
-        if (line.size() < 3) continue;
-        const std::uint32_t part = samples_.up / std::uint32_t(line.size() - 1);
-        rates.up = std::max(rates.up, std::min(most, part * rate_within(line, error, most)));
-    }
-    if (!samples_.quad) rates.across = rates.up = std::max(rates.across, rates.up);
-    return rates;
-}
-
-Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error) {
-    places_.clear(), in_cell_.clear();
-    PatchRing ring;
-    const auto put = [&](const Vec2d& place, const Vec2d& in_cell) {
-        const auto number = std::uint32_t(places_.size());
-        places_.push_back(place);
-        in_cell_.push_back(in_cell * Vec2d(samples_.across, samples_.up));
-        return FaceCorner{number, number, number};
-    };
-    static const Vec2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
-    const Vec2d* corner = r.sides == 4 ? square : triangle;
-    for (int i = 0; i < r.sides; ++i) {
-        side_[i].clear();
-        for (std::uint32_t k = 0; k < r.side[i]; ++k)
-            side_[i].push_back(put(cells_.on_side(cell, i, k, r.side[i]), glm::mix(corner[i], corner[(i + 1) % r.sides], double(k) / r.side[i])));
-    }
-    for (int i = 0; i < r.sides; ++i) {
-        side_[i].push_back(side_[(i + 1) % r.sides].front());
-        ring.side[i] = side_[i];
-    }
-    const auto first_inside = std::uint32_t(places_.size());
-    if (inner_points(r) > 0) {
-        const std::uint32_t n = r.sides == 4 ? r.up : r.across;
-        for (std::uint32_t j = 1; j < n; ++j)
-            for (std::uint32_t i = 1; i < (r.sides == 4 ? r.across : r.across - j); ++i)
-                put(cells_.at(cell, i, r.across, j, n), {double(i) / r.across, double(j) / n});
-    }
-    const auto at = patch_.points(cells_.patch(cell), places_);
-    points_.assign(at.begin(), at.end());
-
-    Misfit out;
-    const double error2 = error * error;
-    FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
-        if (out.inside) return; // it will be refined whatever the border says
-        bool inside = true;
-        for (const std::uint32_t c : face) inside &= c >= first_inside;
-        bool& fails = inside ? out.inside : out.border;
-        if (fails) return;
-        Vec2d low = in_cell_[face[0]], high = low;
-        for (const std::uint32_t c : face) low = glm::min(low, in_cell_[c]), high = glm::max(high, in_cell_[c]);
-        const auto check = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            const Vec2d origin = in_cell_[a], e = in_cell_[b] - origin, f = in_cell_[c] - origin;
-            const double area = e.x * f.y - e.y * f.x;
-            if (area == 0) return;
-            const Vec3d &A = points_[a], AB = points_[b] - A, AC = points_[c] - A;
-            const auto i_end = std::min(samples_.across, std::uint32_t(std::floor(high.x + 1e-9)));
-            for (auto j = std::uint32_t(std::ceil(low.y - 1e-9)); j <= high.y + 1e-9 && j <= samples_.up; ++j)
-                for (auto i = std::uint32_t(std::ceil(low.x - 1e-9)); i <= i_end; ++i) {
-                    const Vec2d d = Vec2d(i, j) - origin;
-                    const double x = (d.x * f.y - d.y * f.x) / area, y = (e.x * d.y - e.y * d.x) / area;
-                    if (x < -1e-9 || y < -1e-9 || x + y > 1 + 1e-9) continue;
-                    const Vec3d& p = samples_(i, j);
-                    const Vec3d off = p - A - x * AB - y * AC;
-                    if (glm::dot(off, off) <= error2) continue; // the nearest point is nearer still
-                    if (distance_to_triangle(p, A, points_[b], points_[c]) > error) {
-                        fails = true;
-                        return;
-                    }
-                }
-        };
-        if (face.size() == 3) return check(face[0], face[1], face[2]);
-        // Whoever splits the quad may take either diagonal.
-        check(face[0], face[1], face[2]);
-        if (!fails) check(face[0], face[2], face[3]);
-        if (!fails) check(face[0], face[1], face[3]);
-        if (!fails) check(face[1], face[2], face[3]);
-    });
-    emit_faces(r, ring, first_inside, visitor);
-    return out;
-}
-
-CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, double error, std::uint32_t most, double density, bool again) {
-    for (double finer = density;; finer *= 2) {
-        sample(cell, finer);
-        PatchRates rates = again ? start : first_try(start, error, most);
-        PatchRates failed = rates, inside_fits = rates; // inside_fits: only faces along the border are too far
-        bool tried = false, inside = false;
-        for (int attempt = 0;; ++attempt) {
-            // Samples must be denser than faces to say anything.
-            if (finer < 64 && (rates.across * 2 > samples_.across || rates.up * 2 > samples_.up) && samples_.across < 1024 && samples_.up < 1024) break;
-            const Misfit found = misfit(cell, fitted(rates), error);
-            if (!found.any()) {
-                // Steps are large: half of the last one may do.
-                PatchRates less = rates;
-                less.across = (failed.across + rates.across) / 2, less.up = (failed.up + rates.up) / 2;
-                if (tried && (less.across < rates.across || less.up < rates.up) && !misfit(cell, fitted(less), error).any()) rates = less;
-                return {rates.across, rates.up, false, finer};
-            }
-            failed = rates, tried = true;
-            if (!found.inside && !inside) inside_fits = rates, inside = true;
-            if (rates.across >= most && rates.up >= most) return {rates.across, rates.up, false, finer};
-            // Along the border a finer lattice helps a little; then coarser sides must follow.
-            bool coarser_side = false;
-            for (int i = 0; i < rates.sides; ++i) coarser_side |= rates.side[i] < (i % 2 == 0 ? inside_fits.across : inside_fits.up);
-            if (inside && coarser_side && rates.across + rates.up > inside_fits.across + inside_fits.up)
-                return {inside_fits.across, inside_fits.up, true, finer};
-            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
-            // Where one row is enough along the lines, the other direction is tried first; points inside need both.
-            if (rates.across > 1 || rates.up == 1 || attempt >= 3) rates.across = finer_rate(rates.across);
-            if (rates.up > 1 || failed.across == 1 || attempt >= 3) rates.up = finer_rate(rates.up);
-        }
-    }
-}
-
-std::uint32_t CellFitter::uniform(std::uint32_t cell, std::uint32_t least, double error, std::uint32_t most) {
-    std::uint32_t rate = least;
-    for (double finer = 1;; finer *= 2) {
-        sample(cell, finer);
-        for (;; rate += std::max(1u, rate / 12)) {
-            if (finer < 64 && rate * 2 > std::min(samples_.across, samples_.up) && samples_.across < 1024) break;
-            const PatchRates rates{.sides = samples_.quad ? 4 : 3, .side = {rate, rate, rate, rate}, .across = rate, .up = rate};
-            if (rate >= most || !misfit(cell, rates, error).any()) return rate;
-        }
-    }
 }
 
 constexpr std::int64_t cells_per_job = 8;
@@ -284,89 +76,105 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
     return rates;
 }
 
-} // namespace
+/// A plan of so many cells along a patch, made in two steps: what samples show, and then what measuring adds.
+class Planner {
+public:
+    Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split)
+        : surface_(surface), blend_(blend), error_(rates.error), cells_(surface.base().complex(), split),
+          fitted_(cells_.count(), Vec2f(0)) {
+        const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
+        most_ = std::clamp(4 * limit / split, 1u, limit);
+        plan_.split = split;
+        plan_.rates.edge = edge_rates(surface, blend, cells_, aim_ * error_, most_);
+        plan_.rates.across.assign(cells_.count(), 1), plan_.rates.up.assign(cells_.count(), 1);
+        changed_ = fit(std::vector<bool>(cells_.count(), true), 1);
+    }
+    std::uint64_t triangles() const {
+        std::uint64_t sum = 0;
+        for (std::uint32_t c = 0; c < cells_.count(); ++c) sum += triangles_of(rates_of_cell(cells_, plan_.rates, c));
+        return sum;
+    }
+    /// Whether no cell is as fine as it may be.
+    bool within_limit() const {
+        bool within = true;
+        for (std::uint32_t c = 0; c < cells_.count(); ++c) within &= has_room(c);
+        return within;
+    }
+    /// What the samples did not show is measured, and fitted again among more of them.
+    RatePlan finish() {
+        for (int round = 1;; ++round) {
+            cut_poles_as_cells(cells_.complex(), plan_.rates);
+            std::vector<char> failed(cells_.count(), 0);
+            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, cells_);
+                for (auto c = std::uint32_t(begin); c < end; ++c)
+                    if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(cells_, plan_.rates, c)) > error_;
+            });
+            std::vector<bool> wanted(cells_.count());
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) wanted[c] = failed[c] && has_room(c);
+            if (round == 12 || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return std::move(plan_);
+            aim_ = std::max(0.8 * aim_, 0.5);
+            const CellRates before = plan_.rates;
+            changed_ = fit(std::move(wanted), std::exp2(std::min(round, 3)));
+            // From here on rounds are alike: what has not helped will not.
+            const CellRates& now = plan_.rates;
+            if (round > 3 && now.across == before.across && now.up == before.up && now.edge == before.edge) return std::move(plan_);
+        }
+    }
 
-namespace {
+private:
+    bool has_room(std::uint32_t c) const { return plan_.rates.across[c] < most_ || plan_.rates.up[c] < most_; }
 
-struct Attempt {
-    RatePlan plan;
-    std::uint64_t triangles = 0;
-    bool within = false; ///< no cell would need more than `most`
-};
-
-/// A plan of that many cells along a patch; gives up once it has more triangles than `enough`.
-Attempt plan_with_split(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split, std::uint64_t enough) {
-    // Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
-    double aim = 0.85 * rates.error;
-    Attempt out;
-    RatePlan& plan = out.plan;
-    plan.split = split;
-    const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
-    const std::uint32_t most = std::clamp(4 * limit / split, 1u, limit); // of a cell
-    const PatchCells cells(surface.base().complex(), plan.split);
-    const PatchComplex& complex = cells.complex();
-    plan.rates.edge = edge_rates(surface, blend, cells, aim, most);
-    plan.rates.across.assign(cells.count(), 1), plan.rates.up.assign(cells.count(), 1);
-    std::vector<float> dense(cells.count(), 0.0f); // samples per texel that a cell took, 0: not fitted yet
-    // Fits the wanted cells and those beside sides that change; which these were.
-    const auto fit_cells = [&](std::vector<bool> now, double density) {
+    /// Fits these cells, and those beside sides that change by it; which these were.
+    std::vector<bool> fit(std::vector<bool> now, double density) {
+        const PatchComplex& complex = cells_.complex();
         std::vector<bool> changed = now;
         for (;;) {
-            std::vector<char> too_coarse(cells.count(), 0);
-            for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-                CellFitter fitter(surface, blend, cells);
+            std::vector<char> too_coarse(cells_.count(), 0);
+            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, cells_);
                 for (auto c = std::uint32_t(begin); c < end; ++c) {
                     if (!now[c]) continue;
-                    PatchRates start{.sides = complex.patches[c].sides(), .across = plan.rates.across[c], .up = plan.rates.up[c]};
-                    for (int i = 0; i < start.sides; ++i) start.side[i] = plan.rates.edge[complex.patches[c].edge[i]];
-                    const CellFitter::Fit fit = fitter.fit(c, start, aim, most, std::max(density, double(dense[c])), dense[c] > 0);
-                    plan.rates.across[c] = std::uint16_t(fit.across), plan.rates.up[c] = std::uint16_t(fit.up);
-                    dense[c] = float(fit.density);
-                    too_coarse[c] = fit.sides_too_coarse;
+                    PatchRates start{.sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
+                    for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
+                    const CellFitter::Fit found =
+                        fitter.fit(c, start, aim_ * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
+                    plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
+                    fitted_[c] = Vec2f(found.density);
+                    too_coarse[c] = found.sides_too_coarse;
                 }
             });
-            std::vector<std::uint16_t> finer(plan.rates.edge);
-            for (std::uint32_t c = 0; c < cells.count(); ++c) {
+            std::vector<std::uint16_t> finer(plan_.rates.edge);
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
                 if (!too_coarse[c]) continue;
                 for (int i = 0; i < complex.patches[c].sides(); ++i) {
                     std::uint16_t& rate = finer[complex.patches[c].edge[i]];
-                    rate = std::max(rate, i % 2 == 0 ? plan.rates.across[c] : plan.rates.up[c]);
+                    rate = std::max(rate, i % 2 == 0 ? plan_.rates.across[c] : plan_.rates.up[c]);
                 }
             }
             bool any = false;
-            for (std::uint32_t c = 0; c < cells.count(); ++c) {
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
                 now[c] = false;
                 for (int i = 0; i < complex.patches[c].sides(); ++i) {
                     const std::uint32_t e = complex.patches[c].edge[i];
-                    if (finer[e] > plan.rates.edge[e]) now[c] = changed[c] = any = true;
+                    if (finer[e] > plan_.rates.edge[e]) now[c] = changed[c] = any = true;
                 }
             }
-            if (!any) break;
-            plan.rates.edge = std::move(finer);
+            if (!any) return changed;
+            plan_.rates.edge = std::move(finer);
         }
-        return changed;
-    };
-    std::vector<bool> wanted(cells.count(), true);
-    for (int round = 0; round < 12; ++round) {
-        const std::vector<bool> changed = fit_cells(wanted, std::exp2(std::min(round, 3)));
-        cut_poles_as_cells(complex, plan.rates);
-        // What the samples did not show is measured, and fitted again among more of them.
-        std::vector<char> failed(cells.count(), 0);
-        for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-            CellFitter fitter(surface, blend, cells);
-            for (auto c = std::uint32_t(begin); c < end; ++c)
-                if (changed[c]) failed[c] = fitter.error(c, rates_of_cell(cells, plan.rates, c)) > rates.error;
-        });
-        for (std::uint32_t c = 0; c < cells.count(); ++c)
-            wanted[c] = failed[c] && (plan.rates.across[c] < most || plan.rates.up[c] < most);
-        out.triangles = 0;
-        for (std::uint32_t c = 0; c < cells.count(); ++c) out.triangles += triangles_of(rates_of_cell(cells, plan.rates, c));
-        out.within = std::find(failed.begin(), failed.end(), 1) == failed.end();
-        if (out.triangles > enough || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) break;
-        aim = std::max(0.8 * aim, 0.5 * rates.error);
     }
-    return out;
-}
+
+    const ReliefSurface& surface_;
+    const SeamBlend& blend_;
+    double error_;
+    double aim_ = 0.85; ///< of it: samples do not see all, least the middles of twisted faces; more where that failed
+    PatchCells cells_;
+    std::uint32_t most_; ///< segments of a cell
+    RatePlan plan_;
+    std::vector<Vec2f> fitted_; ///< samples per texel that a cell took, 0: not fitted yet
+    std::vector<bool> changed_;
+};
 
 } // namespace
 
@@ -375,14 +183,14 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
     // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
     std::uint32_t split = choose_split(surface, blend, 0.85 * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
-    Attempt best = plan_with_split(surface, blend, rates, split, ~std::uint64_t(0));
-    while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best.triangles) {
+    auto best = std::make_unique<Planner>(surface, blend, rates, split);
+    while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
         split *= 2;
-        Attempt next = plan_with_split(surface, blend, rates, split, best.within ? best.triangles : ~std::uint64_t(0));
-        if (next.within != best.within ? best.within : next.triangles > best.triangles) break;
+        auto next = std::make_unique<Planner>(surface, blend, rates, split);
+        if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles()) break;
         best = std::move(next);
     }
-    return std::move(best.plan);
+    return best->finish();
 }
 
 std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most) {
@@ -393,6 +201,7 @@ std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& b
     const auto limit = std::max(1u, std::uint32_t(most) / split);
     const std::vector<std::uint16_t> edges = edge_rates(surface, blend, cells, error, limit);
     const std::uint32_t least = edges.empty() ? 1 : *std::max_element(edges.begin(), edges.end());
+    if (least >= limit) return 0;
     std::vector<std::uint32_t> need(cells.count());
     for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
         CellFitter fitter(surface, blend, cells);
