@@ -1,5 +1,6 @@
 #include "bake/surface/mesh_check.h"
 #include "bake/asset/mesh_io.h"
+#include "surface/triangle_soups.h"
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
@@ -10,26 +11,11 @@
 #include <set>
 
 using namespace bake;
+using namespace bake::test;
 
 namespace {
 
-using Faces = std::vector<std::vector<std::uint32_t>>;
-
-Mesh make_mesh(std::vector<Vec3f> positions, const Faces& faces) {
-    Mesh mesh;
-    mesh.positions = std::move(positions);
-    for (const auto& face : faces) {
-        mesh.corner_position.insert(mesh.corner_position.end(), face.begin(), face.end());
-        mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
-    }
-    return mesh;
-}
-
 MeshCheck check(const Mesh& mesh) { return check_mesh(mesh, triangulate(mesh)); }
-
-const std::vector<Vec3f> cube_corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                         {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-const Faces cube_faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
 
 // n x n quads over the unit square, those for which keep(x, y) is false left out.
 template <class Keep> Mesh sheet(int n, const Keep& keep) {
@@ -42,7 +28,7 @@ template <class Keep> Mesh sheet(int n, const Keep& keep) {
             const auto at = [n](int i, int j) { return std::uint32_t(j * (n + 1) + i); };
             if (keep(x, y)) faces.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
         }
-    return make_mesh(positions, faces);
+    return mesh_of(positions, faces);
 }
 
 std::filesystem::path shared_data() {
@@ -87,7 +73,7 @@ std::pair<std::size_t, std::size_t> by_openmesh(const Mesh& mesh) {
 
 TEST_SUITE("unit") {
     TEST_CASE("check_mesh: a cube is one closed component, nothing wrong with it") {
-        const MeshCheck c = check(make_mesh(cube_corners, cube_faces));
+        const MeshCheck c = check(cube());
         CHECK(c.positions == 8);
         CHECK(c.faces == 6);
         CHECK(c.corners == 24);
@@ -109,9 +95,9 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_mesh: one turned face is flipped, and makes no boundary") {
-        Faces faces = cube_faces;
+        Faces faces = unit_cube_faces;
         std::reverse(faces[3].begin(), faces[3].end());
-        const MeshCheck c = check(make_mesh(cube_corners, faces));
+        const MeshCheck c = check(mesh_of(unit_cube_corners, faces));
         CHECK(c.topology.flipped_faces == 1);
         CHECK(c.topology.boundary_edges == 0);
         CHECK(c.topology.boundary_loops == 0);
@@ -120,12 +106,12 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_mesh: turned faces do not break the loop of a hole beside them") {
-        Faces faces = cube_faces;
+        Faces faces = unit_cube_faces;
         faces.pop_back();
         for (std::size_t turned = 0; turned < faces.size(); ++turned) {
             Faces some = faces;
             std::reverse(some[turned].begin(), some[turned].end());
-            const MeshCheck c = check(make_mesh(cube_corners, some));
+            const MeshCheck c = check(mesh_of(unit_cube_corners, some));
             CHECK(c.topology.flipped_faces == 1);
             CHECK(c.topology.boundary_edges == 4);
             CHECK(c.topology.boundary_loops == 1);
@@ -133,23 +119,23 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_mesh: all faces turned are none flipped, but the component is inside out") {
-        Faces faces = cube_faces;
+        Faces faces = unit_cube_faces;
         for (auto& f : faces) std::reverse(f.begin(), f.end());
-        const MeshCheck c = check(make_mesh(cube_corners, faces));
+        const MeshCheck c = check(mesh_of(unit_cube_corners, faces));
         CHECK(c.topology.flipped_faces == 0);
         CHECK(c.topology.inside_out_components == 1);
     }
 
     TEST_CASE("check_mesh: the inner wall of a hollow cube rightly looks inwards") {
-        std::vector<Vec3f> positions = cube_corners;
-        Faces faces = cube_faces;
-        for (const Vec3f& p : cube_corners) positions.push_back(Vec3f(0.25f) + 0.5f * p);
-        for (auto face : cube_faces) {
+        std::vector<Vec3f> positions = unit_cube_corners;
+        Faces faces = unit_cube_faces;
+        for (const Vec3f& p : unit_cube_corners) positions.push_back(Vec3f(0.25f) + 0.5f * p);
+        for (auto face : unit_cube_faces) {
             for (auto& i : face) i += 8;
             std::reverse(face.begin(), face.end());
             faces.push_back(face);
         }
-        const MeshCheck c = check(make_mesh(positions, faces));
+        const MeshCheck c = check(mesh_of(positions, faces));
         CHECK(c.topology.components == 2);
         CHECK(c.topology.closed_components == 2);
         CHECK(c.topology.inside_out_components == 0);
@@ -158,13 +144,13 @@ TEST_SUITE("unit") {
     TEST_CASE("check_mesh: a third face on an edge, and two fans at a vertex, are non-manifold") {
         const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {0, -1, 0},
                                               {0, 0, 1}, {-1, 1, 0}, {-1, 0, 0}};
-        const MeshCheck fin = check(make_mesh(positions, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+        const MeshCheck fin = check(mesh_of(positions, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
         CHECK(fin.topology.nonmanifold_edges == 1);
         CHECK(fin.topology.nonmanifold_vertices == 2);
         CHECK(fin.topology.boundary_edges == 6);
         CHECK(fin.topology.components == 1);
         CHECK(fin.unused_positions == 2);
-        const MeshCheck bow = check(make_mesh(positions, {{0, 1, 2}, {0, 5, 6}}));
+        const MeshCheck bow = check(mesh_of(positions, {{0, 1, 2}, {0, 5, 6}}));
         CHECK(bow.topology.nonmanifold_edges == 0);
         CHECK(bow.topology.nonmanifold_vertices == 1);
         CHECK(bow.topology.components == 2);
@@ -183,7 +169,7 @@ TEST_SUITE("unit") {
         Faces faces;
         for (std::uint32_t i = 0; i + 1 < n; ++i) faces.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
         faces.push_back({2 * n - 2, 1, 0, 2 * n - 1});
-        const MeshCheck c = check(make_mesh(positions, faces));
+        const MeshCheck c = check(mesh_of(positions, faces));
         CHECK(c.topology.unorientable_edges == 1);
         CHECK(c.topology.flipped_faces == 0);
         CHECK(c.topology.boundary_edges == 2 * n);
@@ -192,16 +178,16 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_mesh: duplicate faces are found turned and reversed, and only once each") {
-        Faces faces = cube_faces;
+        Faces faces = unit_cube_faces;
         faces.push_back({6, 7, 4, 5});
         faces.push_back({7, 6, 5, 4});
         faces.push_back({4, 6, 5, 7}); // the same positions in another order: another face
-        CHECK(check(make_mesh(cube_corners, faces)).duplicate_faces == 2);
+        CHECK(check(mesh_of(unit_cube_corners, faces)).duplicate_faces == 2);
     }
 
     TEST_CASE("check_mesh: coincident positions are welded for the topology, and told apart as indexed") {
         const MeshCheck c = check(
-            make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
+            mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
         CHECK(c.coincident_positions == 2);
         CHECK(c.topology.components == 2);
         CHECK(c.topology.boundary_edges == 6);
@@ -212,27 +198,27 @@ TEST_SUITE("unit") {
 
     TEST_CASE("check_mesh: zero area is exact collinearity or 1e-12 of the squared diagonal") {
         const std::vector<Vec3f> positions = {{0, 0, 0}, {1, 0, 0}, {0.3f, 0, 0}, {0.3f, 1e-13f, 0}, {0.3f, 1e-9f, 0}};
-        CHECK(check(make_mesh(positions, {{0, 1, 2}})).zero_area_faces == 1);
-        CHECK(check(make_mesh(positions, {{0, 1, 3}})).zero_area_faces == 1);
-        CHECK(check(make_mesh(positions, {{0, 1, 4}})).zero_area_faces == 0);
+        CHECK(check(mesh_of(positions, {{0, 1, 2}})).zero_area_faces == 1);
+        CHECK(check(mesh_of(positions, {{0, 1, 3}})).zero_area_faces == 1);
+        CHECK(check(mesh_of(positions, {{0, 1, 4}})).zero_area_faces == 0);
     }
 
     TEST_CASE(
         "check_mesh: repeated corners, and a polygon along one of its own edges twice, are counted and no crash") {
-        const MeshCheck twice = check(make_mesh(cube_corners, {{0, 1, 1, 2}, {0, 0, 0}, {0, 1, 0, 1}}));
+        const MeshCheck twice = check(mesh_of(unit_cube_corners, {{0, 1, 1, 2}, {0, 0, 0}, {0, 1, 0, 1}}));
         CHECK(twice.repeated_corners == 3);
         CHECK(twice.zero_area_faces == 2);
         // A square with a square hole, cut open from 0 to 4 and back.
         const std::vector<Vec3f> ring = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0},
                                          {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}};
-        const MeshCheck keyhole = check(make_mesh(ring, {{0, 1, 2, 3, 0, 4, 5, 6, 7, 4}}));
+        const MeshCheck keyhole = check(mesh_of(ring, {{0, 1, 2, 3, 0, 4, 5, 6, 7, 4}}));
         CHECK(keyhole.topology.boundary_edges == 8);
         CHECK(keyhole.topology.boundary_loops == 2);
         CHECK(keyhole.topology.components == 1);
     }
 
     TEST_CASE("check_mesh: normals of length zero and against their face") {
-        Mesh mesh = make_mesh(cube_corners, {{4, 5, 6}});
+        Mesh mesh = mesh_of(unit_cube_corners, {{4, 5, 6}});
         mesh.normals = {{0, 0, 1}, {0, 0, 0}, {0, 0.1f, -1}};
         mesh.corner_normal = {0, 1, 2};
         const MeshCheck c = check(mesh);

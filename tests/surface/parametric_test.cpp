@@ -1,11 +1,12 @@
 #include "bake/surface/parametric.h"
 #include "bake/base/error.h"
 #include "oracle/surfaces.h"
+#include "surface/manifold.h"
 #include "surface/shapes.h"
 #include <doctest/doctest.h>
-#include <map>
 
 using namespace bake;
+using bake::test::volume;
 using bake_tests::Shapes;
 using oracle::angle_deg;
 using oracle::pi;
@@ -25,40 +26,6 @@ template <class F> Vec3d derivative(const F& f, double x) {
 struct Sizes {
     double first = 0, second = 0;
 };
-
-struct Manifold {
-    std::size_t vertices = 0, edges = 0, faces = 0, boundary = 0, crowded = 0, against = 0;
-    long euler() const { return long(vertices) - long(edges) + long(faces); }
-};
-Manifold manifold(const Mesh& mesh) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<int, int>> edges;
-    std::vector<bool> used(mesh.positions.size());
-    for (std::size_t f = 0; f < mesh.faces(); ++f)
-        for (std::uint32_t begin = mesh.face_begin[f], end = mesh.face_begin[f + 1], c = begin; c < end; ++c) {
-            const std::uint32_t a = mesh.corner_position[c], b = mesh.corner_position[c + 1 < end ? c + 1 : begin];
-            used[a] = true;
-            auto& [along, back] = edges[std::minmax(a, b)];
-            ++(a < b ? along : back);
-        }
-    Manifold m{.edges = edges.size(), .faces = mesh.faces()};
-    m.vertices = std::size_t(std::count(used.begin(), used.end(), true));
-    for (const auto& [edge, sides] : edges) {
-        m.boundary += sides.first + sides.second == 1;
-        m.crowded += sides.first + sides.second > 2;
-        m.against += sides.first == 2 || sides.second == 2;
-    }
-    return m;
-}
-
-double volume(const Mesh& mesh) {
-    double sum = 0;
-    for (std::size_t f = 0; f < mesh.faces(); ++f)
-        for (std::uint32_t c = mesh.face_begin[f] + 1; c + 1 < mesh.face_begin[f + 1]; ++c) {
-            const auto p = [&](std::uint32_t k) { return Vec3d(mesh.positions[mesh.corner_position[k]]); };
-            sum += glm::dot(p(mesh.face_begin[f]), glm::cross(p(c), p(c + 1))) / 6;
-        }
-    return sum;
-}
 
 /// Code and message of the refusal of a shape.
 std::pair<int, std::string> refusal(const std::string& text) {
@@ -224,103 +191,6 @@ TEST_CASE("parametric: closures meet, twisted ones the other way round") {
     }
 }
 
-TEST_CASE("parametric: tessellations of closed shapes are closed manifolds that face outward") {
-    const Shapes shapes;
-    for (const std::string& text : shapes.closed()) {
-        INFO(text);
-        const ParametricSurface s(text);
-        CHECK(s.closed());
-        CHECK(s.orientable());
-        const Mesh mesh = tessellate(s, 12, 10);
-        const Manifold m = manifold(without_repeats(mesh));
-        CHECK(m.boundary == 0);
-        CHECK(m.crowded == 0);
-        CHECK(m.against == 0);
-        CHECK(m.euler() == (s.closure_v() == Closure::periodic ? 0 : 2));
-        CHECK(volume(mesh) > 0);
-        for (std::size_t c = 0; c < mesh.corners(); ++c)
-            CHECK(std::abs(glm::length(mesh.normals[mesh.corner_normal[c]]) - 1) < 1e-6f);
-    }
-}
-
-TEST_CASE("parametric: tessellations of one-sided shapes have no crack, and one seam where faces run against each other") {
-    const Manifold strip = manifold(tessellate(ParametricSurface("moebius"), 24, 4));
-    CHECK(strip.euler() == 0);
-    CHECK(strip.boundary == 2 * 24); // one border, twice round
-    CHECK(strip.crowded == 0);
-    CHECK(strip.against == 4);
-    const Manifold bottle = manifold(tessellate(ParametricSurface("klein"), 24, 12));
-    CHECK(bottle.euler() == 0);
-    CHECK(bottle.boundary == 0);
-    CHECK(bottle.crowded == 0);
-    CHECK(bottle.against == 12);
-    CHECK_FALSE(ParametricSurface("klein").orientable());
-    CHECK_FALSE(ParametricSurface("klein").closed());
-}
-
-TEST_CASE("parametric: tessellations of open shapes have their borders and nothing else") {
-    const Shapes shapes;
-    const std::map<std::string, std::size_t> borders = {{"plane:w=2,d=3", 44}, {"disc:R=1.5", 12}, {"cylinder:R=0.7,h=3", 24},
-                                                        {"cone:R=1,h=1.5", 12}, {"saddle:R=1,h=0.4", 44}};
-    for (const auto& [text, border] : borders) {
-        INFO(text);
-        const Manifold m = manifold(without_repeats(tessellate(ParametricSurface(text), 12, 10)));
-        CHECK(m.boundary == border);
-        CHECK(m.crowded + m.against == 0);
-    }
-    CHECK_FALSE(ParametricSurface("revolution:profile=" + shapes.vase_file).closed());
-}
-
-TEST_CASE("parametric: the vertices of a tessellation are points of the surface at their uv, with its normals") {
-    const Shapes shapes;
-    for (const std::string& text : shapes.all()) {
-        INFO(text);
-        const ParametricSurface s(text);
-        const Mesh mesh = tessellate(s, 7, 5);
-        const std::size_t per_patch = mesh.faces() / std::size_t(s.patches());
-        CHECK(per_patch == 35);
-        double p_error = 0, n_error = 0;
-        for (std::size_t f = 0; f < mesh.faces(); ++f)
-            for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
-                const Vec2d uv(mesh.uvs[mesh.corner_uv[c]]);
-                const Jet<double> jet = s.jet(uv.x, uv.y, int(f / per_patch));
-                p_error = std::max(p_error, glm::length(Vec3d(mesh.positions[mesh.corner_position[c]]) - jet.p));
-                if (jet.sigma != 0) n_error = std::max(n_error, glm::length(Vec3d(mesh.normals[mesh.corner_normal[c]]) - jet.n));
-            }
-        CHECK(p_error < 2e-6); // float uvs, positions and slopes up to 20
-        CHECK(n_error < 2e-5);
-    }
-}
-
-TEST_CASE("parametric: faces come row by row, (i,j) (i+1,j) (i+1,j+1) (i,j+1)") {
-    const Mesh mesh = tessellate(ParametricSurface("plane"), 3, 2);
-    CHECK(mesh.faces() == 6);
-    const auto uv = [&](std::uint32_t c) { return mesh.uvs[mesh.corner_uv[c]]; };
-    CHECK(uv(4 * 4) == Vec2f(1.f / 3, 0.5f)); // face 4 = 1 * 3 + 1
-    CHECK(uv(4 * 4 + 1) == Vec2f(2.f / 3, 0.5f));
-    CHECK(uv(4 * 4 + 2) == Vec2f(2.f / 3, 1));
-    CHECK(uv(4 * 4 + 3) == Vec2f(1.f / 3, 1));
-}
-
-TEST_CASE("parametric: patches with unequal cells share the borders that run alike") {
-    const Shapes shapes;
-    const ParametricSurface s("bezier:file=" + shapes.octants_file);
-    CHECK(s.patches() == 8);
-    for (const auto& [columns, rows] : {std::pair(1, 1), {1, 4}, {5, 3}, {4, 4}}) {
-        const Manifold m = manifold(without_repeats(tessellate(s, columns, rows)));
-        CHECK(m.boundary == 0);
-        CHECK(m.euler() == 2);
-    }
-}
-
-TEST_CASE("parametric: flip turns a patch inside out") {
-    const Shapes shapes;
-    const ParametricSurface s("bezier:file=" + shapes.octants_file), flipped("bezier:flip=1,file=" + shapes.octants_file);
-    CHECK(volume(tessellate(s, 8, 8)) == doctest::Approx(4.19).epsilon(0.02));
-    CHECK(volume(tessellate(flipped, 8, 8)) == doctest::Approx(-4.19).epsilon(0.02));
-    CHECK(glm::length(s.jet(0.3, 0.4, 1).n + flipped.jet(0.7, 0.4, 1).n) < 1e-14);
-}
-
 TEST_CASE("parametric: patch files with indices, with degrees and with plain points give the same patches") {
     const Shapes shapes;
     const std::string plain = bake_tests::sheet();
@@ -359,92 +229,6 @@ TEST_CASE("parametric: help names every shape with its keys") {
 }
 
 TEST_SUITE("stability") {
-
-TEST_CASE("parametric: poles of sphere, ellipsoid and superellipsoid have their limit normal") {
-    for (const char* text : {"sphere:R=3", "ellipsoid:a=3,b=1,c=0.4", "superellipsoid:e1=0.1,e2=0.3", "superellipsoid:e1=1,e2=0.05"}) {
-        const ParametricSurface s(text);
-        INFO(text);
-        for (double u : {0.0, 0.1, 0.25, 0.7, 1.0}) {
-            CHECK(s.pole(u, 0) == Pole::with_normal);
-            CHECK(s.pole(u, 1) == Pole::with_normal);
-            CHECK(s.pole(u, 0.5) == Pole::none);
-            const Jet<double> top = s.jet(u, 1), bottom = s.jet(u, 0);
-            CHECK(top.sigma == 0);
-            CHECK(top.n_u == Vec3d(0));
-            CHECK(glm::length(top.n - Vec3d(0, 1, 0)) < 1e-12);
-            CHECK(glm::length(bottom.n - Vec3d(0, -1, 0)) < 1e-12);
-            CHECK(top.p == s.jet(0, 1).p);
-        }
-    }
-}
-
-TEST_CASE("parametric: a disc's centre has the disc's normal") {
-    const ParametricSurface s("disc:R=2");
-    CHECK(s.pole(0.3, 1) == Pole::with_normal);
-    CHECK(glm::length(s.jet(0.3, 1).n - Vec3d(0, 1, 0)) < 1e-12);
-    CHECK(s.pole(0.3, 0) == Pole::none);
-}
-
-TEST_CASE("parametric: a cone's apex has no normal, but each meridian tends to one") {
-    const ParametricSurface s("cone:R=1,h=1");
-    for (double u : {0.0, 0.2, 0.5}) {
-        CHECK(s.pole(u, 1) == Pole::without_normal);
-        CHECK(s.jet(u, 1).n == Vec3d(0));
-        CHECK(s.jet(u, 1).sigma == 0);
-        CHECK(glm::length(s.side_normal(u, 1) - s.jet(u, 0.5).n) < 1e-12);
-    }
-    CHECK(ParametricSurface("cone:R=1,h=1,r=0.5").pole(0, 1) == Pole::none);
-    // One apex, as many normals as meridians; all of them unit.
-    const Mesh mesh = tessellate(s, 8, 2);
-    CHECK(manifold(without_repeats(mesh)).boundary == 8);
-    for (const Vec3f& n : mesh.normals) CHECK(glm::length(n) == doctest::Approx(1));
-}
-
-TEST_CASE("parametric: a revolution's ends on the axis are smooth, or pointed when asked") {
-    const Shapes shapes;
-    const ParametricSurface s("revolution:profile=" + shapes.drop_file), point("revolution:pointed=1,profile=" + shapes.drop_file);
-    CHECK(s.pole(0.2, 0) == Pole::with_normal);
-    CHECK(glm::length(s.jet(0.2, 0).n - Vec3d(0, -1, 0)) < 1e-12);
-    CHECK(glm::length(s.jet(0.2, 1).n - Vec3d(0, 1, 0)) < 1e-12);
-    CHECK(point.pole(0.2, 0) == Pole::without_normal);
-    CHECK(point.pole(0.2, 1) == Pole::without_normal);
-    const ParametricSurface vase("revolution:profile=" + shapes.vase_file);
-    CHECK(vase.pole(0.2, 0) == Pole::with_normal);
-    CHECK(vase.pole(0.2, 1) == Pole::none);
-}
-
-TEST_CASE("parametric: a patch with a collapsed edge has its limit normal there") {
-    const Shapes shapes;
-    const ParametricSurface s("bezier:file=" + shapes.octants_file);
-    for (int patch = 0; patch < 8; ++patch) {
-        const double v = patch < 4 ? 1 : 0;
-        for (double u : {0.0, 0.3, 1.0}) {
-            CHECK(s.pole(u, v, patch) == Pole::with_normal);
-            CHECK(glm::length(s.jet(u, v, patch).n - Vec3d(0, patch < 4 ? 1 : -1, 0)) < 1e-12);
-            CHECK(s.pole(u, 1 - v, patch) == Pole::none);
-        }
-    }
-}
-
-TEST_CASE("parametric: a patch that is a pyramid's tip has none, a single point nowhere") {
-    const Shapes shapes;
-    std::string tip = "1\n", point = "1\n";
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            const double r = (3 - j) / 3.0, x = std::cos(pi * i / 6), z = std::sin(pi * i / 6);
-            tip += format("%.17g %g %.17g\n", r * x, j / 3.0, -r * z);
-            point += "1 2 3\n";
-        }
-    const ParametricSurface s("bezier:file=" + shapes.folder.write("tip.txt", tip));
-    CHECK(s.pole(0.4, 1) == Pole::without_normal);
-    CHECK(s.pole(0.4, 0) == Pole::none);
-    const ParametricSurface dot("bezier:file=" + shapes.folder.write("dot.txt", point));
-    for (double u : {0.0, 0.5, 1.0}) {
-        CHECK(dot.pole(u, 0.5) == Pole::without_normal);
-        CHECK(dot.jet(u, 0.5).n == Vec3d(0));
-    }
-    CHECK(without_repeats(tessellate(dot, 4, 4)).faces() < 16);
-}
 
 TEST_CASE("parametric: any finite parameter gives finite values, on all shapes") {
     const Shapes shapes;
@@ -511,22 +295,4 @@ TEST_CASE("parametric: bad profiles and patch files are refused with their line"
     check_refused(patches(bake_tests::sheet() + "1 2 3\n"), unreadable, "more than the patches it names");
 }
 
-TEST_CASE("parametric: resolutions that cannot close a shape, or would fill any memory, are refused") {
-    const auto refused = [](const char* shape, int columns, int rows) {
-        try {
-            tessellate(ParametricSurface(shape), columns, rows);
-            return 0;
-        } catch (const Error& error) {
-            return int(error.refusal);
-        }
-    };
-    CHECK(refused("plane", 0, 1) == 2);
-    CHECK(refused("plane", 1, -1) == 2);
-    CHECK(refused("sphere", 2, 5) == 2);
-    CHECK(refused("torus", 3, 2) == 2);
-    CHECK(refused("plane", 1 << 20, 1 << 20) == 2);
-    CHECK(refused("torus", 3, 3) == 0);
-    CHECK(refused("sphere", 3, 1) == 0);
-    CHECK(refused("plane", 1, 1) == 0);
-}
 }

@@ -261,8 +261,9 @@ TEST_SUITE("stability") {
                     if (cage.corner_position[cage.face_begin[surface.face(patch)]] != 0) continue;
                     const LimitPoint p = point(surface, patch, 0, 0);
                     CHECK(glm::distance(p.p, first.p) < 1e-13);
-                    // The pieces round the vertex are 1e-5 large, and rounding 1e-16 of the points: 1e-9 degrees and up.
-                    CHECK(oracle::angle_deg(glm::cross(p.p_s, p.p_t), normal) < 1e-5);
+                    // The pieces round the vertex are 1e-9 large and more, and rounding 1e-16 of the points: some 1e-5
+                    // degrees, more where sectors are narrow.
+                    CHECK(oracle::angle_deg(glm::cross(p.p_s, p.p_t), normal) < 1e-3);
                     CHECK(std::isfinite(glm::length(p.p_ss) + glm::length(p.p_st) + glm::length(p.p_tt)));
                 }
             }

@@ -6,7 +6,9 @@
 
 namespace bake::test {
 
-inline Mesh mesh_of(std::vector<Vec3f> positions, const std::vector<std::vector<std::uint32_t>>& faces) {
+using Faces = std::vector<std::vector<std::uint32_t>>;
+
+inline Mesh mesh_of(std::vector<Vec3f> positions, const Faces& faces) {
     Mesh mesh;
     mesh.positions = std::move(positions);
     for (const auto& face : faces) {
@@ -43,10 +45,10 @@ inline Mesh turned(Mesh mesh) {
 }
 
 /// The cube [0, 1]^3.
-inline Mesh cube() {
-    return mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-                   {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}});
-}
+inline const std::vector<Vec3f> unit_cube_corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+inline const Faces unit_cube_faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+inline Mesh cube() { return mesh_of(unit_cube_corners, unit_cube_faces); }
 
 /// Radius 1, closed, welded: triangles at the poles, quads elsewhere.
 inline Mesh unit_sphere(std::uint32_t columns, std::uint32_t rows) {
@@ -56,7 +58,7 @@ inline Mesh unit_sphere(std::uint32_t columns, std::uint32_t rows) {
             positions.emplace_back(oracle::sphere(1, 2 * oracle::pi * i / columns, oracle::pi * (double(j) / rows - 0.5)).p);
     positions.push_back({0, 0, 1});
     const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (j - 1) * columns + i % columns; };
-    std::vector<std::vector<std::uint32_t>> faces;
+    Faces faces;
     for (std::uint32_t i = 0; i < columns; ++i) {
         faces.push_back({0, at(i + 1, 1), at(i, 1)});
         for (std::uint32_t j = 1; j + 1 < rows; ++j)

@@ -15,6 +15,7 @@ MeshAudit audit(const Mesh&, const std::vector<Triangle>&) { return {}; }
 
 #include "bake/base/parallel.h"
 #include "bake/surface/triangle_tree.h"
+#include "bake/surface/weld.h"
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -25,7 +26,6 @@ MeshAudit audit(const Mesh&, const std::vector<Triangle>&) { return {}; }
 #include <array>
 #include <memory>
 #include <numeric>
-#include <tuple>
 
 namespace bake {
 namespace {
@@ -124,17 +124,8 @@ Cuts find_cuts(const TriangleTree& tree, const std::vector<Index>& component) {
 }
 
 // Corners of each triangle as welded positions.
-std::vector<std::array<Index, 3>> weld(const Mesh& mesh, const std::vector<Triangle>& triangles) {
-    std::vector<Index> order(mesh.positions.size()), first(mesh.positions.size());
-    std::iota(order.begin(), order.end(), Index(0));
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        const Vec3f &p = mesh.positions[a], &q = mesh.positions[b];
-        return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
-    });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && mesh.positions[order[i]] == mesh.positions[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-    }
+std::vector<std::array<Index, 3>> welded(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+    const std::vector<Index> first = first_equal(mesh.positions);
     std::vector<std::array<Index, 3>> corners(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
         for (int k = 0; k < 3; ++k) corners[t][k] = first[mesh.corner_position[triangles[t].corner[k]]];
@@ -266,7 +257,7 @@ void nest(std::vector<Shell>& shells, const std::vector<Pair>& cutting) {
 MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     MeshAudit result;
     result.available = true;
-    const std::vector<std::array<Index, 3>> corners = weld(mesh, triangles);
+    const std::vector<std::array<Index, 3>> corners = welded(mesh, triangles);
     const std::vector<Index> component = components(corners, result.components);
     const TriangleTree tree(mesh, triangles);
     const Cuts cuts = find_cuts(tree, component);

@@ -3,10 +3,10 @@
 // face on an edge, and aborts the program on a polygon that runs along one of its own edges twice, as keyholed ones do.
 // The tests compare these loops and components with OpenMesh's on the meshes that it holds.
 #include "bake/surface/mesh_check.h"
+#include "bake/surface/weld.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 namespace bake {
 namespace {
@@ -271,24 +271,6 @@ Topology topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, c
     return topology;
 }
 
-// Per position the first one of the same place; `count` of them have one before them.
-std::vector<Index> weld(const std::vector<Vec3f>& positions, std::size_t& count) {
-    std::vector<Index> order(positions.size()), first(positions.size());
-    std::iota(order.begin(), order.end(), Index(0));
-    const auto less = [&](Index a, Index b) {
-        const Vec3f &p = positions[a], &q = positions[b];
-        return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
-    };
-    std::sort(order.begin(), order.end(), less);
-    count = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-        count += same;
-    }
-    return first;
-}
-
 std::size_t count_duplicates(const Mesh& mesh, const std::vector<Index>& vertex) {
     // A ring read from its lowest position towards the lower neighbour: the same for every turn and either side.
     const auto ring = [&](Index f) {
@@ -381,7 +363,8 @@ MeshCheck check_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles, c
 
     std::vector<Index> own(mesh.positions.size());
     std::iota(own.begin(), own.end(), Index(0));
-    const std::vector<Index> welded = weld(mesh.positions, check.coincident_positions);
+    const std::vector<Index> welded = first_equal(mesh.positions);
+    for (Index p = 0; p < welded.size(); ++p) check.coincident_positions += welded[p] != p;
     check.topology = topology_of(mesh, triangles, own);
     check.welded = check.coincident_positions > 0 ? topology_of(mesh, triangles, welded) : check.topology;
     check.duplicate_faces = count_duplicates(mesh, welded);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
@@ -164,11 +165,45 @@ std::vector<Place> last_places(const Stage& stage, bool triangles) {
     return places;
 }
 
-// Faces of the last level that irregular patches stand for and that are to be split on: those larger than `most_size`,
+// Corners that no crease, corner or border ends at: where the surface has a tangent plane to turn to.
+bool is_smooth(const Far::TopologyLevel& level, int face) {
+    for (const Far::Index v : level.GetFaceVertices(face)) {
+        if (level.IsVertexBoundary(v) || level.GetVertexSharpness(v) > 0) return false;
+        for (const Far::Index e : level.GetVertexEdges(v))
+            if (level.GetEdgeSharpness(e) > 0) return false;
+    }
+    return true;
+}
+
+// Largest angle between a facet and those beside it. `points` are the level's own.
+double turn_deg(const Far::TopologyLevel& level, int face, const Weighed<Vec3d>* points) {
+    const auto normal = [&](int f) {
+        const Far::ConstIndexArray c = level.GetFaceVertices(f);
+        const auto at = [&](int k) { return points[c[k]].value; };
+        return c.size() == 3 ? glm::cross(at(1) - at(0), at(2) - at(0)) : glm::cross(at(2) - at(0), at(3) - at(1));
+    };
+    const Vec3d own = normal(face);
+    double most = 0;
+    for (const Far::Index e : level.GetFaceEdges(face))
+        for (const Far::Index f : level.GetEdgeFaces(e)) {
+            if (f == face) continue;
+            const Vec3d other = normal(f);
+            most = std::max(most, std::atan2(glm::length(glm::cross(own, other)), glm::dot(own, other)));
+        }
+    return most * 180 / std::numbers::pi;
+}
+
+// What is small enough not to be split on.
+struct Enough {
+    double size;    ///< of any piece
+    double turning; ///< of one that turns
+};
+
+// Faces of the last level that irregular patches stand for and that are to be split on: those that are not small enough,
 // and all round a vertex with one of them, so that they keep meeting. Faces of the last level, by the patches' order
 // in the table; -1 for patches that become leaves.
 std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table, const std::vector<Place>& places,
-                                const std::vector<Weighed<Vec3d>>& points, double most_size, bool triangles) {
+                                const std::vector<Weighed<Vec3d>>& points, const Enough& enough, bool triangles) {
     const auto key = [](const Place& place) { return std::tuple(place.patch, place.leaf.origin.x, place.leaf.origin.y); };
     std::vector<int> by_key(places.size());
     std::iota(by_key.begin(), by_key.end(), 0);
@@ -195,7 +230,8 @@ std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table
             for (const Far::Index v : corners)
                 size = std::max(size, glm::distance(points[std::size_t(first_point + v)].value,
                                                     points[std::size_t(first_point + corners[0])].value));
-            if (size > most_size)
+            if (size > enough.size || (size > enough.turning && is_smooth(last, *found) &&
+                                       turn_deg(last, *found, &points[std::size_t(first_point)]) > most_turn_deg))
                 for (const Far::Index v : corners) large_at[std::size_t(v)] = 1;
         }
     for (int& f : faces) {
@@ -212,9 +248,13 @@ void add_leaves(const Stage& stage, const Far::PatchTable& table, const std::vec
     Conversions conversions(table, limit.triangles);
     const auto terms = std::size_t(limit.terms());
     const std::size_t most = limit.leaves.size() + std::size_t(table.GetNumPatchesTotal());
-    limit.leaves.reserve(most);
-    limit.position.reserve(most * terms * 3);
-    limit.uv.reserve(limit.has_uv ? most * terms * 2 : 0);
+    if (most > limit.leaves.capacity()) {
+        // Room for the stages that follow: not touched it costs nothing, and moving all that is there costs much.
+        const std::size_t room = most + most / 2;
+        limit.leaves.reserve(room);
+        limit.position.reserve(room * terms * 3);
+        limit.uv.reserve(limit.has_uv ? room * terms * 2 : 0);
+    }
     int index = 0;
     for (int array = 0; array < table.GetNumPatchArrays(); ++array)
         for (int i = 0; i < table.GetNumPatches(array); ++i, ++index) {
@@ -337,7 +377,7 @@ int sharp_levels(const SubdivisionTags& tags) noexcept {
 void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatches& limit) {
     limit.triangles = options.scheme == Scheme::loop;
     Stage stage = first_stage(cage, options, limit);
-    const double small = smallest_irregular * diagonal(bounds(cage));
+    const double size = diagonal(bounds(cage));
     for (int sharp = sharp_levels(cage.tags);; sharp = 0) {
         const auto table = split(stage, limit.has_uv, sharp);
         const auto points = refine_points(*stage.refiner, std::move(stage.points),
@@ -346,12 +386,14 @@ void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatc
         if (limit.has_uv)
             uvs = refine_points(*stage.refiner, std::move(stage.uvs), table->GetLocalPointFaceVaryingStencilTable<double>(0),
                                 true);
-        const bool may_go_on = options.isolation == stage_levels && stage.level + further_levels <= most_levels;
+        const int next_level = stage.level + further_levels;
+        const bool may_go_on = options.isolation == stage_levels && next_level <= most_turning_levels;
         std::vector<int> split_on;
         std::vector<Place> places;
         if (may_go_on && has_irregular(*table)) {
             places = last_places(stage, limit.triangles);
-            split_on = faces_to_split(stage, *table, places, points, small, limit.triangles);
+            const Enough enough{next_level <= most_levels ? smallest_irregular * size : HUGE_VAL, smallest_turning * size};
+            split_on = faces_to_split(stage, *table, places, points, enough, limit.triangles);
         }
         add_leaves(stage, *table, points, uvs, split_on, limit);
         if (std::all_of(split_on.begin(), split_on.end(), [](int f) { return f < 0; })) break;

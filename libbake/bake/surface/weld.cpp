@@ -78,14 +78,22 @@ Weld weld_corners(std::span<const Vec3f> positions, std::span<const Vec3f> norma
     return weld;
 }
 
+std::vector<std::uint32_t> first_equal(std::span<const Vec3f> positions) {
+    const std::size_t count = positions.size();
+    Weld weld = weld_corners(positions, std::vector<Vec3f>(count), std::vector<Vec2f>(count));
+    // Vertices are numbered in order of first use, so each is met for the first time at its first position.
+    std::vector<std::uint32_t> first;
+    first.reserve(weld.vertices);
+    for (std::uint32_t p = 0; p < count; ++p) {
+        if (weld.vertex[p] == first.size()) first.push_back(p);
+        weld.vertex[p] = first[weld.vertex[p]];
+    }
+    return std::move(weld.vertex);
+}
+
 void weld_positions(Mesh& mesh) {
-    const std::size_t count = mesh.positions.size();
-    const Weld weld = weld_corners(mesh.positions, std::vector<Vec3f>(count), std::vector<Vec2f>(count));
-    if (weld.vertices == count) return;
-    std::vector<std::uint32_t> first(weld.vertices, no_index);
-    for (std::uint32_t p = 0; p < count; ++p)
-        if (first[weld.vertex[p]] == no_index) first[weld.vertex[p]] = p;
-    for (std::uint32_t& p : mesh.corner_position) p = first[weld.vertex[p]];
+    const std::vector<std::uint32_t> first = first_equal(mesh.positions);
+    for (std::uint32_t& p : mesh.corner_position) p = first[p];
 }
 
 } // namespace bake

@@ -16,6 +16,9 @@ struct Weld {
 /// All arrays have one value per corner; values must not be NaN.
 Weld weld_corners(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<const Vec2f> uvs);
 
+/// Per position the first that equals it (-0 equals 0); values must not be NaN.
+std::vector<std::uint32_t> first_equal(std::span<const Vec3f> positions);
+
 /// Makes bit-equal positions one (-0 equals 0): corners name the first of them, the others stay unused.
 void weld_positions(Mesh& mesh);
 
