@@ -1,9 +1,9 @@
-// displace_shapes_bench [LEVELS_MORE]: time and error of displacement, memory to memory, per point of the result: shapes whose
+// displace_shapes_bench [LEVELS_MORE [CAGE]]: time and error of displacement, memory to memory, per point of the result: shapes whose
 // displaced form is known, and cages under the same height. ratio is against one pass that writes as many bytes as the
 // mesh has, by the same for_rows, measured in turn.
 //
 // error_*_deg: angles of the normals in the mesh that was timed: on shapes against the closed form; on cages against
-// Max's normals of its own faces (seams left out), themselves of order 2 in the edge's length. note: worst position error over
+// Max's normals of its own faces (those at seams left out), themselves of order 2 in the edge's length. note: worst position error over
 // the diagonal (shapes), bytes, milliseconds in all.
 #include "bake/asset/mesh_io.h"
 #include "bake/relief/displace.h"
@@ -54,27 +54,32 @@ bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const M
             }
         }
     }
-    // At a seam with two heights the displaced cage has an edge.
+    // At a seam with two heights the displaced cage has an edge, and the faces at it a step.
     std::vector<std::uint32_t> uv(c.form ? 0 : mesh.positions.size(), no_index);
-    std::vector<bool> seam(uv.size());
+    std::vector<bool> seam(uv.size()), step(uv.size());
     for (std::size_t corner = 0; corner < mesh.corners() && !c.form; ++corner) {
         std::uint32_t& known = uv[mesh.corner_position[corner]];
         if (known != no_index && known != mesh.corner_uv[corner]) seam[mesh.corner_position[corner]] = true;
         known = mesh.corner_uv[corner];
+    }
+    for (std::size_t f = 0; f < mesh.faces() && !c.form; ++f) {
+        const auto corners = std::span(mesh.corner_position).subspan(mesh.face_begin[f], mesh.face_begin[f + 1] - mesh.face_begin[f]);
+        if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) { return seam[p]; }))
+            for (const std::uint32_t p : corners) step[p] = true;
     }
     std::vector<float> errors;
     position = 0;
     for (std::size_t corner = 0; corner < mesh.corners(); corner += 3) {
         const Vec3d n(mesh.normals[mesh.corner_normal[corner]]);
         if (!c.form) {
-            if (seam[mesh.corner_position[corner]]) continue;
+            if (step[mesh.corner_position[corner]]) continue;
             errors.push_back(float(oracle::angle_deg(n, own[mesh.corner_normal[corner]])));
             continue;
         }
-        const Vec2d uv(mesh.uvs[mesh.corner_uv[corner]]);
-        if (uv.y <= 0 || uv.y >= 1) continue; // poles: their uv is that of a face
-        const Jet<double> s = c.form(uv.x, uv.y);
-        const Height<double> h = oracle::relief(r, uv.x, uv.y);
+        const Vec2d at(mesh.uvs[mesh.corner_uv[corner]]);
+        if (at.y <= 0 || at.y >= 1) continue; // poles: their uv is that of a face
+        const Jet<double> s = c.form(at.x, at.y);
+        const Height<double> h = oracle::relief(r, at.x, at.y);
         position = std::max(position, glm::length(Vec3d(mesh.positions[mesh.corner_position[corner]]) - s.p - h.b * s.n) / c.diagonal);
         errors.push_back(float(oracle::angle_deg(n, glm::cross(s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v))));
     }
@@ -116,17 +121,14 @@ void run(const Case& c, int threads) {
 
 int main(int argc, char** argv) {
     const int more = argc > 1 ? std::atoi(argv[1]) : 0;
-    if (more < 0 || more > 2) return std::fprintf(stderr, "usage: displace_shapes_bench [LEVELS_MORE], 0 to 2\n"), 2;
+    if (more < 0 || more > 2) return std::fprintf(stderr, "usage: displace_shapes_bench [LEVELS_MORE [CAGE]], 0 to 2\n"), 2;
     std::vector<Case> cases;
     cases.push_back({"torus", BaseSurface(ParametricSurface("torus:R=1,r=0.4"), 32, 32), 5 + more,
                      [](double u, double v) { return y_up(oracle::torus(1, 0.4, 2 * pi * u, 2 * pi * v), 2 * pi, 2 * pi); }, std::sqrt(2.8 * 2.8 * 2 + 0.8 * 0.8)});
     cases.push_back({"sphere", BaseSurface(ParametricSurface("sphere:R=1"), 32, 32), 5 + more,
                      [](double u, double v) { return y_up(oracle::sphere(1, 2 * pi * u, pi * (v - 0.5)), 2 * pi, pi); }, std::sqrt(12.0)});
     cases.push_back({"cube_limit", BaseSurface(cube(), SubdivisionOptions{}), 9 + more, {}});
-    const std::filesystem::path spot = "../shared/data/meshes/spot/spot_control_mesh.obj";
-    if (std::filesystem::exists(spot)) {
-        cases.push_back({"spot_limit", BaseSurface(read_mesh(spot.string()), SubdivisionOptions{}), 5 + more, {}});
-    }
+    if (argc > 2) cases.push_back({std::filesystem::path(argv[2]).stem().string() + "_limit", BaseSurface(read_mesh(argv[2]), SubdivisionOptions{}), 5 + more, {}});
     for (const Case& c : cases)
         for (const int threads : {1, 0}) run(c, threads);
 }

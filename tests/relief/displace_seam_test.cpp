@@ -33,7 +33,6 @@ double longest(const Mesh& mesh) {
 TEST_SUITE("unit") {
 
 TEST_CASE("displace: with blend no edge at a seam is longer than five times the median, where Blender leaves 863") {
-    // Smooth normals, as Blender's modifier has them; with facet normals the cube's edges are creases as well.
     const BaseSurface base(cube());
     const auto result = [&](Seam seam) { return displace(base, ramp(), levels(6, seam)); };
     const Displaced blend = result(Seam::blend), average = result(Seam::average), owner = result(Seam::owner);
@@ -46,6 +45,39 @@ TEST_CASE("displace: with blend no edge at a seam is longer than five times the 
     CHECK(longest(average.mesh) < 5);
     CHECK(longest(owner.mesh) > 8);
     CHECK(long_edges(owner.mesh) > 300);
+}
+
+TEST_CASE("displace: with blend creases do not tear either, and other policies step there as Blender does") {
+    const BaseSurface base(cube(true));
+    const auto result = [&](Seam seam) { return displace(base, ramp(), levels(6, seam)); };
+    const Displaced blend = result(Seam::blend);
+    CHECK(check(blend.mesh).topology.boundary_edges == 0);
+    CHECK(blend.report.seam_mismatch == doctest::Approx(0.3).epsilon(1e-4)); // of heights, whatever the directions
+    CHECK(long_edges(blend.mesh) == 0);
+    CHECK(longest(blend.mesh) < 2);
+    CHECK(long_edges(result(Seam::average).mesh) > 300);
+}
+
+TEST_CASE("displace: with blend a constant height makes a larger cube of a cube, flat and square, and a cut mitre of a fin") {
+    const Relief half = relief(picture(1, 1, [](double, double) { return 1.0; }), 0.5, 0);
+    const Displaced larger = displace(BaseSurface(cube(true)), half, levels(3, Seam::blend));
+    double off = 0;
+    for (const Vec3f& p : larger.mesh.positions)
+        off = std::max(off, std::abs(double(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})) - 1.5));
+    CHECK(off < 1e-6);
+    CHECK(glm::length(larger.mesh.positions[0]) == doctest::Approx(1.5 * std::sqrt(3.0)));
+    double turned = 0;
+    for (const Vec3f& n : larger.mesh.normals) turned = std::max(turned, 1 - double(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)})));
+    CHECK(turned < 1e-6);
+    // Two faces 5 degrees apart: their planes would meet 11 heights away.
+    const float slope = std::tan(float(2.5 * oracle::pi / 180));
+    const std::vector<Vec3f> points = {{0, -1, 0}, {0, 1, 0}, {-1, 1, slope}, {-1, -1, slope}, {-1, 1, -slope}, {-1, -1, -slope}};
+    const Vec3f up = glm::normalize(Vec3f(slope, 0, 1)), down = glm::normalize(Vec3f(slope, 0, -1));
+    const Mesh fin = polygons(points, {{0, 1, 2, 3}, {1, 0, 5, 4}}, std::vector<Vec2f>(8, Vec2f(0.5f)), {up, up, up, up, down, down, down, down});
+    const Displaced cut = displace(BaseSurface(Mesh(fin)), half, levels(3, Seam::blend));
+    double farthest = 0;
+    for (const Vec3f& p : cut.mesh.positions) farthest = std::max(farthest, double(p.x));
+    CHECK(farthest == doctest::Approx(1).epsilon(1e-5)); // twice the height
 }
 
 TEST_CASE("displace: a texture that fits across its seams is not changed by any policy") {

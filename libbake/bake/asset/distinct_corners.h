@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/parallel.h"
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -63,8 +64,13 @@ DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Pos
     constexpr std::int64_t grain = 1 << 15;
     const auto rows = static_cast<std::int64_t>(corners);
     std::vector<std::uint32_t> leader(positions, none); // per position, its first corner
-    for (std::uint32_t c = 0; c < corners; ++c)
-        if (std::uint32_t& l = leader[position(c)]; l == none) l = c;
+    for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+            const std::atomic_ref<std::uint32_t> first(leader[position(c)]);
+            std::uint32_t known = first.load(std::memory_order_relaxed);
+            while (c < known && !first.compare_exchange_weak(known, c, std::memory_order_relaxed)) {}
+        }
+    });
 
     // Corners that differ from the first of their position, in order.
     std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>((rows + grain - 1) / grain));

@@ -1,26 +1,37 @@
 #include "bake/asset/block_writer.h"
 #include "bake/asset/obj.h"
 #include "bake/asset/text_number.h"
+#include <algorithm>
 #include <charconv>
 
 namespace bake {
 namespace {
 
-template <class T> void append_number(std::string& out, T value) {
-    char digits[32]; // a float needs at most 15, a 32-bit index 10
-    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
 void append_floats(std::string& out, const char* keyword, const float* values, int count) {
     out += keyword;
     for (int i = 0; i < count; ++i) {
-        out += ' ';
-        append_number(out, values[i]);
+        char text[16] = {' '}; // a float needs at most 15
+        out.append(text, std::to_chars(text + 1, text + sizeof text, values[i]).ptr);
     }
     out += '\n';
 }
 
-void append_index(std::string& out, std::uint32_t index) { append_number(out, std::uint64_t(index) + 1); }
+/// One corner of a face, after a blank; no_index: none.
+void append_corner(std::string& out, std::uint32_t position, std::uint32_t uv, std::uint32_t normal) {
+    constexpr int most_digits = 10;
+    char text[1 + 3 * most_digits + 2] = {' '};
+    char* const digits = text + 1;
+    char* end = std::to_chars(digits, digits + most_digits, position + 1).ptr;
+    const auto length = end - digits;
+    const auto put = [&](std::uint32_t index) { // mostly the same number again
+        if (index == position) std::copy_n(digits, length, end), end += length;
+        else end = std::to_chars(end, end + most_digits, index + 1).ptr;
+    };
+    if (uv != no_index || normal != no_index) *end++ = '/';
+    if (uv != no_index) put(uv);
+    if (normal != no_index) *end++ = '/', put(normal);
+    out.append(text, end);
+}
 
 /// A name that reads back: one line, without blanks at its ends or a backslash at its end.
 std::string name_on_a_line(std::string name) {
@@ -61,15 +72,9 @@ void write_obj(const std::string& path, const Mesh& mesh) {
         append_change(block, "g", groups, mesh.face_group, f);
         append_change(block, "usemtl", materials, mesh.face_material, f);
         block += 'f';
-        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
-            const bool uv = !mesh.corner_uv.empty() && mesh.corner_uv[c] != no_index;
-            const bool normal = !mesh.corner_normal.empty() && mesh.corner_normal[c] != no_index;
-            block += ' ';
-            append_index(block, mesh.corner_position[c]);
-            if (uv || normal) block += '/';
-            if (uv) append_index(block, mesh.corner_uv[c]);
-            if (normal) block += '/', append_index(block, mesh.corner_normal[c]);
-        }
+        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+            append_corner(block, mesh.corner_position[c], mesh.corner_uv.empty() ? no_index : mesh.corner_uv[c],
+                          mesh.corner_normal.empty() ? no_index : mesh.corner_normal[c]);
         block += '\n';
     });
     const SubdivisionTags& tags = mesh.tags;

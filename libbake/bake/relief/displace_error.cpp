@@ -8,7 +8,7 @@ std::span<const Vec3d> DisplacedPatch::points(std::uint32_t patch, std::span<con
     surface_->values(patch, st, {base_.data(), st.size()}, {values_.data(), st.size()});
     for (std::size_t i = 0; i < st.size(); ++i) {
         if (blend_->touches(patch)) blend_->add(patch, st[i], base_[i], values_[i]);
-        points_[i] = base_[i].jet.p + (surface_->along_normal() ? values_[i].at.x * base_[i].jet.n : values_[i].at);
+        points_[i] = base_[i].jet.p + surface_->displacement(base_[i], values_[i]);
     }
     return {points_.data(), st.size()};
 }

@@ -1,5 +1,6 @@
 #include "bake/relief/displace_points.h"
 #include "bake/base/parallel.h"
+#include "bake/relief/shared_value.h"
 #include <limits>
 
 namespace bake {
@@ -24,50 +25,6 @@ void PointTally::add(const PointTally& o) {
         fold_margin = o.fold_margin, fold_worst = o.fold_worst, fold_worst_uv = o.fold_worst_uv;
     no_tangents += o.no_tangents, no_normal += o.no_normal, not_finite += o.not_finite;
     without_normal.insert(without_normal.end(), o.without_normal.begin(), o.without_normal.end());
-}
-
-void meet(const ReliefSurface& surface, Seam seam, const Meeting& meeting, const MeetingSide* sides,
-          std::span<const SideView> views, MetPoint& out) {
-    out.uv.assign(meeting.uv_groups, Vec2d(0));
-    out.normal.assign(meeting.normal_groups, Vec3d(0));
-    Vec3d mean(0), direction(0);
-    std::uint32_t uv_groups = 0, normal_groups = 0;
-    out.mismatch = 0;
-    const SideView& owner = views[0];
-    for (std::size_t k = 0; k < views.size(); ++k) {
-        if (sides[k].uv_group == uv_groups) {
-            out.uv[uv_groups++] = views[k].point.uv;
-            mean += views[k].value.at;
-            out.mismatch = std::max(out.mismatch, glm::length(views[k].own - owner.own));
-        }
-        if (sides[k].normal_group == normal_groups) {
-            ++normal_groups;
-            direction += views[k].point.jet.n;
-        }
-    }
-    out.value = seam == Seam::owner || uv_groups == 1 ? owner.value.at : mean / double(uv_groups);
-    if (normal_groups == 1) direction = owner.point.jet.n;
-    else direction = unit_or_zero(direction);
-    if (direction == Vec3d(0)) direction = owner.point.jet.n; // sides that look opposite ways: a Moebius strip's closure
-    out.from = owner.point.jet.p;
-    out.p = surface.along_normal() ? out.from + out.value.x * direction : out.from + out.value;
-
-    // A normal group's normal is the mean over its uv groups.
-    out.margin = 1;
-    for (std::size_t k = 0; k < views.size(); ++k) {
-        bool first = true;
-        for (std::size_t l = 0; l < k && first; ++l)
-            first = sides[l].uv_group != sides[k].uv_group || sides[l].normal_group != sides[k].normal_group;
-        if (!first) continue;
-        ReliefValue shared = views[k].value;
-        if (!views[k].point.curved) continue; // the faces give it
-        if (surface.along_normal()) {
-            shared.at = out.value;
-            out.margin = std::min(out.margin, fold_margin(views[k].point.jet, out.value.x));
-        }
-        out.normal[sides[k].normal_group] += unit_or_zero(surface.displaced(views[k].point, shared).normal);
-    }
-    for (Vec3d& n : out.normal) n = unit_or_zero(n);
 }
 
 namespace {
@@ -108,9 +65,10 @@ struct Scratch {
 
 /// Evaluates the gathered parameters of one patch and writes its points; number no_index: not this one.
 void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& tally) {
-    const bool along_normal = to.surface.along_normal(), blended = to.blend.touches(patch);
+    const bool heights = to.surface.values_are_heights(), along_normal = to.surface.along_normal();
+    const bool blended = to.blend.touches(patch);
     const std::size_t count = s.number.size();
-    if (!along_normal) {
+    if (!heights) {
         s.values.resize(count);
         to.surface.values(patch, s.st, {s.points.data(), count}, s.values);
     }
@@ -118,13 +76,14 @@ void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& 
         const std::uint32_t index = s.number[k];
         if (index == no_index) continue;
         const SurfacePoint& point = s.points[k];
-        ReliefValue value = along_normal ? bake::along_normal(point, to.surface.height(point.uv)) : s.values[k];
+        ReliefValue value = heights ? bake::along_normal(point, to.surface.height(point.uv)) : s.values[k];
         if (blended) to.blend.add(patch, s.st[k], point, value);
-        const DisplacedPoint d = along_normal ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);
-        tally.height(along_normal ? value.at.x : glm::dot(value.at, point.jet.n));
+        const DisplacedPoint d = heights ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);
+        const double b = to.surface.height_of(point, value);
+        tally.height(b);
         if (point.jet.n == Vec3d(0)) ++tally.no_normal;
         else if (point.jet.sigma == 0) ++tally.no_tangents;
-        const double margin = along_normal && point.curved ? fold_margin(point.jet, value.at.x) : 1.0;
+        const double margin = along_normal && point.curved ? fold_margin(point.jet, b) : 1.0;
         tally.fold(margin, point);
         to.store(index, d.p, tally);
         to.store_normal(index, point.curved ? unit_or_zero(d.normal) : Vec3d(0), tally);
@@ -214,6 +173,45 @@ void run(const Job& job, const Target& to, Scratch& s, PointTally& tally) {
     }
 }
 
+/// A point where sides meet.
+struct MetPoint {
+    Vec3d p, from;             ///< displaced, and on the base
+    double height = 0;         ///< along the first side's normal
+    double mismatch = 0;       ///< largest difference between two uv groups' own values
+    double margin = 1;
+    std::vector<Vec3d> normal; ///< per normal group: unit or zero
+    std::vector<Vec2d> uv;     ///< per uv group
+};
+
+/// `own`: the views' values before a blend's correction.
+void meet(const Target& to, const Meeting& meeting, const MeetingSide* sides, std::span<const SideView> views,
+          std::span<const Vec3d> own, MetPoint& out) {
+    const ReliefSurface& surface = to.surface;
+    const SideView& owner = views[0];
+    SharedValue shared = shared_value(surface, sides, views);
+    if (to.seam == Seam::owner) shared.value = owner.value.at;
+    const bool heights = surface.values_are_heights();
+    out.from = owner.point.jet.p;
+    out.p = out.from + (heights ? shared.value.x * shared.direction : shared.value);
+    out.height = heights ? shared.value.x : glm::dot(shared.value, owner.point.jet.n);
+    out.uv.assign(meeting.uv_groups, Vec2d(0));
+    out.normal.assign(meeting.normal_groups, Vec3d(0));
+    out.margin = 1, out.mismatch = 0;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+        const SurfacePoint& point = views[k].point;
+        if (!first_of_groups(sides, k)) continue;
+        out.uv[sides[k].uv_group] = point.uv;
+        out.mismatch = std::max(out.mismatch, glm::length(own[k] - own[0]));
+        if (!point.curved) continue; // the faces give the normal
+        ReliefValue value = views[k].value;
+        if (heights) value.at = shared.value;
+        if (surface.along_normal()) out.margin = std::min(out.margin, fold_margin(point.jet, surface.height_of(point, value)));
+        // A normal group's normal is the mean over its uv groups.
+        out.normal[sides[k].normal_group] += unit_or_zero(surface.displaced(point, value).normal);
+    }
+    for (Vec3d& n : out.normal) n = unit_or_zero(n);
+}
+
 /// The points of one edge (rate - 1 of them) or vertex (one), `number` being the first's.
 struct MeetingPlace {
     const MeetingTable& table;
@@ -226,6 +224,7 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
     const MeetingSide* sides = place.table.begin(m);
     const std::size_t side_count = m.last - m.first;
     std::vector<SideView> views(side_count * count); // point by point
+    std::vector<Vec3d> own(views.size());
     std::vector<Vec2d> st(count);
     std::vector<SurfacePoint> points(count);
     std::vector<ReliefValue> values(count);
@@ -238,17 +237,18 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
         to.surface.base().evaluate(patch, st, points);
         to.surface.values(patch, st, points, values);
         for (std::uint32_t j = 0; j < count; ++j) {
-            SideView& view = views[j * side_count + k];
-            view = {points[j], values[j], values[j].at};
-            if (to.blend.touches(patch)) to.blend.add(patch, st[j], points[j], view.value);
+            const std::size_t at = j * side_count + k;
+            own[at] = to.surface.along_normal() ? Vec3d(to.surface.height_of(points[j], values[j]), 0, 0) : values[j].at;
+            views[at] = {points[j], values[j]};
+            if (to.blend.touches(patch)) to.blend.add(patch, st[j], points[j], views[at].value);
         }
     }
     MetPoint met;
     for (std::uint32_t j = 0; j < count; ++j) {
         const std::span<const SideView> here(views.data() + j * side_count, side_count);
-        meet(to.surface, to.seam, m, sides, here, met);
+        meet(to, m, sides, here, {own.data() + j * side_count, side_count}, met);
         const std::uint32_t index = place.number + j;
-        tally.height(to.surface.along_normal() ? met.value.x : glm::dot(met.value, here[0].point.jet.n));
+        tally.height(met.height);
         if (here[0].point.jet.n == Vec3d(0)) ++tally.no_normal;
         else if (here[0].point.jet.sigma == 0) ++tally.no_tangents;
         if (m.uv_groups > 1) ++tally.seam_points;

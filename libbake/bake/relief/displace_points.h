@@ -26,23 +26,6 @@ struct PointTally {
     void add(const PointTally& later);
 };
 
-/// Where sides meet: the point they share, and each group's normal and uv.
-struct SideView {
-    SurfacePoint point;
-    ReliefValue value;    ///< with the blend's correction
-    Vec3d own{0};         ///< the value without it
-};
-struct MetPoint {
-    Vec3d p, from;                ///< displaced, and on the base
-    Vec3d value;                  ///< shared
-    double mismatch = 0;          ///< largest difference between two uv groups' own values
-    double margin = 1;
-    std::vector<Vec3d> normal;    ///< per normal group: unit or zero
-    std::vector<Vec2d> uv;        ///< per uv group
-};
-void meet(const ReliefSurface& surface, Seam seam, const Meeting& meeting, const MeetingSide* sides,
-          std::span<const SideView> views, MetPoint& out);
-
 /// Fills positions, normals, uvs of a mesh whose arrays have the layout's sizes, and `margin` where it is not empty.
 PointTally write_points(const ReliefSurface& surface, const SeamBlend& blend, Seam seam, const DisplaceLayout& layout,
                         Mesh& mesh, std::vector<float>& margin, Progress* progress);

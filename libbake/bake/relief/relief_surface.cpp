@@ -24,8 +24,8 @@ Stencil stencil(double x, double step, double end) noexcept {
 
 } // namespace
 
-ReliefSurface::ReliefSurface(const BaseSurface& base, const Relief& relief)
-    : base_(&base), space_(relief.vector), texels_(relief.values.width(), relief.values.height()) {
+ReliefSurface::ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors)
+    : base_(&base), space_(relief.vector), as_vectors_(as_vectors), texels_(relief.values.width(), relief.values.height()) {
     if (!space_) {
         channels_.emplace_back(relief.values, relief.interpolation, relief.height);
         return;
@@ -48,7 +48,14 @@ Vec3d ReliefSurface::vector(const SurfacePoint& point) const noexcept {
 void ReliefSurface::values(std::uint32_t patch, std::span<const Vec2d> st, std::span<const SurfacePoint> points,
                            std::span<ReliefValue> out) const {
     if (!space_) {
-        for (std::size_t i = 0; i < points.size(); ++i) out[i] = bake::along_normal(points[i], height(points[i].uv));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const SurfacePoint& p = points[i];
+            out[i] = bake::along_normal(p, height(p.uv));
+            if (!as_vectors_) continue;
+            const double b = out[i].at.x, b_s = out[i].s.x, b_t = out[i].t.x;
+            out[i] = {b * p.jet.n, b_s * p.jet.n, b_t * p.jet.n};
+            if (p.jet.sigma != 0 && p.curved) out[i].s += b * p.jet.n_u, out[i].t += b * p.jet.n_v;
+        }
         return;
     }
     if (*space_ == VectorSpace::object) {
@@ -97,8 +104,9 @@ void ReliefSurface::values(std::uint32_t patch, std::span<const Vec2d> st, std::
 }
 
 DisplacedPoint ReliefSurface::displaced(const SurfacePoint& point, const ReliefValue& value) const noexcept {
-    if (!space_) return displaced_along_normal(point.jet, value);
+    if (values_are_heights()) return displaced_along_normal(point.jet, value);
     const Jet<double>& jet = point.jet;
+    if (jet.sigma == 0) return {jet.p + value.at, Vec3d(0)};
     return {jet.p + value.at, jet.sigma * glm::cross(jet.p_u + value.s, jet.p_v + value.t)};
 }
 

@@ -10,7 +10,7 @@
 
 namespace bake {
 
-/// What the relief adds at a point, and its derivatives along the jet's parameters: (b, 0, 0) along the normal, else the
+/// What the relief adds at a point, and its derivatives along the jet's parameters: (b, 0, 0), b along the normal, or the
 /// displacement itself in object space.
 struct ReliefValue {
     Vec3d at{0}, s{0}, t{0};
@@ -23,11 +23,13 @@ struct DisplacedPoint {
 
 class ReliefSurface {
 public:
-    /// Both must outlive it.
-    ReliefSurface(const BaseSurface& base, const Relief& relief);
+    /// Both must outlive it. With `as_vectors` heights are given as displacements too, b n, which may then be turned.
+    ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors = false);
 
     const BaseSurface& base() const noexcept { return *base_; }
+    /// Whether the relief is a height along the normal, and whether values hold it as (b, 0, 0).
     bool along_normal() const noexcept { return !space_; }
+    bool values_are_heights() const noexcept { return !space_ && !as_vectors_; }
     /// Texels along u and v.
     Vec2d texels() const noexcept { return texels_; }
 
@@ -38,6 +40,13 @@ public:
     /// Along the normal: of one uv, with derivatives along the uv's own.
     Height<double> height(const Vec2d& uv) const noexcept { return channels_[0].sample(uv.x, uv.y); }
 
+    /// Of a value: how far along the normal it moves the point, and the whole move.
+    double height_of(const SurfacePoint& point, const ReliefValue& value) const noexcept {
+        return values_are_heights() ? value.at.x : glm::dot(value.at, point.jet.n);
+    }
+    Vec3d displacement(const SurfacePoint& point, const ReliefValue& value) const noexcept {
+        return values_are_heights() ? value.at.x * point.jet.n : value.at;
+    }
     DisplacedPoint displaced(const SurfacePoint& point, const ReliefValue& value) const noexcept;
 
 private:
@@ -45,6 +54,7 @@ private:
 
     const BaseSurface* base_;
     std::optional<VectorSpace> space_;
+    bool as_vectors_;
     Vec2d texels_;
     std::vector<HeightSampler<float>> channels_; ///< one, or three
 };
@@ -68,8 +78,9 @@ inline double fold_margin(const Jet<double>& s, double b) noexcept {
     // n_u = A p_u, n_v = A p_v on the tangent plane: trace and determinant of A come from cross products.
     const double area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
     if (area == 0 || s.sigma == 0) return 1;
-    const double mean = glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v)) / (2 * area);
-    const double gauss = glm::dot(s.n, glm::cross(s.n_u, s.n_v)) / area;
+    const double per_area = 1 / area;
+    const double mean = 0.5 * per_area * glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v));
+    const double gauss = per_area * glm::dot(s.n, glm::cross(s.n_u, s.n_v));
     const double half = std::sqrt(std::max(0.0, mean * mean - gauss));
     return 1 + b * mean - std::abs(b) * half;
 }

@@ -1,4 +1,7 @@
 #include "bake/relief/seam_blend.h"
+#include "bake/relief/shared_value.h"
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 namespace bake {
 namespace {
@@ -23,8 +26,8 @@ Graded stepped(const Graded& x) noexcept {
     return {step(x.at), slope * x.s, slope * x.t};
 }
 
-/// Values of one side at x = k / count, k = 0..count.
-std::vector<Vec3d> values_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards, std::uint32_t count) {
+/// One side's views at x = k / count, k = 0..count.
+std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards, std::uint32_t count) {
     const int sides = surface.base().complex().patches[patch].sides();
     std::vector<Vec2d> st(count + 1);
     for (std::uint32_t k = 0; k <= count; ++k) st[k] = on_side(sides, side, double(backwards ? count - k : k) / count);
@@ -32,9 +35,38 @@ std::vector<Vec3d> values_along(const ReliefSurface& surface, std::uint32_t patc
     std::vector<ReliefValue> values(st.size());
     surface.base().evaluate(patch, st, points);
     surface.values(patch, st, points, values);
-    std::vector<Vec3d> out(st.size());
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = values[k].at;
-    return out;
+    std::vector<SideView> views(st.size());
+    for (std::size_t k = 0; k < views.size(); ++k) views[k] = {points[k], values[k]};
+    return views;
+}
+
+/// How far an edge or a corner of flat faces moves when each of them moves by one along its normal: m with n_i . m = 1, of
+/// all such the shortest. Up to 2 long, as mitres are cut off: of normals 120 degrees apart.
+Vec3d mitre(const MeetingSide* sides, std::span<const SideView> views) {
+    Vec3d sum(0);
+    glm::dmat3 products(0);
+    std::uint32_t groups = 0;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+        if (sides[k].normal_group != groups) continue;
+        const Vec3d& n = views[k].point.jet.n;
+        sum += n, products += glm::outerProduct(n, n), ++groups;
+    }
+    // Least squares, damped: two normals leave one direction free, several nearly equal ones leave two almost so.
+    const Vec3d m = glm::inverse(products + glm::dmat3(1e-9 * groups)) * sum;
+    const double length = glm::length(m);
+    return length > 2 ? 2 / length * m : m;
+}
+
+/// What all sides are led to. Heights of sides that look different ways: the mean height along their mitre.
+Vec3d goal(const ReliefSurface& surface, const MeetingSide* sides, std::span<const SideView> views) {
+    const SharedValue shared = shared_value(surface, sides, views);
+    if (surface.along_normal() && !surface.values_are_heights()) return shared.height * mitre(sides, views);
+    return shared.value;
+}
+
+/// Whether the sides of a meeting differ in their own values.
+bool differ(const ReliefSurface& surface, const Meeting& m) noexcept {
+    return m.uv_groups > 1 || (m.normal_groups > 1 && !surface.values_are_heights());
 }
 
 /// Two per texel along a side: what a cubic between them follows.
@@ -67,51 +99,52 @@ SeamBlend::Patch& SeamBlend::patch_at_seam(const ReliefSurface& surface, std::ui
 SeamBlend::SeamBlend(const ReliefSurface& surface, const MeetingTable& edges, const MeetingTable& vertices) {
     const PatchComplex& complex = surface.base().complex();
     of_.assign(complex.patches.size(), no_index);
+    std::vector<SideView> views;
     for (const Meeting& m : vertices.meetings) {
-        if (m.uv_groups == 1) continue;
-        std::vector<Vec3d> of_group(m.uv_groups);
-        Vec3d mean(0);
-        std::uint32_t known = 0;
-        for (const MeetingSide* s = vertices.begin(m); s != vertices.end(m); ++s) {
-            if (s->uv_group != known) continue;
-            const Vec2d st = on_side(complex.patches[s->cell].sides(), s->place, 0);
-            SurfacePoint point;
-            ReliefValue value;
-            surface.base().evaluate(s->cell, {&st, 1}, {&point, 1});
-            surface.values(s->cell, {&st, 1}, {&point, 1}, {&value, 1});
-            of_group[known++] = value.at;
-            mean += value.at / double(m.uv_groups);
+        if (!differ(surface, m)) continue;
+        views.resize(m.last - m.first);
+        const MeetingSide* sides = vertices.begin(m);
+        for (std::size_t k = 0; k < views.size(); ++k) {
+            const Vec2d st = on_side(complex.patches[sides[k].cell].sides(), sides[k].place, 0);
+            surface.base().evaluate(sides[k].cell, {&st, 1}, {&views[k].point, 1});
+            surface.values(sides[k].cell, {&st, 1}, {&views[k].point, 1}, {&views[k].value, 1});
         }
-        for (const MeetingSide* s = vertices.begin(m); s != vertices.end(m); ++s)
-            patch_at_seam(surface, s->cell).corner[s->place] = mean - of_group[s->uv_group];
+        const Vec3d shared = goal(surface, sides, views);
+        for (std::size_t k = 0; k < views.size(); ++k)
+            patch_at_seam(surface, sides[k].cell).corner[sides[k].place] = shared - views[k].value.at;
     }
     for (const Meeting& m : edges.meetings) {
-        if (m.uv_groups == 1) continue;
+        if (!differ(surface, m)) continue;
+        const MeetingSide* sides = edges.begin(m);
+        const std::size_t side_count = m.last - m.first;
         std::uint32_t count = 2;
-        for (const MeetingSide* s = edges.begin(m); s != edges.end(m); ++s)
-            count = std::max(count, samples_along(surface, s->cell, s->place));
-        std::vector<std::vector<Vec3d>> values;
-        std::vector<Vec3d> mean(count + 1, Vec3d(0));
-        for (const MeetingSide* s = edges.begin(m); s != edges.end(m); ++s) {
-            values.push_back(values_along(surface, s->cell, s->place, s->reversed, count));
-            for (std::uint32_t k = 0; k <= count; ++k) mean[k] += values.back()[k] / double(m.last - m.first);
+        for (std::size_t s = 0; s < side_count; ++s) count = std::max(count, samples_along(surface, sides[s].cell, sides[s].place));
+        std::vector<std::vector<SideView>> along;
+        for (std::size_t s = 0; s < side_count; ++s)
+            along.push_back(views_along(surface, sides[s].cell, sides[s].place, sides[s].reversed, count));
+        std::vector<std::vector<Vec3d>> corrections(side_count, std::vector<Vec3d>(count + 1));
+        views.resize(side_count);
+        for (std::uint32_t k = 0; k <= count; ++k) {
+            for (std::size_t s = 0; s < side_count; ++s) views[s] = along[s][k];
+            const Vec3d shared = goal(surface, sides, views);
+            for (std::size_t s = 0; s < side_count; ++s) corrections[s][k] = shared - views[s].value.at;
         }
-        for (const MeetingSide* s = edges.begin(m); s != edges.end(m); ++s) {
-            std::vector<Vec3d>& own = values[s - edges.begin(m)];
-            for (std::uint32_t k = 0; k <= count; ++k) own[k] = mean[k] - own[k];
-            if (s->reversed) std::reverse(own.begin(), own.end());
+        for (std::size_t s = 0; s < side_count; ++s) {
+            std::vector<Vec3d>& own = corrections[s];
+            if (sides[s].reversed) std::reverse(own.begin(), own.end());
             const Curve c = curve(own, own.front(), own.back());
-            patch_at_seam(surface, s->cell).side[s->place] = c;
+            patch_at_seam(surface, sides[s].cell).side[sides[s].place] = c;
         }
     }
     // At a pole all of the side is led to the one value of its vertex.
     for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
         for (int i = 0; i < complex.patches[p].sides(); ++i) {
             if (!is_point(complex.patches[p], i)) continue;
-            std::vector<Vec3d> own = values_along(surface, p, i, false, samples_along(surface, p, i));
+            const std::vector<SideView> along = views_along(surface, p, i, false, samples_along(surface, p, i));
             Patch& patch = patch_at_seam(surface, p);
-            const Vec3d shared = own.front() + patch.corner[i];
-            for (Vec3d& v : own) v = shared - v;
+            const Vec3d shared = along.front().value.at + patch.corner[i];
+            std::vector<Vec3d> own(along.size());
+            for (std::size_t k = 0; k < own.size(); ++k) own[k] = shared - along[k].value.at;
             const Curve c = curve(own, patch.corner[i], patch.corner[(i + 1) % patch.sides]);
             patch_at_seam(surface, p).side[i] = c;
         }

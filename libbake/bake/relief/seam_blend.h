@@ -1,4 +1,6 @@
-// Seam::blend: a correction on every patch at a seam that leads its height smoothly to the value both sides share.
+// Seam::blend: a correction on every patch at a seam that leads its height smoothly to the value both sides share. Where
+// the surface's values are displacements rather than heights, creases are led together too: the edge moves as that of
+// two planes would, so that flat faces stay flat.
 //
 // On a seam the shared value is the mean of the sides, at its ends that of the vertex. The correction of a side there is
 // shared value less own value; it is carried into the patch as Coons does (Surfaces for computer-aided design of space

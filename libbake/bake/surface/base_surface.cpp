@@ -158,8 +158,9 @@ LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, P
 SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Jet2<double> s{limit.p, limit.p_s, limit.p_t, limit.p_ss, limit.p_st, limit.p_tt};
     SurfacePoint point{.jet = jet_of(s), .uv = limit.uv, .uv_s = limit.uv_s, .uv_t = limit.uv_t};
-    const double area = glm::length(glm::cross(s.p_u, s.p_v)), square = glm::length(s.p_u) * glm::length(s.p_v);
-    if (area > 1e-5 * square) return point; // the limit is right to a tenth of that
+    const Vec3d N = glm::cross(s.p_u, s.p_v);
+    // sin^2 of their angle above (1e-5)^2: the limit is right to a tenth of that.
+    if (glm::dot(N, N) > 1e-10 * glm::dot(s.p_u, s.p_u) * glm::dot(s.p_v, s.p_v)) return point;
     const Vec3d along_s = glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv);
     const Vec3d along_t = glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv);
     const Vec2d inwards = Vec2d(1.0 / 3, 1.0 / 3) - st;

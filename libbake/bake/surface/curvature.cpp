@@ -6,12 +6,13 @@ namespace bake {
 template <class T> Jet<T> jet_of(const Jet2<T>& s, T outward) noexcept {
     Jet<T> jet{.p = s.p, .p_u = s.p_u, .p_v = s.p_v, .n = Vec3<T>(0), .n_u = Vec3<T>(0), .n_v = Vec3<T>(0), .sigma = 0};
     const Vec3<T> N = glm::cross(s.p_u, s.p_v);
-    const T area = glm::length(N);
+    const T square = glm::dot(N, N);
     // Parallel derivatives: what is left of N is rounding.
-    const T noise = 4 * std::numeric_limits<T>::epsilon() * glm::length(s.p_u) * glm::length(s.p_v);
-    if (!(area > noise)) return jet;
-    const Vec3<T> n = N / area;
-    const auto turned = [&](const Vec3<T>& dN) { return outward * (dN - glm::dot(dN, n) * n) / area; };
+    constexpr T noise = 4 * std::numeric_limits<T>::epsilon();
+    if (!(square > noise * noise * glm::dot(s.p_u, s.p_u) * glm::dot(s.p_v, s.p_v))) return jet;
+    const T per_area = 1 / std::sqrt(square), scale = outward * per_area; // roots and divisions are what this costs
+    const Vec3<T> n = per_area * N;
+    const auto turned = [&](const Vec3<T>& dN) { return scale * (dN - glm::dot(dN, n) * n); };
     jet.n = outward * n;
     jet.n_u = turned(glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv));
     jet.n_v = turned(glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv));
