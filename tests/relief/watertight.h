@@ -110,15 +110,8 @@ inline Noisy displaced_by_noise(const BaseSurface& base, const Rates& rates, Sea
     if (rates.rule == Rates::Rule::uniform) {
         out.plan = uniform_rates(rates.levels);
     } else {
-        // As displace() makes them: the blend moves points, and so has a say in rates.
-        const MeetingTable edges = edge_meetings(base.complex()), vertices = vertex_meetings(base.complex());
-        const auto creased = [](const Meeting& m) { return m.normal_groups > 1; };
-        const bool turns = seam == Seam::blend && (std::any_of(edges.meetings.begin(), edges.meetings.end(), creased) ||
-                                                   std::any_of(vertices.meetings.begin(), vertices.meetings.end(), creased));
-        const ReliefSurface surface(base, height, turns);
-        SeamBlend blend;
-        if (seam == Seam::blend) blend = SeamBlend(surface, edges, vertices);
-        out.plan = rates_by_size(surface, blend, rates);
+        const SeamedRelief scene = seamed(base, height, seam); // the blend moves points, and so has a say in rates
+        out.plan = rates_by_size(scene.surface, scene.blend, rates);
     }
     return out;
 }

@@ -184,23 +184,6 @@ Mesh make_arrays(const DisplaceLayout& layout, const Mesh& base, bool with_margi
 
 namespace {
 
-/// The surface under its relief, with the seams' correction.
-struct Scene {
-    ReliefSurface surface;
-    SeamBlend blend;
-};
-
-Scene make_scene(const BaseSurface& base, const Relief& relief, Seam seam) {
-    if (seam != Seam::blend) return {ReliefSurface(base, relief), {}};
-    const MeetingTable edges = edge_meetings(base.complex()), vertices = vertex_meetings(base.complex());
-    const auto creased = [](const Meeting& m) { return m.normal_groups > 1; };
-    const bool turns = std::any_of(edges.meetings.begin(), edges.meetings.end(), creased) ||
-                       std::any_of(vertices.meetings.begin(), vertices.meetings.end(), creased);
-    ReliefSurface surface(base, relief, turns);
-    SeamBlend blend(surface, edges, vertices);
-    return {std::move(surface), std::move(blend)};
-}
-
 RatePlan plan_rates(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
     switch (rates.rule) {
     case Rates::Rule::edge_size: return rates_by_size(surface, blend, rates);
@@ -215,19 +198,19 @@ RatePlan plan_rates(const ReliefSurface& surface, const SeamBlend& blend, const 
 DisplaceCount count_displaced(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options) {
     if (options.rates.rule == Rates::Rule::uniform)
         return Plan(base, uniform_rates(options.rates.levels), options.margin).count;
-    const Scene scene = make_scene(base, relief, options.seam);
+    const SeamedRelief scene = seamed(base, relief, options.seam);
     return Plan(base, plan_rates(scene.surface, scene.blend, options.rates), options.margin).count;
 }
 
 Displaced displace(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options, Progress* progress) {
     const bool uniform = options.rates.rule == Rates::Rule::uniform;
-    std::optional<Scene> scene;
+    std::optional<SeamedRelief> scene;
     // Uniform rates are refused before anything else is made.
-    if (!uniform) scene = make_scene(base, relief, options.seam);
+    if (!uniform) scene = seamed(base, relief, options.seam);
     const RatePlan rates = uniform ? uniform_rates(options.rates.levels) : plan_rates(scene->surface, scene->blend, options.rates);
     const Plan plan(base, rates, options.margin);
     refuse_too_large(base, options, plan.count);
-    if (uniform) scene = make_scene(base, relief, options.seam);
+    if (uniform) scene = seamed(base, relief, options.seam);
     const auto& [surface, blend] = *scene;
 
     Displaced out;

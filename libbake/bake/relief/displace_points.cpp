@@ -179,6 +179,7 @@ struct MetPoint {
     double height = 0;         ///< along the first side's normal
     double mismatch = 0;       ///< largest difference between two uv groups' own values
     double margin = 1;
+    bool has_direction = true; ///< false where displacement along n has none
     std::vector<Vec3d> normal; ///< per normal group: unit or zero
     std::vector<Vec2d> uv;     ///< per uv group
 };
@@ -193,6 +194,7 @@ void meet(const Target& to, const Meeting& meeting, const MeetingSide* sides, st
     const bool heights = surface.values_are_heights();
     out.from = owner.point.jet.p;
     out.p = out.from + (heights ? shared.value.x * shared.direction : shared.value);
+    out.has_direction = shared.direction != Vec3d(0);
     out.height = heights ? shared.value.x : glm::dot(shared.value, owner.point.jet.n);
     out.uv.assign(meeting.uv_groups, Vec2d(0));
     out.normal.assign(meeting.normal_groups, Vec3d(0));
@@ -249,7 +251,7 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
         meet(to, m, sides, here, {own.data() + j * side_count, side_count}, met);
         const std::uint32_t index = place.number + j;
         tally.height(met.height);
-        if (here[0].point.jet.n == Vec3d(0)) ++tally.no_normal;
+        if (!met.has_direction) ++tally.no_normal;
         else if (here[0].point.jet.sigma == 0) ++tally.no_tangents;
         if (m.uv_groups > 1) ++tally.seam_points;
         if (met.mismatch > tally.seam_mismatch) tally.seam_mismatch = met.mismatch, tally.seam_worst = met.from;

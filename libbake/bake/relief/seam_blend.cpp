@@ -228,4 +228,15 @@ void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& po
     value.t += (uv_s.x * along_t - uv_t.x * along_s) / area;
 }
 
+SeamedRelief seamed(const BaseSurface& base, const Relief& relief, Seam seam) {
+    if (seam != Seam::blend) return {ReliefSurface(base, relief), {}};
+    const MeetingTable edges = edge_meetings(base.complex()), vertices = vertex_meetings(base.complex());
+    const auto creased = [](const Meeting& m) { return m.normal_groups > 1; };
+    const bool creases = std::any_of(edges.meetings.begin(), edges.meetings.end(), creased) ||
+                         std::any_of(vertices.meetings.begin(), vertices.meetings.end(), creased);
+    ReliefSurface surface(base, relief, creases);
+    SeamBlend blend(surface, edges, vertices);
+    return {std::move(surface), std::move(blend)};
+}
+
 } // namespace bake

@@ -44,4 +44,12 @@ private:
     std::vector<Node> nodes_;
 };
 
+/// A surface under its relief, and the correction at its seams: none but with Seam::blend.
+struct SeamedRelief {
+    ReliefSurface surface;
+    SeamBlend blend;
+};
+/// With creases to blend the surface's values are displacements. Base and relief must outlive it.
+SeamedRelief seamed(const BaseSurface& base, const Relief& relief, Seam seam);
+
 } // namespace bake

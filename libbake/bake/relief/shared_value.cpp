@@ -20,9 +20,9 @@ SharedValue shared_value(const ReliefSurface& surface, const MeetingSide* sides,
     }
     shared.height /= uv_groups;
     shared.value = surface.values_are_heights() ? Vec3d(shared.height, 0, 0) : shared.value / double(pairs);
-    const Vec3d own = views[0].point.jet.n;
-    shared.direction = normal_groups == 1 ? own : unit_or_zero(shared.direction);
-    if (shared.direction == Vec3d(0)) shared.direction = own; // sides that look opposite ways: a Moebius strip's closure
+    const bool cancel = glm::length(shared.direction) < 0.01 * normal_groups;
+    if (normal_groups == 1 || (normal_groups == 2 && cancel)) shared.direction = views[0].point.jet.n;
+    else shared.direction = cancel ? Vec3d(0) : unit_or_zero(shared.direction);
     return shared;
 }
 

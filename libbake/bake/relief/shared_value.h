@@ -14,7 +14,8 @@ struct SideView {
 struct SharedValue {
     Vec3d value{0};     ///< mean of the values: of heights over uv groups, of vectors over pairs of uv and normal group
     double height = 0;  ///< mean of the heights over uv groups
-    Vec3d direction{0}; ///< unit: the mean of the normals over normal groups; the first's where they cancel
+    Vec3d direction{0}; ///< unit: the mean of the normals over normal groups. Where two cancel (a Moebius strip's
+                        ///< closure), the first; zero where more do (round a spike)
 };
 
 /// `sides` and `views` go together.

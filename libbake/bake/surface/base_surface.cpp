@@ -154,7 +154,8 @@ LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, P
 }
 
 /// Where p_s and p_t run along one line, as at a corner whose two sides are one smooth crease, their cross product is
-/// rounding; the normal there is what it tends to from the inside of the patch.
+/// rounding; the normal there is what it tends to from the inside of the patch. At the tip of a spike (a sharp vertex
+/// without creases) everything runs along one line, and there is none.
 SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Jet2<double> s{limit.p, limit.p_s, limit.p_t, limit.p_ss, limit.p_st, limit.p_tt};
     SurfacePoint point{.jet = jet_of(s), .uv = limit.uv, .uv_s = limit.uv_s, .uv_t = limit.uv_t};
@@ -164,7 +165,10 @@ SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Vec3d along_s = glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv);
     const Vec3d along_t = glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv);
     const Vec2d inwards = Vec2d(1.0 / 3, 1.0 / 3) - st;
-    point.jet.n = unit_or_zero(inwards.x * along_s + inwards.y * along_t);
+    const Vec3d normal = inwards.x * along_s + inwards.y * along_t;
+    const double first = std::max(glm::length(s.p_u), glm::length(s.p_v));
+    const double second = std::max({glm::length(s.p_uu), glm::length(s.p_uv), glm::length(s.p_vv)});
+    point.jet.n = glm::length(normal) > 1e-5 * first * second ? unit_or_zero(normal) : Vec3d(0);
     point.jet.sigma = 0;
     return point;
 }
