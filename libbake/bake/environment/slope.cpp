@@ -21,7 +21,8 @@ inline void set_slopes(Slopes& s, int c, float before_x, float behind_x, float b
     s.x[c] = limited(before_x, behind_x);
     s.y[c] = limited(before_y, behind_y);
     const float change = 0.5f * (std::abs(s.x[c]) + std::abs(s.y[c]));
-    const float rise = std::max({-before_x, behind_x, -before_y, behind_y}), fall = std::max({before_x, -behind_x, before_y, -behind_y});
+    const float rise = std::max(std::max(-before_x, behind_x), std::max(-before_y, behind_y));
+    const float fall = std::max(std::max(before_x, -behind_x), std::max(before_y, -behind_y));
     const float most = std::max(0.0f, std::min(rise, fall));
     if (change <= most) return;
     s.x[c] *= most / change;
@@ -79,7 +80,13 @@ void picture_slopes(Projection projection, const Image<float>& picture, int x, i
         return &picture.at(texel.x, texel.y);
     };
     const bool pole = projection == Projection::latlong_edges && (y == 0 || y == h - 1);
-    const float *own = &picture.at(x, y), *left = at(x - 1, y), *right = at(x + 1, y), *up = at(x, y - 1), *down = at(x, y + 1);
+    const float* own = &picture.at(x, y);
+    if (x > 0 && y > 0 && x + 1 < w && y + 1 < h) {
+        const float *left = own - channels, *right = own + channels, *up = own - std::size_t(w) * channels, *down = own + std::size_t(w) * channels;
+        for (int c = 0; c < channels; ++c) set_slopes(s, c, own[c] - left[c], right[c] - own[c], own[c] - up[c], down[c] - own[c]);
+        return;
+    }
+    const float *left = at(x - 1, y), *right = at(x + 1, y), *up = at(x, y - 1), *down = at(x, y + 1);
     for (int c = 0; c < channels; ++c) {
         if (pole) s.x[c] = s.y[c] = 0;
         else set_slopes(s, c, own[c] - left[c], right[c] - own[c], own[c] - up[c], down[c] - own[c]);
