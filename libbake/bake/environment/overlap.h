@@ -8,6 +8,8 @@
 #include "bake/environment/cube.h"
 #include <algorithm>
 #include <cstdlib>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <vector>
 
 namespace bake {
@@ -73,9 +75,12 @@ struct FacePlane {
     double middle;
 
     FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
-    PlanePoint project(const Vec3d& d) const noexcept {
-        const double ma = glm::dot(axis, d), inverse = 1 / (ma > 0.2 ? ma : 0.2);
-        const double x = middle + glm::dot(s, d) * inverse, y = middle + glm::dot(t, d) * inverse;
+    PlanePoint project(const Vec3d& d) const noexcept { return place({glm::dot(s, d), glm::dot(t, d), glm::dot(axis, d)}); }
+    /// project(d) is place(map() * d).
+    glm::dmat3 map() const noexcept { return glm::transpose(glm::dmat3(s, t, axis)); }
+    PlanePoint place(const Vec3d& mapped) const noexcept {
+        const double ma = mapped.z, inverse = 1 / (ma > 0.2 ? ma : 0.2);
+        const double x = middle + mapped.x * inverse, y = middle + mapped.y * inverse;
         return {x, y, ma, cell_of(x), cell_of(y)};
     }
 };

@@ -129,8 +129,8 @@ int frame_index(int n, int x, int y) noexcept {
 struct FaceRain::Impl {
     const Environment& sky;
     FaceGrid grid;
-    CubeFace face;
-    std::vector<Source> sources;
+    FacePlane plane;
+    std::vector<Source> sources; ///< their lattices mapped by FacePlane::map of the face
     std::vector<Block> near; ///< those that may meet the face
     int parts;
 
@@ -167,10 +167,9 @@ struct FaceRain::Impl {
         scratch.directions.resize(points);
         scratch.upper.resize(points);
         scratch.lower.resize(points);
-        const FacePlane plane(grid, face);
         const auto project_row = [&](double y, std::vector<PlanePoint>& row) {
             source.lattice.points(block.x0, parts, y, points, scratch.directions.data());
-            for (int k = 0; k < points; ++k) row[k] = plane.project(scratch.directions[k]);
+            for (int k = 0; k < points; ++k) row[k] = plane.place(scratch.directions[k]);
         };
         scratch.columns.resize(points);
         for (int k = 0; k + 1 < points; ++k) {
@@ -244,7 +243,7 @@ struct FaceRain::Impl {
     }
 };
 
-FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn) : impl_(new Impl{source, grid, face, {}, {}, 1}) {
+FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn) : impl_(new Impl{source, grid, FacePlane(grid, face), {}, {}, 1}) {
     Impl& impl = *impl_;
     if (source.is_cube())
         for (const CubeFace from : all_cube_faces) impl.sources.push_back({Lattice(from, source.cube.size(), source.edge_samples, turn), from});
@@ -259,12 +258,12 @@ FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace fac
             for (int x = 0; x < lattice.width(); x += block_texels)
                 blocks.push_back({k, x, y, std::min(x + block_texels, lattice.width()), std::min(y + block_texels, lattice.height()), {}});
     }
-    const FacePlane plane(grid, face);
     for_rows(std::int64_t(blocks.size()), 256, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) blocks[i].cells = block_window(impl.sources[blocks[i].source].lattice, grid, plane, blocks[i]);
+        for (std::int64_t i = begin; i < end; ++i) blocks[i].cells = block_window(impl.sources[blocks[i].source].lattice, grid, impl.plane, blocks[i]);
     });
     for (const Block& block : blocks)
         if (meet(block.cells, whole_face(grid))) impl.near.push_back(block);
+    for (Source& from : impl.sources) from.lattice.turn_further(impl.plane.map());
 }
 
 FaceRain::~FaceRain() = default;
