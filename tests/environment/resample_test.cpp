@@ -177,6 +177,31 @@ TEST_CASE("resample: edge-sampled cubes are read and written where their samples
 } // TEST_SUITE
 TEST_SUITE("unit") {
 
+TEST_CASE("resample: a sky that is nowhere negative stays so, on edges, corners and poles too") {
+    // Steep noise down to black: slopes reach the darkest neighbour everywhere.
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    const auto noise = [&](Image<float>& image) {
+        for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = std::max(0.0f, uniform(random) - 0.3f);
+    };
+    const auto darkest = [](const Image<float>& image) { return *std::min_element(image.data(), image.data() + image.size()); };
+    for (const bool edges : {false, true}) {
+        Environment cube, latlong;
+        cube.edge_samples = edges;
+        cube.cube = make_cube(64, 1);
+        for (Image<float>& face : cube.cube.faces) noise(face);
+        latlong.projection = edges ? Projection::latlong_edges : Projection::latlong;
+        latlong.picture = Image<float>(128, 64, 1);
+        noise(latlong.picture);
+        const ResampleOptions exact{Samples::exact, turn_of(20, 30, 0)};
+        for (const Environment* sky : {&cube, &latlong}) {
+            const Cube made = to_cube(*sky, {150, edges}, exact);
+            for (const Image<float>& face : made.faces) CHECK(darkest(face) >= 0);
+        }
+        CHECK(darkest(to_picture(cube, Projection::latlong, 400, 200, exact)) >= 0);
+    }
+}
+
 TEST_CASE("resample: all light arrives, whatever becomes what") {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(0, 1);

@@ -213,7 +213,7 @@ struct FaceRain::Impl {
              const Tile& tile, double* sums) const noexcept {
         // Radiance and J are linear in the place on the face, so what a cell gets is linear in its moments about the middle;
         // the last of the numbers is solid angle.
-        double by_area[channels + 1], by_x[channels + 1], by_y[channels + 1];
+        double by_area[channels + 1], by_x[channels + 1], by_y[channels + 1], least[channels + 1];
         const double j = o.jacobian, ax = j * o.ax * scale.x, ay = j * o.ay * scale.x, bx = j * o.bx * scale.y, by = j * o.by * scale.y;
         const double a = j * shift.x, b = j * shift.y;
         for (int k = 0; k < channels; ++k) {
@@ -221,7 +221,9 @@ struct FaceRain::Impl {
             by_area[k] = v * j + along * a + down * b;
             by_x[k] = v * o.jacobian_x + along * ax + down * bx;
             by_y[k] = v * o.jacobian_y + along * ay + down * by;
+            least[k] = v >= 0 ? 0.0 : -1e300;
         }
+        least[channels] = 0;
         by_area[channels] = j;
         by_x[channels] = o.jacobian_x;
         by_y[channels] = o.jacobian_y;
@@ -237,7 +239,8 @@ struct FaceRain::Impl {
                 if (area <= 0) continue; // rounding
                 const double x = o.orientation * m.x + (o.column + c - o.middle_x) * area, y = o.orientation * m.y + off_y * area;
                 double* const sum = row + std::ptrdiff_t(grid.texel(o.column + c) - tile.x0) * (channels + 1);
-                for (int k = 0; k <= channels; ++k) sum[k] += by_area[k] * area + by_x[k] * x + by_y[k] * y;
+                // Corners of texels that are no parallelograms would reach a little below the darkest neighbour, and below 0.
+                for (int k = 0; k <= channels; ++k) sum[k] += std::max(by_area[k] * area + by_x[k] * x + by_y[k] * y, least[k]);
             }
         }
     }
@@ -331,7 +334,7 @@ void add_seen(const Environment& sky, const FaceGrid& grid, CubeFace face, const
             const double a = o.jacobian * (half * gx + off_x * area), b = o.jacobian * (half * gy + off_y * area);
             face_slopes(sky.cube, sky.edge_samples, face, x, y, s);
             const float* value = &sky.cube[face].at(x, y);
-            for (int k = 0; k < channels; ++k) sum[k] += double(value[k]) * omega + double(s.x[k]) * a + double(s.y[k]) * b;
+            for (int k = 0; k < channels; ++k) sum[k] += std::max(double(value[k]) * omega + double(s.x[k]) * a + double(s.y[k]) * b, value[k] >= 0 ? 0.0 : -1e300);
             sum[channels] += omega;
         }
 }

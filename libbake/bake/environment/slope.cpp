@@ -67,7 +67,8 @@ Beyond beyond_edge(const Cube& cube, CubeFace face, int x, int y, bool across_s)
     const float* before = across_s ? &cube[face].at(own_x, low) : &cube[face].at(low, own_y);
     const float* after = across_s ? &cube[face].at(own_x, high) : &cube[face].at(high, own_y);
     const float steps = static_cast<float>(std::max(1, high - low));
-    for (int c = 0; c < channels; ++c) result.value[c] = value[c] - static_cast<float>(moved) * (after[c] - before[c]) / steps;
+    for (int c = 0; c < channels; ++c)
+        result.value[c] = std::max(value[c] - static_cast<float>(moved) * (after[c] - before[c]) / steps, std::min(value[c], 0.0f));
     return result;
 }
 
