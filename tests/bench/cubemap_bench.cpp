@@ -16,27 +16,9 @@
 #include <random>
 
 using namespace bake;
-using test::smooth_sky;
 using test::texel_direction;
 
 namespace {
-
-std::vector<float> cube_errors(const Cube& cube, bool edges) {
-    std::vector<float> errors;
-    const int n = cube.size();
-    for (const CubeFace face : all_cube_faces)
-        for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) errors.push_back(float(std::abs(cube[face].at(x, y) - smooth_sky(texel_direction(face, n, edges, x, y)))));
-    return errors;
-}
-
-std::vector<float> picture_errors(const Image<float>& picture, Projection p) {
-    std::vector<float> errors;
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x)
-            errors.push_back(float(std::abs(picture.at(x, y) - smooth_sky(picture_direction(p, picture.width(), picture.height(), x + 0.5, y + 0.5)))));
-    return errors;
-}
 
 /// 250 suns of one texel and of one unit of flux, on a spiral, so that each is alone.
 Environment suns(int width, std::vector<Vec3d>& directions) {
@@ -95,7 +77,7 @@ void rows(int width, int threads) {
     const auto times = bench::in_turn(width > 4096 ? 1 : 3, works);
     for (int i = 0; i < 3; ++i) {
         const double deviation = flux_deviation(to_cube(spots, {n, false}, {ways[i].second}), directions);
-        bench::print_row("cubemap", ways[i].first, n, 1e9 * times[i].median() / (6.0 * n * n), bench::errors_of(cube_errors(results[i], false)),
+        bench::print_row("cubemap", ways[i].first, n, 1e9 * times[i].median() / (6.0 * n * n), bench::errors_of(test::smooth_errors(results[i], false)),
                          times[i].ratio_to(times[0]), "one look per texel",
                          bench::text("radiance relative to its mean; flux of 250 suns off by %.3g rms; %.2f Mtexel/s", deviation, 6e-6 * n * n / times[i].median()));
     }
@@ -103,7 +85,7 @@ void rows(int width, int threads) {
 
 int print_errors(const char* file) {
     const Environment sky = read_environment({file});
-    const bench::Errors e = bench::errors_of(sky.is_cube() ? cube_errors(sky.cube, sky.edge_samples) : picture_errors(sky.picture, sky.projection));
+    const bench::Errors e = bench::errors_of(sky.is_cube() ? test::smooth_errors(sky.cube, sky.edge_samples) : test::smooth_errors(sky.picture, sky.projection));
     std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
     return 0;
 }

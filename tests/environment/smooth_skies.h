@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/environment/environment.h"
 #include <cmath>
+#include <vector>
 
 namespace bake::test {
 
@@ -43,6 +44,28 @@ inline Environment smooth_cube(int n, bool edges = false) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) sky.cube[face].at(x, y) = float(smooth_sky(texel_direction(face, n, edges, x, y)));
     return sky;
+}
+
+/// What the texels of a cube, or of a picture, are off the sky at their centres: all of them, first channel.
+inline std::vector<float> smooth_errors(const Cube& cube, bool edges) {
+    std::vector<float> errors;
+    const int n = cube.size();
+    for (const CubeFace face : all_cube_faces)
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) errors.push_back(float(std::abs(cube[face].at(x, y) - smooth_sky(texel_direction(face, n, edges, x, y)))));
+    return errors;
+}
+inline std::vector<float> smooth_errors(const Image<float>& picture, Projection projection) {
+    std::vector<float> errors;
+    const int w = picture.width(), h = picture.height();
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) errors.push_back(float(std::abs(picture.at(x, y) - smooth_sky(picture_direction(projection, w, h, x + 0.5, y + 0.5)))));
+    return errors;
+}
+inline double rms(const std::vector<float>& errors) {
+    double square = 0;
+    for (const float e : errors) square += double(e) * e;
+    return std::sqrt(square / double(errors.size()));
 }
 
 } // namespace bake::test

@@ -5,16 +5,19 @@
 #include "bake/environment/mips.h"
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <array>
 #include <memory>
 
 namespace bake {
 namespace {
 
+constexpr float half_largest = 65504;
+
 bool is_integer(Depth depth) noexcept { return depth == Depth::u8 || depth == Depth::u16; }
 
-/// The picture as its samples can hold it.
-void fit(Image<float>& image, const CubemapTarget& target, const std::string& file, CubemapWritten& written) {
+/// Rows of a picture, from row `top` on, as its samples can hold them; what these cannot is mended, or counted in `over`
+/// to be refused.
+void fit(Image<float>& image, int top, const CubemapTarget& target, const std::string& file, BadTexels& over, CubemapWritten& written) {
     if (is_integer(target.depth)) {
         const int channels = image.channels(), alpha = channels == 2 || channels == 4 ? channels - 1 : -1;
         std::vector<std::int64_t> clipped(image.height(), 0);
@@ -31,15 +34,29 @@ void fit(Image<float>& image, const CubemapTarget& target, const std::string& fi
         return;
     }
     if (target.depth != Depth::half) return;
-    constexpr float largest = 65504;
-    const BadTexels over = find_bad(image, largest);
+    BadTexels found = find_bad(image, half_largest);
+    if (found.over == 0) return;
+    found.y += top;
+    if (target.bad != BadPolicy::refuse) mend(image, target.bad, file, half_largest);
+    if (over.x < 0) over = found;
+    else over.over += found.over, over.texels += found.texels;
+}
+
+/// Ends a file's fitting.
+void settle(const BadTexels& over, const CubemapTarget& target, const std::string& file, CubemapWritten& written) {
     if (over.over == 0) return;
     if (target.bad == BadPolicy::refuse)
-        throw Error(Refusal::unsuitable, file + ": half floats cannot hold its radiance: " + to_text(over, largest) +
+        throw Error(Refusal::unsuitable, file + ": half floats cannot hold its radiance: " + to_text(over, half_largest) +
                                              "; write --depth float, or say --bad clamp");
-    mend(image, target.bad, file, largest);
     if (written.over.x < 0) written.over = over;
     else written.over.over += over.over, written.over.texels += over.texels;
+}
+
+/// A whole picture.
+void fit(Image<float>& image, const CubemapTarget& target, const std::string& file, CubemapWritten& written) {
+    BadTexels over;
+    fit(image, 0, target, file, over, written);
+    settle(over, target, file, written);
 }
 
 WriteOptions write_options(const CubemapTarget& target, bool mips) {
@@ -74,8 +91,8 @@ FaceOrder order_of(const CubemapTarget& target) noexcept { return target.to == S
 
 void write_whole(ImageWriter& writer, const Image<float>& image) { writer.write(image.data(), image.height()); }
 
-/// The six places of faces, or of a strip, made one by one.
-CubemapWritten write_by_face(const CubemapTarget& target, int channels, const std::function<Image<float>(CubeFace)>& make) {
+/// Six faces, or a strip of them, made and written band by band.
+CubemapWritten write_by_band(const Environment& sky, const CubemapTarget& target, const ResampleOptions& resampling, Progress* progress) {
     CubemapWritten written;
     Files files;
     const int n = target.size;
@@ -84,14 +101,17 @@ CubemapWritten write_by_face(const CubemapTarget& target, int channels, const st
     std::array<std::string, 6> names;
     names.fill(target.out);
     if (six) names = cube_files(target.out);
-    for (int k = 0; k < (six ? 6 : 1); ++k) files.open(names[k], n, six ? n : 6 * n, channels, options);
-    for (int k = 0; k < 6; ++k) {
-        const TurnedFace place = face_at(order_of(target), k);
-        Image<float> face = make(place.face);
-        if (place.turns) face = turned(face, place.turns);
-        fit(face, target, names[k], written);
-        write_whole(files[six ? k : 0], face);
-    }
+    for (int k = 0; k < (six ? 6 : 1); ++k) files.open(names[k], n, six ? n : 6 * n, sky.channels(), options);
+    std::array<TurnedFace, 6> places;
+    for (int k = 0; k < 6; ++k) places[k] = face_at(order_of(target), k);
+    BadTexels over;
+    each_band(sky, {n, target.to == SkyFormat::openexr_cube}, resampling, places, [&](int k, int y, Image<float>& band) {
+        fit(band, six ? y : k * n + y, target, names[k], over, written);
+        write_whole(files[six ? k : 0], band);
+        if (y + band.height() < n || (!six && k < 5)) return;
+        settle(over, target, names[k], written);
+        over = {};
+    }, progress);
     files.finish(written);
     written.width = n;
     written.height = six ? n : 6 * n;
@@ -177,14 +197,9 @@ Depth cubemap_depth(const std::string& out, const std::string& name, SampleType 
 
 CubemapWritten write_converted(const Environment& sky, const CubemapTarget& target, const ResampleOptions& options, Progress* progress) {
     if (!is_cube_format(target.to)) return write_picture(target, to_picture(sky, projection_of(target.to), target.size, picture_height(target), options, progress));
-    const FaceGrid grid{target.size, target.to == SkyFormat::openexr_cube};
-    const bool crossed = target.to == SkyFormat::hcross || target.to == SkyFormat::vcross;
-    // Texels that faces share are joined when shared out exactly; a cross interleaves the faces.
-    if (!crossed && faces_alone(sky, grid, options))
-        return write_by_face(target, sky.channels(), [&](CubeFace face) { return to_face(sky, grid, face, options, progress); });
-    Cube cube = to_cube(sky, grid, options, progress);
-    if (crossed) return write_picture(target, laid_out(cube, target));
-    return write_by_face(target, sky.channels(), [&](CubeFace face) { return std::move(cube[face]); });
+    // A cross interleaves the faces.
+    if (target.to == SkyFormat::hcross || target.to == SkyFormat::vcross) return write_picture(target, laid_out(to_cube(sky, {target.size, false}, options, progress), target));
+    return write_by_band(sky, target, options, progress);
 }
 
 CubemapWritten write_levels(const std::vector<Cube>& cubes, const CubemapTarget& target, Progress* progress) {

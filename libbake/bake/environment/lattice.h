@@ -13,6 +13,9 @@ public:
     Lattice(CubeFace face, int size, bool edge_samples, const glm::dmat3& turn);
     Lattice(Projection projection, int width, int height, const glm::dmat3& turn);
 
+    /// Applies another linear map after the turn.
+    void turn_further(const glm::dmat3& map) noexcept { turn_ = map * turn_; }
+
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
 

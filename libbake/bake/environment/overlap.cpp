@@ -11,7 +11,24 @@ inline void add_part(EdgePart*& parts, int x, int y, double x0, double y0, doubl
     *parts++ = {x, y,
                      {h * (1 - 0.5 * across), h * (0.5 - (across * across - x0 * x1) * (1.0 / 6)),
                       h * (middle - (across * middle * 6 + (x1 - x0) * h) * (1.0 / 12))},
-                     h, h * middle};
+                     {h, 0.5 * h, h * middle}};
+}
+
+template <int sign> inline void add(CellMoments& sum, const CellMoments& part) noexcept {
+    sum.area += sign * part.area;
+    sum.x += sign * part.x;
+    sum.y += sign * part.y;
+    sum.unused += sign * part.unused;
+}
+
+/// Adds an edge's parts to the cells, `columns` to a row, the first of them at (column, row).
+template <int sign> inline void add_edge(const EdgeParts& edge, CellMoments* cells, int column, int row, int columns) noexcept {
+    for (const EdgePart *part = edge.first, *end = part + edge.count; part != end; ++part) {
+        CellMoments* const here = cells + std::ptrdiff_t(part->y - row) * columns + (part->x - column);
+        CellMoments* const row_end = cells + std::ptrdiff_t(part->y - row + 1) * columns;
+        add<sign>(*here, part->here);
+        for (CellMoments* right = here + 1; right < row_end; ++right) add<sign>(*right, part->beyond);
+    }
 }
 
 /// A part of an edge within one row of cells, cut at the columns' borders.
@@ -57,20 +74,6 @@ void cut_edge(const PlanePoint& from, const PlanePoint& to, EdgePart* parts) noe
     cut_row(parts, r1, column, to.column, x, y - r1, to.x, to.y - r1);
 }
 
-namespace {
-
-// Not of an initialiser list, which goes through memory.
-template <class T> inline T least_of(T a, T b, T c, T d) noexcept { return std::min(std::min(a, b), std::min(c, d)); }
-template <class T> inline T most_of(T a, T b, T c, T d) noexcept { return std::max(std::max(a, b), std::max(c, d)); }
-
-} // namespace
-
-bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) noexcept {
-    return least_of(a.ma, b.ma, c.ma, d.ma) >= 0.3 && most_of(a.column, b.column, c.column, d.column) >= window.low_x &&
-           least_of(a.column, b.column, c.column, d.column) < window.high_x && most_of(a.row, b.row, c.row, d.row) >= window.low_y &&
-           least_of(a.row, b.row, c.row, d.row) < window.high_y;
-}
-
 void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const EdgeParts edges[4], Overlap& result) {
     const PlanePoint &p0 = *corners[0], &p1 = *corners[1], &p2 = *corners[2], &p3 = *corners[3];
     result.column = least_of(p0.column, p1.column, p2.column, p3.column);
@@ -81,33 +84,22 @@ void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const Edg
     if (result.cells.size() < count) result.cells.resize(count);
     CellMoments* const cells = result.cells.data();
     std::fill_n(cells, count, CellMoments{});
-    for (int i = 0; i < 4; ++i) {
-        // Round the quadrilateral, the lower and the left edge are walked backwards.
-        const double sign = i < 2 ? 1 : -1;
-        for (const EdgePart *part = edges[i].first, *end = part + edges[i].count; part != end; ++part) {
-            CellMoments* const row = cells + std::ptrdiff_t(part->y - result.row) * columns;
-            const int c = part->x - result.column;
-            row[c].area += sign * part->here.area;
-            row[c].x += sign * part->here.x;
-            row[c].y += sign * part->here.y;
-            const double area = sign * part->beyond_area, y = sign * part->beyond_y;
-            for (int right = c + 1; right < columns; ++right) {
-                row[right].area += area;
-                row[right].x += 0.5 * area;
-                row[right].y += y;
-            }
-        }
-    }
+    // Round the quadrilateral, the lower and the left edge are walked backwards.
+    add_edge<1>(edges[0], cells, result.column, result.row, columns);
+    add_edge<1>(edges[1], cells, result.column, result.row, columns);
+    add_edge<-1>(edges[2], cells, result.column, result.row, columns);
+    add_edge<-1>(edges[3], cells, result.column, result.row, columns);
 
-    // The middle, the mean of the corners, is where J and the local coordinates are taken.
+    // The middle is where J and the local coordinates are taken.
     const double mx = 0.25 * (p0.x + p1.x + p2.x + p3.x), my = 0.25 * (p0.y + p1.y + p2.y + p3.y);
     const double inverse_scale = 1 / grid.scale();
     const double sc = (mx - grid.middle()) * inverse_scale, tc = (my - grid.middle()) * inverse_scale;
     const double r2 = 1 / (1 + sc * sc + tc * tc), j = r2 * std::sqrt(r2) * inverse_scale * inverse_scale;
     result.jacobian_x = -3 * j * r2 * sc * inverse_scale;
     result.jacobian_y = -3 * j * r2 * tc * inverse_scale;
-    result.jacobian_middle = j;
-    result.jacobian = j - result.jacobian_x * mx - result.jacobian_y * my;
+    result.jacobian = j;
+    result.middle_x = mx;
+    result.middle_y = my;
 
     const double ux = 0.5 * (p1.x - p0.x + p2.x - p3.x), uy = 0.5 * (p1.y - p0.y + p2.y - p3.y);
     const double vx = 0.5 * (p3.x - p0.x + p2.x - p1.x), vy = 0.5 * (p3.y - p0.y + p2.y - p1.y);
@@ -117,8 +109,6 @@ void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const Edg
     result.ay = -vx * inverse_det;
     result.bx = -uy * inverse_det;
     result.by = ux * inverse_det;
-    result.a0 = -result.ax * mx - result.ay * my;
-    result.b0 = -result.bx * mx - result.by * my;
 }
 
 } // namespace bake

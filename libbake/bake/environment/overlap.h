@@ -6,7 +6,10 @@
 // and with them the solid angle, J = (1 + sc^2 + tc^2)^(-3/2) being linear over so small a quadrilateral.
 #pragma once
 #include "bake/environment/cube.h"
+#include <algorithm>
 #include <cstdlib>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <vector>
 
 namespace bake {
@@ -27,13 +30,13 @@ struct FaceGrid {
 /// One cell's share of a quadrilateral.
 struct CellMoments {
     double area = 0, x = 0, y = 0;
+    double unused = 0; ///< so that they are added two by two, in whole registers
 };
 
 /// The part of an edge that lies in one cell: what it adds to that cell, and to each cell at its right in the row.
 struct EdgePart {
     int x, y; ///< the cell
-    CellMoments here;
-    double beyond_area, beyond_y; ///< and beyond_area / 2 for x
+    CellMoments here, beyond;
 };
 
 /// Cells [low_x, high_x) x [low_y, high_y).
@@ -46,12 +49,12 @@ inline CellWindow whole_face(const FaceGrid& grid) noexcept { return {grid.low()
 struct Overlap {
     int column = 0, row = 0, columns = 0, rows = 0; ///< cells [column, column + columns) x [row, row + rows)
     std::vector<CellMoments> cells;                 ///< rows * columns, row by row; sign as the quadrilateral turns
-    double jacobian = 0, jacobian_x = 0, jacobian_y = 0; ///< J at cell coordinates (0, 0) and its slope, per cell^2
-    double jacobian_middle = 0;                          ///< J at the quadrilateral's middle
     double orientation = 1;                         ///< 1 or -1: makes areas positive
-    /// Local coordinates of the quadrilateral, 0 at its middle, -1/2 and 1/2 on its sides: a = a0 + ax g + ay h at cell
-    /// coordinates (g, h).
-    double a0 = 0, ax = 0, ay = 0, b0 = 0, bx = 0, by = 0;
+    double middle_x = 0, middle_y = 0;              ///< the mean of the corners
+    double jacobian = 0, jacobian_x = 0, jacobian_y = 0; ///< J at the middle and its slope, per cell^2
+    /// Local coordinates of the quadrilateral, 0 at its middle, -1/2 and 1/2 on its sides: a = ax g + ay h at (g, h) cells
+    /// from the middle.
+    double ax = 0, ay = 0, bx = 0, by = 0;
 };
 
 /// The cell a coordinate lies in, as everything here rounds it, so that all agree. Without the library call that
@@ -72,9 +75,12 @@ struct FacePlane {
     double middle;
 
     FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
-    PlanePoint project(const Vec3d& d) const noexcept {
-        const double ma = glm::dot(axis, d), inverse = 1 / (ma > 0.2 ? ma : 0.2);
-        const double x = middle + glm::dot(s, d) * inverse, y = middle + glm::dot(t, d) * inverse;
+    PlanePoint project(const Vec3d& d) const noexcept { return place({glm::dot(s, d), glm::dot(t, d), glm::dot(axis, d)}); }
+    /// project(d) is place(map() * d).
+    glm::dmat3 map() const noexcept { return glm::transpose(glm::dmat3(s, t, axis)); }
+    PlanePoint place(const Vec3d& mapped) const noexcept {
+        const double ma = mapped.z, inverse = 1 / (ma > 0.2 ? ma : 0.2);
+        const double x = middle + mapped.x * inverse, y = middle + mapped.y * inverse;
         return {x, y, ma, cell_of(x), cell_of(y)};
     }
 };
@@ -91,8 +97,16 @@ struct EdgeParts {
     int count = 0;
 };
 
+// Not of an initialiser list, which goes through memory.
+template <class T> inline T least_of(T a, T b, T c, T d) noexcept { return std::min(std::min(a, b), std::min(c, d)); }
+template <class T> inline T most_of(T a, T b, T c, T d) noexcept { return std::max(std::max(a, b), std::max(c, d)); }
+
 /// Whether a quadrilateral lies ahead of the face and its bounding box meets the window.
-bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) noexcept;
+inline bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) noexcept {
+    return least_of(a.ma, b.ma, c.ma, d.ma) >= 0.3 && most_of(a.column, b.column, c.column, d.column) >= window.low_x &&
+           least_of(a.column, b.column, c.column, d.column) < window.high_x && most_of(a.row, b.row, c.row, d.row) >= window.low_y &&
+           least_of(a.row, b.row, c.row, d.row) < window.high_y;
+}
 
 /// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it. `edges`: its upper
 /// edge from left to right, its right one downwards, its lower one from left to right, its left one downwards; shared

@@ -4,9 +4,12 @@
 #include "bake/base/progress.h"
 #include "bake/environment/resample_exact.h"
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace bake {
@@ -38,23 +41,22 @@ void sample_row(const Environment& source, int y, int width, int side, Direction
     }
 }
 
-Image<float> sampled_face(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options, Samples samples,
-                          Progress* progress) {
-    const int n = grid.texels, side = side_of(samples);
-    Image<float> image(n, n, source.channels());
+/// Rows [low, high) of a face, sampled.
+void sampled_rows(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options, Samples samples, int low, int high,
+                  float* values, Progress* progress) {
+    const int n = grid.texels, side = side_of(samples), channels = source.channels();
     const glm::dmat3 back = glm::transpose(options.turn);
     // Directions are linear along the face: middle + s right + t down.
     const Vec3d middle = back * cube_direction(CubePoint<double>{face, 0.5, 0.5});
     const Vec3d right = back * cube_direction(CubePoint<double>{face, 1.0, 0.5}) - middle, down = back * cube_direction(CubePoint<double>{face, 0.5, 1.0}) - middle;
     const double scale = grid.edges ? 2.0 / std::max(1, n - 1) : 2.0 / n;
-    for_rows(n, 8, [&](std::int64_t begin, std::int64_t end) {
+    for_rows(high - low, 8, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Vec3d> looks;
         std::vector<float> seen;
-        for (auto y = int(begin); y < int(end); ++y)
-            sample_row(source, y, n, side, [&](double at_x, double at_y) { return middle + (at_x - 0.5 * n) * scale * right + (at_y - 0.5 * n) * scale * down; },
-                       looks, seen, image.row(y));
+        for (std::int64_t i = begin; i < end; ++i)
+            sample_row(source, low + int(i), n, side, [&](double at_x, double at_y) { return middle + (at_x - 0.5 * n) * scale * right + (at_y - 0.5 * n) * scale * down; },
+                       looks, seen, values + i * n * channels);
     }, progress);
-    return image;
 }
 
 Image<float> sampled_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options, Samples samples,
@@ -71,10 +73,16 @@ Image<float> sampled_picture(const Environment& source, Projection projection, i
     return image;
 }
 
-/// Texels on the edges and corners stand on two or three faces: all get the mean over their whole solid angle.
-void join_frames(Cube& cube, const std::array<std::vector<double>, 6>& frames) {
-    const int n = cube.size(), channels = cube.channels();
-    for (const CubeFace face : all_cube_faces)
+/// The values of texels at a face's edges, channels each, by frame_index.
+using Frame = std::vector<float>;
+
+/// Texels on the edges and corners stand on two or three faces: all get the mean over their whole solid angle. `frames`:
+/// flux and solid angle.
+std::array<Frame, 6> join_frames(int n, int channels, const std::array<std::vector<double>, 6>& frames) {
+    std::array<Frame, 6> joined;
+    for (const CubeFace face : all_cube_faces) {
+        Frame& values = joined[int(face)];
+        values.resize(std::size_t(4) * n * channels);
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; x += y == 0 || y == n - 1 || n == 1 ? 1 : n - 1) {
                 const Vec3d d = cube_direction(CubePoint<double>{face, double(x) / (n - 1), double(y) / (n - 1)});
@@ -86,26 +94,48 @@ void join_frames(Cube& cube, const std::array<std::vector<double>, 6>& frames) {
                     const int index = frame_index(n, int(std::lround(u)), int(std::lround(v)));
                     for (int c = 0; c <= channels; ++c) sum[c] += frames[other][std::size_t(index) * (channels + 1) + c];
                 }
-                for (int c = 0; c < channels; ++c) cube[face].at(x, y, c) = static_cast<float>(sum[c] / sum[channels]);
+                float* const value = &values[std::size_t(frame_index(n, x, y)) * channels];
+                for (int c = 0; c < channels; ++c) value[c] = static_cast<float>(sum[c] / sum[channels]);
             }
+    }
+    return joined;
 }
 
 /// A texel on an edge is folded round it: its light has its middle up to 1/8 of a texel further from the edge's middle
 /// than its sample, |t| / 8 at t in [-1, 1]. The value is brought back by its difference to the neighbour on that side,
 /// which loses no light but for that in which |t| / 8 changes from texel to texel.
-void centre_edges(Cube& cube) {
-    const int n = cube.size(), channels = cube.channels();
-    for (Image<float>& face : cube.faces)
-        for (int side = 0; side < 4; ++side) {
-            const auto at = [&](int i) { return side == 0 ? &face.at(i, 0) : side == 1 ? &face.at(i, n - 1) : side == 2 ? &face.at(0, i) : &face.at(n - 1, i); };
-            // From the ends inwards, so that neighbours still hold what they were given; the middle has nothing to move.
-            for (int i = 1; 2 * i < n - 1; ++i)
-                for (const int k : {i, n - 1 - i}) {
-                    const float share = static_cast<float>(std::abs(2.0 * k / (n - 1) - 1) / 8);
-                    float *value = at(k), *inner = at(k < n - 1 - k ? k + 1 : k - 1);
-                    for (int c = 0; c < channels; ++c) value[c] += share * (inner[c] - value[c]);
-                }
-        }
+void centre_edges(int n, int channels, Frame& frame) {
+    for (int side = 0; side < 4; ++side) {
+        const auto at = [&](int i) {
+            const int index = side == 0 ? frame_index(n, i, 0) : side == 1 ? frame_index(n, i, n - 1) : side == 2 ? frame_index(n, 0, i) : frame_index(n, n - 1, i);
+            return &frame[std::size_t(index) * channels];
+        };
+        // From the ends inwards, so that neighbours still hold what they were given; the middle has nothing to move.
+        for (int i = 1; 2 * i < n - 1; ++i)
+            for (const int k : {i, n - 1 - i}) {
+                const float share = static_cast<float>(std::abs(2.0 * k / (n - 1) - 1) / 8);
+                float *value = at(k), *inner = at(k < n - 1 - k ? k + 1 : k - 1);
+                for (int c = 0; c < channels; ++c) value[c] += share * (inner[c] - value[c]);
+            }
+    }
+}
+
+/// Writes a frame over rows [low, high) of a face.
+void put_frame(const Frame& frame, int n, int channels, int low, int high, float* values) {
+    for (int y = low; y < high; ++y)
+        for (int x = 0; x < n; x += y == 0 || y == n - 1 || n == 1 ? 1 : n - 1)
+            std::copy_n(&frame[std::size_t(frame_index(n, x, y)) * channels], channels, values + (std::size_t(y - low) * n + x) * channels);
+}
+
+/// Whether the texels that an edge-sampled lat-long has twice or more, its outer columns and rows, are equal.
+bool is_joined(const Image<float>& picture) noexcept {
+    const int w = picture.width(), h = picture.height(), channels = picture.channels();
+    for (int y = 0; y < h; ++y)
+        if (!std::equal(&picture.at(0, y), &picture.at(0, y) + channels, &picture.at(w - 1, y))) return false;
+    for (const int y : {0, h - 1})
+        for (int x = 1; x < w; ++x)
+            if (!std::equal(&picture.at(0, y), &picture.at(0, y) + channels, &picture.at(x, y))) return false;
+    return true;
 }
 
 /// An edge-sampled source whose shared texels differ is read as their mean.
@@ -122,6 +152,13 @@ Image<float> joined(const Image<float>& picture) {
         }
     }
     return copy;
+}
+
+/// Turns a picture by 180 degrees.
+void reverse_texels(Image<float>& image) noexcept {
+    const int channels = image.channels();
+    float *low = image.data(), *high = low + image.size() - channels;
+    for (; low < high; low += channels, high -= channels) std::swap_ranges(low, low + channels, high);
 }
 
 bool same_lattice(const Environment& source, const FaceGrid& grid) noexcept {
@@ -145,37 +182,77 @@ Samples resolve(const Environment& source, double density, bool same, const Resa
     return density > 2 * source.density() ? Samples::grid4 : Samples::exact;
 }
 
-bool faces_alone(const Environment& source, const FaceGrid& grid, const ResampleOptions& options) {
-    return !grid.edges || resolve(source, density_of(grid), same_lattice(source, grid), options) != Samples::exact;
+namespace {
+
+/// How the faces of a cube are made.
+struct FaceJob {
+    const Environment& given;
+    FaceGrid grid;
+    ResampleOptions options;
+    Samples samples;
+    Environment clean;               ///< the source with its shared texels joined, where they were not
+    std::array<Frame, 6> frames; ///< what exact puts at the edges of edge-sampled faces
+
+    const Environment& source() const noexcept { return clean.picture.empty() ? given : clean; }
+};
+
+FaceJob face_job(const Environment& source, const FaceGrid& grid, const ResampleOptions& options) {
+    FaceJob job{source, grid, options, resolve(source, density_of(grid), same_lattice(source, grid), options), {}, {}};
+    if (job.samples != Samples::exact) return job;
+    if (!source.is_cube() && source.projection == Projection::latlong_edges && !is_joined(source.picture)) {
+        job.clean.projection = source.projection;
+        job.clean.picture = joined(source.picture);
+    }
+    if (!grid.edges) return job;
+    std::array<std::vector<double>, 6> sums;
+    for (const CubeFace face : all_cube_faces) sums[int(face)] = FaceRain(job.source(), grid, face, options.turn).frame();
+    job.frames = join_frames(grid.texels, source.channels(), sums);
+    for (Frame& frame : job.frames) centre_edges(grid.texels, source.channels(), frame);
+    return job;
 }
 
-Image<float> to_face(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options, Progress* progress) {
-    const Samples samples = resolve(source, density_of(grid), same_lattice(source, grid), options);
-    if (samples == Samples::exact) return FaceRain(source, grid, options.turn).face(face, nullptr, progress);
-    return sampled_face(source, grid, face, options, samples, progress);
+/// Rows [low, high) of a face; `rain`: of that face, for exact.
+void make_rows(const FaceJob& job, const FaceRain* rain, CubeFace face, int low, int high, float* values, Progress* progress) {
+    if (!rain) return sampled_rows(job.given, job.grid, face, job.options, job.samples, low, high, values, progress);
+    rain->rows(low, high, values, progress);
+    if (job.grid.edges) put_frame(job.frames[int(face)], job.grid.texels, job.given.channels(), low, high, values);
 }
+
+std::optional<FaceRain> rain_of(const FaceJob& job, CubeFace face) {
+    if (job.samples != Samples::exact) return std::nullopt;
+    return std::optional<FaceRain>(std::in_place, job.source(), job.grid, face, job.options.turn);
+}
+
+} // namespace
 
 Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOptions& options, Progress* progress) {
-    const Samples samples = resolve(source, density_of(grid), same_lattice(source, grid), options);
-    Cube cube;
-    if (samples != Samples::exact) {
-        for (const CubeFace face : all_cube_faces) cube[face] = sampled_face(source, grid, face, options, samples, progress);
-        return cube;
-    }
-    Environment clean;
-    const bool mend = !source.is_cube() && source.projection == Projection::latlong_edges;
-    if (mend) {
-        clean.projection = source.projection;
-        clean.picture = joined(source.picture);
-    }
-    const FaceRain rain(mend ? clean : source, grid, options.turn);
-    std::array<std::vector<double>, 6> frames;
-    for (int k = 0; k < 6; ++k) cube.faces[k] = rain.face(CubeFace(k), grid.edges ? &frames[k] : nullptr, progress);
-    if (grid.edges) {
-        join_frames(cube, frames);
-        centre_edges(cube);
+    const FaceJob job = face_job(source, grid, options);
+    Cube cube = make_cube(grid.texels, source.channels());
+    for (const CubeFace face : all_cube_faces) {
+        const auto rain = rain_of(job, face);
+        make_rows(job, rain ? &*rain : nullptr, face, 0, grid.texels, cube[face].data(), progress);
     }
     return cube;
+}
+
+void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options, const std::array<TurnedFace, 6>& faces,
+               const std::function<void(int k, int y, Image<float>& band)>& take, Progress* progress) {
+    const FaceJob job = face_job(source, grid, options);
+    const int n = grid.texels, channels = source.channels(), height = job.samples == Samples::exact ? 512 : 128;
+    for (int k = 0; k < 6; ++k) {
+        const auto [face, turns] = faces[k];
+        assert(turns % 2 == 0);
+        const auto rain = rain_of(job, face);
+        for (int y = 0; y < n; y += height) {
+            const int end = std::min(y + height, n);
+            Image<float> band(n, end - y, channels);
+            // Upside down the last rows come first, backwards.
+            const bool around = turns % 4 != 0;
+            make_rows(job, rain ? &*rain : nullptr, face, around ? n - end : y, around ? n - y : end, band.data(), progress);
+            if (around) reverse_texels(band);
+            take(k, y, band);
+        }
+    }
 }
 
 Image<float> to_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options, Progress* progress) {

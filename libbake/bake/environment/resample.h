@@ -12,7 +12,9 @@
 // Between two pictures neither of which is a cube, exact goes through a cube that is finer than both.
 #pragma once
 #include "bake/environment/environment.h"
+#include "bake/environment/layout.h"
 #include "bake/environment/overlap.h"
+#include <functional>
 #include <glm/mat3x3.hpp>
 
 namespace bake {
@@ -35,10 +37,10 @@ Samples resolve(const Environment& source, double density, bool same_lattice, co
 
 /// A cube, channels as in the source. In a cube with edge samples, texels that two or three faces share are equal.
 Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOptions& options = {}, Progress* progress = nullptr);
-/// Whether faces can be made one by one: not by exact with edge samples, whose shared texels are joined.
-bool faces_alone(const Environment& source, const FaceGrid& grid, const ResampleOptions& options);
-/// One face of it, so that a large cube need not be whole in memory; where faces_alone.
-Image<float> to_face(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options = {}, Progress* progress = nullptr);
+/// The faces of it, each turned by an even number of quarter turns, in bands of rows from the top down, so that a large
+/// cube need not be whole in memory: take(k, y, band) gets rows from y on of faces[k].
+void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options, const std::array<TurnedFace, 6>& faces,
+               const std::function<void(int k, int y, Image<float>& band)>& take, Progress* progress = nullptr);
 /// A picture of the whole sky.
 Image<float> to_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options = {},
                         Progress* progress = nullptr);

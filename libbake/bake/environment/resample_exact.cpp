@@ -9,7 +9,7 @@
 namespace bake {
 namespace {
 
-constexpr int block_texels = 16;
+constexpr int block_texels = 32;
 
 /// Texels that meet two tiles are shared out twice; sums of large tiles leave the cache.
 int tile_of(int face) noexcept { return face < 2048 ? 256 : 512; }
@@ -38,8 +38,7 @@ bool meet(const CellWindow& a, const CellWindow& b) noexcept {
 }
 
 /// The window of a block, from the lattice points round it; empty when it lies off the face.
-CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, CubeFace face, const Block& block) {
-    const FacePlane plane(grid, face);
+CellWindow block_window(const Lattice& lattice, const FaceGrid& grid, const FacePlane& plane, const Block& block) {
     const double reach = 2 * block_texels * lattice.texel_angle(); // from a corner of the block to any other
     if (reach < 0.2) {
         Vec3d corner;
@@ -96,8 +95,22 @@ struct EdgeRow {
     EdgeParts operator[](int k) const noexcept { return {parts.data() + first[k], count[k]}; }
 };
 
+/// Texels [x0, x1) x [y0, y1) of a face that are summed together.
+struct Tile {
+    int x0, y0, x1, y1;
+    /// Rows a power of two apart would share their places in the cache.
+    int stride() const noexcept { return x1 - x0 + 2; }
+};
+
+/// A part of a texel's width: how wide, and where its middle lies from the texel's.
+struct ColumnPart {
+    int texel;
+    double width, middle;
+};
+
 struct Scratch {
     std::vector<Vec3d> directions;
+    std::vector<ColumnPart> columns;
     std::vector<PlanePoint> upper, lower;
     EdgeRow upper_edges, lower_edges, side_edges;
     Overlap overlap;
@@ -116,8 +129,9 @@ int frame_index(int n, int x, int y) noexcept {
 struct FaceRain::Impl {
     const Environment& sky;
     FaceGrid grid;
-    std::vector<Source> sources;
-    std::vector<Block> blocks; ///< their windows are per face
+    FacePlane plane;
+    std::vector<Source> sources; ///< their lattices mapped by FacePlane::map of the face
+    std::vector<Block> near; ///< those that may meet the face
     int parts;
 
     const Image<float>& image(const Source& source) const noexcept { return sky.is_cube() ? sky.cube[source.face] : sky.picture; }
@@ -127,20 +141,42 @@ struct FaceRain::Impl {
         else picture_slopes(sky.projection, sky.picture, x, y, s);
     }
 
-    /// Adds a block's texels to the cells of a window; sums: channels + 1 per texel, rows of `stride` texels from (x0, y0).
+    /// sums: what falls on each texel of a tile, channels() + 1 values, in rows of tile.stride() texels.
+    void fill(const Tile& tile, std::vector<double>& sums, Scratch& scratch) const {
+        const int channels = sky.channels(), cells = grid.edges ? 2 : 1;
+        const CellWindow window{std::max(tile.x0 * cells, grid.low()), std::min(tile.x1 * cells, grid.high()), std::max(tile.y0 * cells, grid.low()),
+                                std::min(tile.y1 * cells, grid.high())};
+        sums.assign(std::size_t(tile.stride()) * (tile.y1 - tile.y0) * (channels + 1), 0.0);
+        for (const Block& block : near) {
+            if (!meet(block.cells, window)) continue;
+            switch (channels) {
+            case 1: rain<1>(block, window, tile, sums.data(), scratch); break;
+            case 2: rain<2>(block, window, tile, sums.data(), scratch); break;
+            case 3: rain<3>(block, window, tile, sums.data(), scratch); break;
+            default: rain<4>(block, window, tile, sums.data(), scratch); break;
+            }
+        }
+    }
+
+    /// Adds a block's texels to the cells of a window.
     template <int channels>
-    void rain(const Block& block, CubeFace face, const CellWindow& window, double* sums, int x0, int y0, int stride, Scratch& scratch) const {
+    void rain(const Block& block, const CellWindow& window, const Tile& tile, double* sums, Scratch& scratch) const {
         const Source& source = sources[block.source];
         const Image<float>& values = image(source);
         const int columns = block.x1 - block.x0, points = columns * parts + 1;
         scratch.directions.resize(points);
         scratch.upper.resize(points);
         scratch.lower.resize(points);
-        const FacePlane plane(grid, face);
         const auto project_row = [&](double y, std::vector<PlanePoint>& row) {
             source.lattice.points(block.x0, parts, y, points, scratch.directions.data());
-            for (int k = 0; k < points; ++k) row[k] = plane.project(scratch.directions[k]);
+            for (int k = 0; k < points; ++k) row[k] = plane.place(scratch.directions[k]);
         };
+        scratch.columns.resize(points);
+        for (int k = 0; k + 1 < points; ++k) {
+            const int x = block.x0 + k / parts;
+            const double left = source.lattice.border_x(block.x0 + double(k) / parts), right = source.lattice.border_x(block.x0 + double(k + 1) / parts);
+            scratch.columns[k] = {x, right - left, 0.5 * (left + right) - (x + 0.5)};
+        }
         project_row(source.lattice.border_y(block.y0), scratch.lower);
         scratch.lower_edges.reset(points);
         for (int y = block.y0; y < block.y1; ++y)
@@ -160,104 +196,121 @@ struct FaceRain::Impl {
                     scratch.side_edges.cut(k + 1, *corners[1], *corners[2]);
                     const EdgeParts edges[4] = {scratch.upper_edges[k], scratch.side_edges[k + 1], scratch.lower_edges[k], scratch.side_edges[k]};
                     overlap(grid, corners, edges, scratch.overlap);
-                    const int x = block.x0 + k / parts;
-                    const double left = source.lattice.border_x(block.x0 + double(k) / parts), right = source.lattice.border_x(block.x0 + double(k + 1) / parts);
+                    const ColumnPart& column = scratch.columns[k];
+                    const int x = column.texel;
                     const Vec2d light = source.lattice.centroid(x, y);
-                    // Texel coordinates a from -1/2 to 1/2, from those of the part.
-                    const Vec2d scale(right - left, bottom - top);
-                    const Vec2d shift(0.5 * (left + right) - (x + 0.5) - light.x, 0.5 * (top + bottom) - (y + 0.5) - light.y);
+                    // Texel coordinates from -1/2 to 1/2, from those of the part.
+                    const Vec2d scale(column.width, bottom - top), shift(column.middle - light.x, 0.5 * (top + bottom) - (y + 0.5) - light.y);
                     Slopes s;
                     slopes(source, x, y, s);
-                    add<channels>(&values.at(x, y), s, scale, shift, window, scratch.overlap, sums, x0, y0, stride);
+                    add<channels>(&values.at(x, y), s, scale, shift, window, scratch.overlap, tile, sums);
                 }
             }
     }
 
     template <int channels>
-    void add(const float* value, const Slopes& s, const Vec2d& scale, const Vec2d& shift, const CellWindow& window, const Overlap& o, double* sums,
-             int x0, int y0, int stride) const noexcept {
-        const double a0 = o.a0 * scale.x + shift.x, ax = o.ax * scale.x, ay = o.ay * scale.x;
-        const double b0 = o.b0 * scale.y + shift.y, bx = o.bx * scale.y, by = o.by * scale.y;
-        for (int r = std::max(0, window.low_y - o.row); r < std::min(o.rows, window.high_y - o.row); ++r)
-            for (int c = std::max(0, window.low_x - o.column); c < std::min(o.columns, window.high_x - o.column); ++c) {
-                const CellMoments& m = o.cells[std::size_t(r) * o.columns + c];
+    void add(const float* value, const Slopes& s, const Vec2d& scale, const Vec2d& shift, const CellWindow& window, const Overlap& o,
+             const Tile& tile, double* sums) const noexcept {
+        // Radiance and J are linear in the place on the face, so what a cell gets is linear in its moments about the middle;
+        // the last of the numbers is solid angle.
+        double by_area[channels + 1], by_x[channels + 1], by_y[channels + 1], least[channels + 1];
+        const double j = o.jacobian, ax = j * o.ax * scale.x, ay = j * o.ay * scale.x, bx = j * o.bx * scale.y, by = j * o.by * scale.y;
+        const double a = j * shift.x, b = j * shift.y;
+        for (int k = 0; k < channels; ++k) {
+            const double v = value[k], along = s.x[k], down = s.y[k];
+            by_area[k] = v * j + along * a + down * b;
+            by_x[k] = v * o.jacobian_x + along * ax + down * bx;
+            by_y[k] = v * o.jacobian_y + along * ay + down * by;
+            least[k] = v >= 0 ? 0.0 : -1e300;
+        }
+        least[channels] = 0;
+        by_area[channels] = j;
+        by_x[channels] = o.jacobian_x;
+        by_y[channels] = o.jacobian_y;
+        const int first_row = std::max(0, window.low_y - o.row), last_row = std::min(o.rows, window.high_y - o.row);
+        const int first_column = std::max(0, window.low_x - o.column), last_column = std::min(o.columns, window.high_x - o.column);
+        for (int r = first_row; r < last_row; ++r) {
+            const CellMoments* const cells = o.cells.data() + std::size_t(r) * o.columns;
+            double* const row = sums + std::ptrdiff_t(grid.texel(o.row + r) - tile.y0) * tile.stride() * (channels + 1);
+            const double off_y = o.row + r - o.middle_y;
+            for (int c = first_column; c < last_column; ++c) {
+                const CellMoments& m = cells[c];
                 const double area = o.orientation * m.area;
                 if (area <= 0) continue; // rounding
-                const double gx = o.orientation * m.x + (o.column + c) * area, gy = o.orientation * m.y + (o.row + r) * area;
-                const double omega = o.jacobian * area + o.jacobian_x * gx + o.jacobian_y * gy;
-                const double a = o.jacobian_middle * (a0 * area + ax * gx + ay * gy);
-                const double b = o.jacobian_middle * (b0 * area + bx * gx + by * gy);
-                double* sum = sums + (std::size_t(grid.texel(o.row + r) - y0) * stride + (grid.texel(o.column + c) - x0)) * (channels + 1);
-                for (int k = 0; k < channels; ++k) sum[k] += double(value[k]) * omega + double(s.x[k]) * a + double(s.y[k]) * b;
-                sum[channels] += omega;
+                const double x = o.orientation * m.x + (o.column + c - o.middle_x) * area, y = o.orientation * m.y + off_y * area;
+                double* const sum = row + std::ptrdiff_t(grid.texel(o.column + c) - tile.x0) * (channels + 1);
+                // Corners of texels that are no parallelograms would reach a little below the darkest neighbour, and below 0.
+                for (int k = 0; k <= channels; ++k) sum[k] += std::max(by_area[k] * area + by_x[k] * x + by_y[k] * y, least[k]);
             }
+        }
     }
 };
 
-FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, const glm::dmat3& turn) : impl_(new Impl{source, grid, {}, {}, 1}) {
+FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn) : impl_(new Impl{source, grid, FacePlane(grid, face), {}, {}, 1}) {
     Impl& impl = *impl_;
     if (source.is_cube())
-        for (const CubeFace face : all_cube_faces) impl.sources.push_back({Lattice(face, source.cube.size(), source.edge_samples, turn), face});
+        for (const CubeFace from : all_cube_faces) impl.sources.push_back({Lattice(from, source.cube.size(), source.edge_samples, turn), from});
     else
         impl.sources.push_back({Lattice(source.projection, source.picture.width(), source.picture.height(), turn), CubeFace::pz});
     impl.parts = parts_for(impl.sources[0].lattice, 2.0 / grid.texels);
+
+    std::vector<Block> blocks;
     for (int k = 0; k < int(impl.sources.size()); ++k) {
         const Lattice& lattice = impl.sources[k].lattice;
         for (int y = 0; y < lattice.height(); y += block_texels)
             for (int x = 0; x < lattice.width(); x += block_texels)
-                impl.blocks.push_back({k, x, y, std::min(x + block_texels, lattice.width()), std::min(y + block_texels, lattice.height()), {}});
+                blocks.push_back({k, x, y, std::min(x + block_texels, lattice.width()), std::min(y + block_texels, lattice.height()), {}});
     }
+    for_rows(std::int64_t(blocks.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) blocks[i].cells = block_window(impl.sources[blocks[i].source].lattice, grid, impl.plane, blocks[i]);
+    });
+    for (const Block& block : blocks)
+        if (meet(block.cells, whole_face(grid))) impl.near.push_back(block);
+    for (Source& from : impl.sources) from.lattice.turn_further(impl.plane.map());
 }
 
 FaceRain::~FaceRain() = default;
 
-Image<float> FaceRain::face(CubeFace face, std::vector<double>* frame, Progress* progress) const {
-    const Impl& impl = *impl_;
-    const FaceGrid& grid = impl.grid;
-    const int n = grid.texels, channels = impl.sky.channels();
-
-    std::vector<CellWindow> windows(impl.blocks.size());
-    for_rows(std::int64_t(windows.size()), 256, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) windows[i] = block_window(impl.sources[impl.blocks[i].source].lattice, grid, face, impl.blocks[i]);
-    });
-    std::vector<Block> near;
-    for (std::size_t i = 0; i < windows.size(); ++i)
-        if (meet(windows[i], whole_face(grid))) {
-            near.push_back(impl.blocks[i]);
-            near.back().cells = windows[i];
-        }
-
-    Image<float> image(n, n, channels);
-    if (frame) frame->assign(std::size_t(4) * n * (channels + 1), 0.0);
-    const int tile_texels = tile_of(n), tiles = (n + tile_texels - 1) / tile_texels;
-    for_rows(std::int64_t(tiles) * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
+void FaceRain::rows(int low, int high, float* values, Progress* progress) const {
+    const int n = impl_->grid.texels, channels = impl_->sky.channels(), edge = tile_of(n);
+    const int across = (n + edge - 1) / edge, down = (high - low + edge - 1) / edge;
+    for_rows(std::int64_t(across) * down, 1, [&](std::int64_t begin, std::int64_t end) {
         Scratch scratch;
         std::vector<double> sums;
-        for (std::int64_t tile = begin; tile < end; ++tile) {
-            const int x0 = int(tile % tiles) * tile_texels, y0 = int(tile / tiles) * tile_texels;
-            const int x1 = std::min(x0 + tile_texels, n), y1 = std::min(y0 + tile_texels, n), cells = grid.edges ? 2 : 1;
-            const CellWindow window{std::max(x0 * cells, grid.low()), std::min(x1 * cells, grid.high()), std::max(y0 * cells, grid.low()),
-                                    std::min(y1 * cells, grid.high())};
-            sums.assign(std::size_t(x1 - x0) * (y1 - y0) * (channels + 1), 0.0);
-            for (const Block& block : near) {
-                if (!meet(block.cells, window)) continue;
-                switch (channels) {
-                case 1: impl.rain<1>(block, face, window, sums.data(), x0, y0, x1 - x0, scratch); break;
-                case 2: impl.rain<2>(block, face, window, sums.data(), x0, y0, x1 - x0, scratch); break;
-                case 3: impl.rain<3>(block, face, window, sums.data(), x0, y0, x1 - x0, scratch); break;
-                default: impl.rain<4>(block, face, window, sums.data(), x0, y0, x1 - x0, scratch); break;
-                }
-            }
-            const double* sum = sums.data();
-            for (int y = y0; y < y1; ++y)
-                for (int x = x0; x < x1; ++x, sum += channels + 1) {
-                    for (int c = 0; c < channels; ++c) image.at(x, y, c) = sum[channels] > 0 ? static_cast<float>(sum[c] / sum[channels]) : 0.0f;
-                    const int at = frame ? frame_index(n, x, y) : -1;
-                    if (at >= 0) std::copy_n(sum, channels + 1, frame->begin() + std::ptrdiff_t(at) * (channels + 1));
+        for (std::int64_t k = begin; k < end; ++k) {
+            const int x0 = int(k % across) * edge, y0 = low + int(k / across) * edge;
+            const Tile tile{x0, y0, std::min(x0 + edge, n), std::min(y0 + edge, high)};
+            impl_->fill(tile, sums, scratch);
+            for (int y = tile.y0; y < tile.y1; ++y)
+                for (int x = tile.x0; x < tile.x1; ++x) {
+                    const double* const sum = &sums[(std::size_t(y - y0) * tile.stride() + (x - x0)) * (channels + 1)];
+                    float* const value = values + (std::size_t(y - low) * n + x) * channels;
+                    for (int c = 0; c < channels; ++c) value[c] = sum[channels] > 0 ? static_cast<float>(sum[c] / sum[channels]) : 0.0f;
                 }
         }
     }, progress);
-    return image;
+}
+
+std::vector<double> FaceRain::frame() const {
+    constexpr int length = 256;
+    const int n = impl_->grid.texels, channels = impl_->sky.channels(), pieces = (n + length - 1) / length;
+    std::vector<double> frame(std::size_t(4) * n * (channels + 1), 0.0);
+    for_rows(std::int64_t(4) * pieces, 1, [&](std::int64_t begin, std::int64_t end) {
+        Scratch scratch;
+        std::vector<double> sums;
+        for (std::int64_t k = begin; k < end; ++k) {
+            const int side = int(k / pieces), first = int(k % pieces) * length, last = std::min(first + length, n), outer = side % 2 ? n - 1 : 0;
+            const Tile tile = side < 2 ? Tile{first, outer, last, outer + 1} : Tile{outer, first, outer + 1, last};
+            impl_->fill(tile, sums, scratch);
+            for (int y = tile.y0; y < tile.y1; ++y)
+                for (int x = tile.x0; x < tile.x1; ++x) {
+                    if (side > 1 && (y == 0 || y == n - 1)) continue; // corners belong to the rows
+                    std::copy_n(&sums[(std::size_t(y - tile.y0) * tile.stride() + (x - tile.x0)) * (channels + 1)], channels + 1,
+                                frame.begin() + std::ptrdiff_t(frame_index(n, x, y)) * (channels + 1));
+                }
+        }
+    });
+    return frame;
 }
 
 namespace {
@@ -275,13 +328,13 @@ void add_seen(const Environment& sky, const FaceGrid& grid, CubeFace face, const
             if (area <= 0) continue; // rounding
             const int column = o.column + c, row = o.row + r, x = grid.texel(column), y = grid.texel(row);
             const double gx = o.orientation * m.x, gy = o.orientation * m.y;
-            const double omega = o.jacobian * area + o.jacobian_x * (gx + column * area) + o.jacobian_y * (gy + row * area);
+            const double omega = o.jacobian * area + o.jacobian_x * (gx + (column - o.middle_x) * area) + o.jacobian_y * (gy + (row - o.middle_y) * area);
             // From the cell's corner to the texel's middle.
             const double off_x = grid.edges && (column & 1) ? 0 : -0.5, off_y = grid.edges && (row & 1) ? 0 : -0.5;
-            const double a = o.jacobian_middle * (half * gx + off_x * area), b = o.jacobian_middle * (half * gy + off_y * area);
+            const double a = o.jacobian * (half * gx + off_x * area), b = o.jacobian * (half * gy + off_y * area);
             face_slopes(sky.cube, sky.edge_samples, face, x, y, s);
             const float* value = &sky.cube[face].at(x, y);
-            for (int k = 0; k < channels; ++k) sum[k] += double(value[k]) * omega + double(s.x[k]) * a + double(s.y[k]) * b;
+            for (int k = 0; k < channels; ++k) sum[k] += std::max(double(value[k]) * omega + double(s.x[k]) * a + double(s.y[k]) * b, value[k] >= 0 ? 0.0 : -1e300);
             sum[channels] += omega;
         }
 }

@@ -10,14 +10,15 @@ namespace bake {
 
 class Progress;
 
-/// What the texels of a source, which must outlive it, throw on the faces of a cube. `turn`: source to result.
+/// What the texels of a source, which must outlive it, throw on a face of a cube. `turn`: source to result.
 class FaceRain {
 public:
-    FaceRain(const Environment& source, const FaceGrid& grid, const glm::dmat3& turn);
+    FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn);
     ~FaceRain();
-    /// One face. `frame`, when given, becomes channels() + 1 values, flux and solid angle, for each of the texels at the
-    /// face's edges, by frame_index.
-    Image<float> face(CubeFace face, std::vector<double>* frame, Progress* progress) const;
+    /// Rows [low, high) of the face: (high - low) * texels * channels() values, the same bits whatever the rows asked for.
+    void rows(int low, int high, float* values, Progress* progress) const;
+    /// channels() + 1 values, flux and solid angle, for each of the texels at the face's edges, by frame_index.
+    std::vector<double> frame() const;
 
 private:
     struct Impl;
