@@ -141,28 +141,34 @@ struct FaceRain::Impl {
         else picture_slopes(sky.projection, sky.picture, x, y, s);
     }
 
-    /// sums: what falls on each texel of a tile, channels() + 1 values, in rows of tile.stride() texels.
+    /// sums: what falls on each texel of a tile, channels() + 1 values, in rows of tile.stride() texels. Of a sky without
+    /// negative texels none is: corners of texels that are no parallelograms would reach a little below the darkest
+    /// neighbour, and so below 0.
     void fill(const Tile& tile, std::vector<double>& sums, Scratch& scratch) const {
         const int channels = sky.channels(), cells = grid.edges ? 2 : 1;
         const CellWindow window{std::max(tile.x0 * cells, grid.low()), std::min(tile.x1 * cells, grid.high()), std::max(tile.y0 * cells, grid.low()),
                                 std::min(tile.y1 * cells, grid.high())};
         sums.assign(std::size_t(tile.stride()) * (tile.y1 - tile.y0) * (channels + 1), 0.0);
+        bool negative = false;
         for (const Block& block : near) {
             if (!meet(block.cells, window)) continue;
             switch (channels) {
-            case 1: rain<1>(block, window, tile, sums.data(), scratch); break;
-            case 2: rain<2>(block, window, tile, sums.data(), scratch); break;
-            case 3: rain<3>(block, window, tile, sums.data(), scratch); break;
-            default: rain<4>(block, window, tile, sums.data(), scratch); break;
+            case 1: negative |= rain<1>(block, window, tile, sums.data(), scratch); break;
+            case 2: negative |= rain<2>(block, window, tile, sums.data(), scratch); break;
+            case 3: negative |= rain<3>(block, window, tile, sums.data(), scratch); break;
+            default: negative |= rain<4>(block, window, tile, sums.data(), scratch); break;
             }
         }
+        if (!negative)
+            for (double& sum : sums) sum = std::max(sum, 0.0);
     }
 
-    /// Adds a block's texels to the cells of a window.
+    /// Adds a block's texels to the cells of a window. Whether one of them is negative.
     template <int channels>
-    void rain(const Block& block, const CellWindow& window, const Tile& tile, double* sums, Scratch& scratch) const {
+    bool rain(const Block& block, const CellWindow& window, const Tile& tile, double* sums, Scratch& scratch) const {
         const Source& source = sources[block.source];
         const Image<float>& values = image(source);
+        bool negative = false;
         const int columns = block.x1 - block.x0, points = columns * parts + 1;
         scratch.directions.resize(points);
         scratch.upper.resize(points);
@@ -203,9 +209,12 @@ struct FaceRain::Impl {
                     const Vec2d scale(column.width, bottom - top), shift(column.middle - light.x, 0.5 * (top + bottom) - (y + 0.5) - light.y);
                     Slopes s;
                     slopes(source, x, y, s);
-                    add<channels>(&values.at(x, y), s, scale, shift, window, scratch.overlap, tile, sums);
+                    const float* const value = &values.at(x, y);
+                    negative |= std::any_of(value, value + channels, [](float v) { return v < 0; });
+                    add<channels>(value, s, scale, shift, window, scratch.overlap, tile, sums);
                 }
             }
+        return negative;
     }
 
     template <int channels>
@@ -213,7 +222,7 @@ struct FaceRain::Impl {
              const Tile& tile, double* sums) const noexcept {
         // Radiance and J are linear in the place on the face, so what a cell gets is linear in its moments about the middle;
         // the last of the numbers is solid angle.
-        double by_area[channels + 1], by_x[channels + 1], by_y[channels + 1], least[channels + 1];
+        double by_area[channels + 1], by_x[channels + 1], by_y[channels + 1];
         const double j = o.jacobian, ax = j * o.ax * scale.x, ay = j * o.ay * scale.x, bx = j * o.bx * scale.y, by = j * o.by * scale.y;
         const double a = j * shift.x, b = j * shift.y;
         for (int k = 0; k < channels; ++k) {
@@ -221,9 +230,7 @@ struct FaceRain::Impl {
             by_area[k] = v * j + along * a + down * b;
             by_x[k] = v * o.jacobian_x + along * ax + down * bx;
             by_y[k] = v * o.jacobian_y + along * ay + down * by;
-            least[k] = v >= 0 ? 0.0 : -1e300;
         }
-        least[channels] = 0;
         by_area[channels] = j;
         by_x[channels] = o.jacobian_x;
         by_y[channels] = o.jacobian_y;
@@ -239,8 +246,7 @@ struct FaceRain::Impl {
                 if (area <= 0) continue; // rounding
                 const double x = o.orientation * m.x + (o.column + c - o.middle_x) * area, y = o.orientation * m.y + off_y * area;
                 double* const sum = row + std::ptrdiff_t(grid.texel(o.column + c) - tile.x0) * (channels + 1);
-                // Corners of texels that are no parallelograms would reach a little below the darkest neighbour, and below 0.
-                for (int k = 0; k <= channels; ++k) sum[k] += std::max(by_area[k] * area + by_x[k] * x + by_y[k] * y, least[k]);
+                for (int k = 0; k <= channels; ++k) sum[k] += by_area[k] * area + by_x[k] * x + by_y[k] * y;
             }
         }
     }
