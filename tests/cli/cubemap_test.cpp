@@ -215,6 +215,7 @@ TEST_CASE("cubemap: every bad input is refused by its name, and six files appear
     write_flat(folder / "one.tif", 1, 1, 1);
     write_flat(folder / "square.tif", 8, 8, 1);
     write_flat(folder / "odd.tif", 9, 4, 1);
+    write_flat(folder / "row.tif", 2, 1, 1);
     write_file(folder / "empty.tif", "");
     fs::create_directory(folder.path / "folder.tif");
     refused(folder, "one.tif -o a_%s.tif", 4, "one.tif");
@@ -226,6 +227,8 @@ TEST_CASE("cubemap: every bad input is refused by its name, and six files appear
     refused(folder, "odd.tif --from ball -o a_%s.tif", 4, "odd.tif");
     refused(folder, "square.tif --from ball --samples exact -o a_%s.tif", 2, "--samples");
     refused(folder, "odd.tif --from hcross -o a_%s.tif", 4, "odd.tif");
+    refused(folder, "row.tif --from openexr-latlong -o a_%s.tif", 4, "row.tif");
+    refused(folder, "row.tif --from latlong --to openexr-latlong --size 2 -o a.exr", 2, "--size 2");
     refused(folder, "empty.tif -o a_%s.tif", 3, "empty.tif");
     refused(folder, "folder.tif -o a_%s.tif", 3, "folder.tif");
     refused(folder, "gone.tif -o a_%s.tif", 3, "gone.tif");

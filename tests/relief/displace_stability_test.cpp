@@ -1,5 +1,6 @@
 // Where displacement could break: one case each.
 #include "bake/base/error.h"
+#include "bake/relief/displace_error.h"
 #include "oracle/surfaces.h"
 #include "relief/displace_meshes.h"
 
@@ -8,9 +9,10 @@ using namespace bake::test;
 
 namespace {
 
-DisplaceOptions levels(int n) {
+DisplaceOptions levels(int n, Seam seam = Seam::average) {
     DisplaceOptions options;
     options.rates.levels = n;
+    options.seam = seam;
     return options;
 }
 
@@ -126,6 +128,35 @@ TEST_CASE("displace, corner: on the border and inside it stays where the cage ha
     // The surface comes to a spike there: normals look all ways round, and the point stays.
     CHECK(nearest(out.mesh) < 1e-6);
     CHECK(out.report.no_normal == 1);
+}
+
+TEST_CASE("displace, pole and zero-area face: what has no area still has a distance") {
+    const Vec3d a(0), b(1, 0, 0), c(2, 0, 0), p(1.5, 3, 0);
+    for (const auto& [x, y, z] : {std::array{a, b, c}, std::array{a, c, b}, std::array{b, c, a}, std::array{a, a, c}, std::array{a, c, c}, std::array{a, c, a}})
+        CHECK(distance_to_triangle(p, x, y, z) == doctest::Approx(3));
+    CHECK(distance_to_triangle(p, b, b, b) == doctest::Approx(std::sqrt(9.25)));
+    DisplaceOptions options = levels(3);
+    options.measure_error = true;
+    const Displaced out = displace(BaseSurface(ParametricSurface("sphere:R=1"), 8, 8), constant(0.1), options);
+    CHECK(out.report.error_rms > 0);
+    CHECK(out.report.error_rms < out.report.error_max);
+}
+
+TEST_CASE("displace, crease: tangent frames that differ across it are no uv seam") {
+    const Mesh roof = polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, -1}, {1, 1, -1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}},
+                               {{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}},
+                               {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}});
+    Relief r;
+    r.values = Image<float>(4, 4, 3);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) r.values.at(x, y, 2) = 1;
+    r.height = {.amplitude = 0.1, .midlevel = 0};
+    r.vector = VectorSpace::tangent;
+    for (const Seam seam : {Seam::average, Seam::owner, Seam::blend}) {
+        const Displaced out = displace(BaseSurface(Mesh(roof)), r, levels(2, seam));
+        CHECK(out.report.seam_points == 0);
+        CHECK(out.report.seam_mismatch == 0);
+    }
 }
 
 TEST_CASE("displace, crease: one point along the mean direction, two normals") {

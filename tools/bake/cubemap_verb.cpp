@@ -133,6 +133,7 @@ CubemapTarget target_for(const CubemapArgs& args, const Loaded& loaded) {
         target.size = is_cube_format(target.to) ? edge : target.to == SkyFormat::octahedral ? 2 * edge : 4 * edge;
     }
     if (target.to == SkyFormat::openexr_cube && target.size < 2) throw usage("--size 1: an OpenEXR cube has samples on all four edges of a face; give 2 or more");
+    if (target.to == SkyFormat::openexr_latlong && target.size < 4) throw usage("--size " + std::to_string(target.size) + ": an OpenEXR lat-long has a row on each pole; give 4 or more");
     if (!is_cube_format(target.to) && target.to != SkyFormat::octahedral && target.size % 2)
         throw usage("--size " + std::to_string(target.size) + ": a lat-long is twice as wide as high; give an even width");
     target.depth = cubemap_depth(args.out, args.depth, loaded.report.type);

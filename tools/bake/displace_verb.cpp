@@ -26,7 +26,7 @@ struct Outcome {
 
 /// Over at most 65536 faces taken evenly: a figure to compare others with.
 double mean_edge(const Mesh& mesh) {
-    const std::size_t step = std::max<std::size_t>(1, mesh.faces() / 65536);
+    const std::size_t step = std::max<std::size_t>(1, (mesh.faces() + 65535) / 65536);
     double sum = 0;
     std::size_t edges = 0;
     for (std::size_t f = 0; f < mesh.faces(); f += step)

@@ -161,6 +161,8 @@ Environment read_environment(const std::vector<std::string>& inputs, const ReadE
         break;
     default:
         sky.projection = projection_of(report.format);
+        if (sky.projection == Projection::latlong_edges && image.height() < 2)
+            throw unsuitable(file, "has one row, which cannot be both poles; give a larger one");
         sky.picture = std::move(image);
     }
     return sky;

@@ -133,6 +133,7 @@ struct FaceRain::Impl {
     std::vector<Source> sources; ///< their lattices mapped by FacePlane::map of the face
     std::vector<Block> near; ///< those that may meet the face
     int parts;
+    bool negative; ///< whether one of their texels is
 
     const Image<float>& image(const Source& source) const noexcept { return sky.is_cube() ? sky.cube[source.face] : sky.picture; }
 
@@ -149,26 +150,24 @@ struct FaceRain::Impl {
         const CellWindow window{std::max(tile.x0 * cells, grid.low()), std::min(tile.x1 * cells, grid.high()), std::max(tile.y0 * cells, grid.low()),
                                 std::min(tile.y1 * cells, grid.high())};
         sums.assign(std::size_t(tile.stride()) * (tile.y1 - tile.y0) * (channels + 1), 0.0);
-        bool negative = false;
         for (const Block& block : near) {
             if (!meet(block.cells, window)) continue;
             switch (channels) {
-            case 1: negative |= rain<1>(block, window, tile, sums.data(), scratch); break;
-            case 2: negative |= rain<2>(block, window, tile, sums.data(), scratch); break;
-            case 3: negative |= rain<3>(block, window, tile, sums.data(), scratch); break;
-            default: negative |= rain<4>(block, window, tile, sums.data(), scratch); break;
+            case 1: rain<1>(block, window, tile, sums.data(), scratch); break;
+            case 2: rain<2>(block, window, tile, sums.data(), scratch); break;
+            case 3: rain<3>(block, window, tile, sums.data(), scratch); break;
+            default: rain<4>(block, window, tile, sums.data(), scratch); break;
             }
         }
         if (!negative)
             for (double& sum : sums) sum = std::max(sum, 0.0);
     }
 
-    /// Adds a block's texels to the cells of a window. Whether one of them is negative.
+    /// Adds a block's texels to the cells of a window.
     template <int channels>
-    bool rain(const Block& block, const CellWindow& window, const Tile& tile, double* sums, Scratch& scratch) const {
+    void rain(const Block& block, const CellWindow& window, const Tile& tile, double* sums, Scratch& scratch) const {
         const Source& source = sources[block.source];
         const Image<float>& values = image(source);
-        bool negative = false;
         const int columns = block.x1 - block.x0, points = columns * parts + 1;
         scratch.directions.resize(points);
         scratch.upper.resize(points);
@@ -209,12 +208,9 @@ struct FaceRain::Impl {
                     const Vec2d scale(column.width, bottom - top), shift(column.middle - light.x, 0.5 * (top + bottom) - (y + 0.5) - light.y);
                     Slopes s;
                     slopes(source, x, y, s);
-                    const float* const value = &values.at(x, y);
-                    negative |= std::any_of(value, value + channels, [](float v) { return v < 0; });
-                    add<channels>(value, s, scale, shift, window, scratch.overlap, tile, sums);
+                    add<channels>(&values.at(x, y), s, scale, shift, window, scratch.overlap, tile, sums);
                 }
             }
-        return negative;
     }
 
     template <int channels>
@@ -252,7 +248,7 @@ struct FaceRain::Impl {
     }
 };
 
-FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn) : impl_(new Impl{source, grid, FacePlane(grid, face), {}, {}, 1}) {
+FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace face, const glm::dmat3& turn) : impl_(new Impl{source, grid, FacePlane(grid, face), {}, {}, 1, false}) {
     Impl& impl = *impl_;
     if (source.is_cube())
         for (const CubeFace from : all_cube_faces) impl.sources.push_back({Lattice(from, source.cube.size(), source.edge_samples, turn), from});
@@ -272,6 +268,18 @@ FaceRain::FaceRain(const Environment& source, const FaceGrid& grid, CubeFace fac
     });
     for (const Block& block : blocks)
         if (meet(block.cells, whole_face(grid))) impl.near.push_back(block);
+    std::vector<char> negative(impl.near.size());
+    for_rows(std::int64_t(impl.near.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            const Block& block = impl.near[i];
+            const Image<float>& from = impl.image(impl.sources[block.source]);
+            for (int y = block.y0; y < block.y1; ++y) {
+                const float* const row = &from.at(block.x0, y);
+                negative[i] |= std::any_of(row, row + std::ptrdiff_t(block.x1 - block.x0) * from.channels(), [](float v) { return v < 0; });
+            }
+        }
+    });
+    impl.negative = std::find(negative.begin(), negative.end(), 1) != negative.end();
     for (Source& from : impl.sources) from.lattice.turn_further(impl.plane.map());
 }
 

@@ -31,8 +31,8 @@ struct Misfit {
     bool any() const noexcept { return inside || border; }
 };
 
-/// One thread's work on cells: the displaced surface of each is sampled once, about once per texel, and lattices are tried
-/// against the samples until the faces stay near enough.
+/// One thread's work on cells: the displaced surface of each is sampled about once per texel, more densely where
+/// faces get as small, and lattices are tried against the samples until the faces stay near enough.
 class CellFitter {
 public:
     CellFitter(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells) : patch_(surface, blend), cells_(cells) {}

@@ -3,13 +3,6 @@
 namespace bake {
 namespace {
 
-double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept {
-    const Vec3d ab = b - a;
-    const double length2 = glm::dot(ab, ab);
-    const double x = length2 > 0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(p - a - x * ab);
-}
-
 /// Whether all samples lie within `error` of their chord.
 bool chords_within(std::span<const Vec3d> curve, std::uint32_t rate, double error) noexcept {
     const auto count = std::uint32_t(curve.size()) - 1;

@@ -13,6 +13,13 @@ std::span<const Vec3d> DisplacedPatch::points(std::uint32_t patch, std::span<con
     return {points_.data(), st.size()};
 }
 
+double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept {
+    const Vec3d ab = b - a;
+    const double length2 = glm::dot(ab, ab);
+    const double x = length2 > 0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
+    return glm::length(p - a - x * ab);
+}
+
 double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
     const Vec3d ab = b - a, ac = c - a, ap = p - a;
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
@@ -21,16 +28,17 @@ double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, cons
     const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
     if (d3 >= 0 && d4 <= d3) return glm::length(bp);
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return glm::length(ap - d1 / (d1 - d3) * ab);
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return glm::length(ap - d1 / (d1 - d3) * ab);
     const Vec3d cp = p - c;
     const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
     if (d6 >= 0 && d5 <= d6) return glm::length(cp);
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return glm::length(ap - d2 / (d2 - d6) * ac);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return glm::length(ap - d2 / (d2 - d6) * ac);
     const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
-    const double all = va + vb + vc;
-    if (!(all > 0)) return glm::length(ap);
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && d4 - d3 + d5 - d6 > 0) return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
+    const double all = va + vb + vc; // of the squared area; below this it is rounding, and says nothing
+    if (!(all > 1e-14 * glm::dot(ab, ab) * glm::dot(ac, ac)))
+        return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
     return glm::length(ap - vb / all * ab - vc / all * ac);
 }
 

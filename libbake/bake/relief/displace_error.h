@@ -37,7 +37,8 @@ struct CellError {
 /// Of one cell at fitted rates. Stops early, with what it has found, once `enough` is exceeded.
 CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& rates, double enough);
 
-/// Distance of a point from a triangle. Ericson, Real-Time Collision Detection, 2005, 5.1.5.
+double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept;
+/// Distance of a point from a triangle, of no area too. Ericson, Real-Time Collision Detection, 2005, 5.1.5.
 double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 
 } // namespace bake

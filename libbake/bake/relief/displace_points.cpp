@@ -81,7 +81,7 @@ void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& 
         const DisplacedPoint d = heights ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);
         const double b = to.surface.height_of(point, value);
         tally.height(b);
-        if (point.jet.n == Vec3d(0)) ++tally.no_normal;
+        if (point.jet.n == Vec3d(0)) tally.no_normal += to.surface.uses_normal();
         else if (point.jet.sigma == 0) ++tally.no_tangents;
         const double margin = along_normal && point.curved ? fold_margin(point.jet, b) : 1.0;
         tally.fold(margin, point);
@@ -179,7 +179,7 @@ struct MetPoint {
     double height = 0;         ///< along the first side's normal
     double mismatch = 0;       ///< largest difference between two uv groups' own values
     double margin = 1;
-    bool has_direction = true; ///< false where displacement along n has none
+    bool has_normal = true;    ///< false where the relief needs one and there is none
     std::vector<Vec3d> normal; ///< per normal group: unit or zero
     std::vector<Vec2d> uv;     ///< per uv group
 };
@@ -194,16 +194,18 @@ void meet(const Target& to, const Meeting& meeting, const MeetingSide* sides, st
     const bool heights = surface.values_are_heights();
     out.from = owner.point.jet.p;
     out.p = out.from + (heights ? shared.value.x * shared.direction : shared.value);
-    out.has_direction = shared.direction != Vec3d(0);
+    const Vec3d normal = surface.along_normal() ? shared.direction : owner.point.jet.n;
+    out.has_normal = !surface.uses_normal() || normal != Vec3d(0);
     out.height = heights ? shared.value.x : glm::dot(shared.value, owner.point.jet.n);
     out.uv.assign(meeting.uv_groups, Vec2d(0));
     out.normal.assign(meeting.normal_groups, Vec3d(0));
     out.margin = 1, out.mismatch = 0;
+    std::uint32_t uv_groups = 0;
     for (std::size_t k = 0; k < views.size(); ++k) {
         const SurfacePoint& point = views[k].point;
         if (!first_of_groups(sides, k)) continue;
         out.uv[sides[k].uv_group] = point.uv;
-        out.mismatch = std::max(out.mismatch, glm::length(own[k] - own[0]));
+        if (sides[k].uv_group == uv_groups) out.mismatch = std::max(out.mismatch, glm::length(own[k] - own[0])), ++uv_groups;
         if (!point.curved) continue; // the faces give the normal
         ReliefValue value = views[k].value;
         if (heights) value.at = shared.value;
@@ -251,10 +253,10 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
         meet(to, m, sides, here, {own.data() + j * side_count, side_count}, met);
         const std::uint32_t index = place.number + j;
         tally.height(met.height);
-        if (!met.has_direction) ++tally.no_normal;
+        if (!met.has_normal) ++tally.no_normal;
         else if (here[0].point.jet.sigma == 0) ++tally.no_tangents;
         if (m.uv_groups > 1) ++tally.seam_points;
-        if (met.mismatch > tally.seam_mismatch) tally.seam_mismatch = met.mismatch, tally.seam_worst = met.from;
+        if (m.uv_groups > 1 && met.mismatch > tally.seam_mismatch) tally.seam_mismatch = met.mismatch, tally.seam_worst = met.from;
         tally.fold(met.margin, here[0].point);
         if (!to.margin.empty()) to.margin[index] = float(met.margin);
         to.store(index, met.p, tally);

@@ -27,8 +27,9 @@ public:
     ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors = false);
 
     const BaseSurface& base() const noexcept { return *base_; }
-    /// Whether the relief is a height along the normal, and whether values hold it as (b, 0, 0).
+    /// Whether the relief is a height along the normal, whether it needs one at all, and whether values are (b, 0, 0).
     bool along_normal() const noexcept { return !space_; }
+    bool uses_normal() const noexcept { return space_ != VectorSpace::object; }
     bool values_are_heights() const noexcept { return !space_ && !as_vectors_; }
     /// Texels along u and v.
     Vec2d texels() const noexcept { return texels_; }
