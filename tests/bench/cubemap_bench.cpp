@@ -37,22 +37,8 @@ Environment suns(int width, std::vector<Vec3d>& directions) {
 }
 
 double flux_deviation(const Cube& cube, const std::vector<Vec3d>& directions) {
-    std::vector<double> flux(directions.size(), 0.0);
-    const int n = cube.size();
-    const std::vector<double> omega = texel_solid_angles(n);
-    for (const CubeFace face : all_cube_faces)
-        for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) {
-                const float value = cube[face].at(x, y);
-                if (value == 0) continue;
-                const Vec3d d = glm::normalize(texel_direction(face, n, false, x, y));
-                std::size_t nearest = 0;
-                for (std::size_t i = 1; i < directions.size(); ++i)
-                    if (glm::dot(directions[i], d) > glm::dot(directions[nearest], d)) nearest = i;
-                flux[nearest] += value * omega[std::size_t(y) * n + x];
-            }
     double square = 0;
-    for (const double f : flux) square += (f - 1) * (f - 1) / double(flux.size());
+    for (const double f : test::fluxes(cube, directions)) square += (f - 1) * (f - 1) / double(directions.size());
     return std::sqrt(square);
 }
 

@@ -1,6 +1,7 @@
 // Skies in closed form, and pictures of them.
 #pragma once
 #include "bake/environment/environment.h"
+#include "bake/environment/solid_angle.h"
 #include <cmath>
 #include <vector>
 
@@ -66,6 +67,25 @@ inline double rms(const std::vector<float>& errors) {
     double square = 0;
     for (const float e : errors) square += double(e) * e;
     return std::sqrt(square / double(errors.size()));
+}
+
+/// Flux that arrived of each sun, on the first channel: each texel belongs to the nearest.
+inline std::vector<double> fluxes(const Cube& cube, const std::vector<Vec3d>& suns) {
+    std::vector<double> flux(suns.size(), 0.0);
+    const int n = cube.size();
+    const std::vector<double> omega = texel_solid_angles(n);
+    for (const CubeFace face : all_cube_faces)
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const float value = cube[face].at(x, y);
+                if (value == 0) continue;
+                const Vec3d d = glm::normalize(texel_direction(face, n, false, x, y));
+                std::size_t nearest = 0;
+                for (std::size_t i = 1; i < suns.size(); ++i)
+                    if (glm::dot(suns[i], d) > glm::dot(suns[nearest], d)) nearest = i;
+                flux[nearest] += value * omega[std::size_t(y) * n + x];
+            }
+    return flux;
 }
 
 } // namespace bake::test

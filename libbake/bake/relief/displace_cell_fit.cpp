@@ -70,31 +70,11 @@ void CellFitter::add_directions(Misfit& to, std::uint32_t i, std::uint32_t j, co
 
 Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error) {
     places_.clear(), in_cell_.clear();
-    PatchRing ring;
-    const auto put = [&](const Vec2d& place, const Vec2d& in_cell) {
-        const auto number = std::uint32_t(places_.size());
+    const Vec2d samples(samples_.across, samples_.up);
+    const std::uint32_t first_inside = border_.number(cells_, cell, r, [&](const Vec2d& place, const Vec2d& in_cell) {
         places_.push_back(place);
-        in_cell_.push_back(in_cell * Vec2d(samples_.across, samples_.up));
-        return FaceCorner{number, number, number};
-    };
-    static const Vec2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
-    const Vec2d* corner = r.sides == 4 ? square : triangle;
-    for (int i = 0; i < r.sides; ++i) {
-        side_[i].clear();
-        for (std::uint32_t k = 0; k < r.side[i]; ++k)
-            side_[i].push_back(put(cells_.on_side(cell, i, k, r.side[i]), glm::mix(corner[i], corner[(i + 1) % r.sides], double(k) / r.side[i])));
-    }
-    for (int i = 0; i < r.sides; ++i) {
-        side_[i].push_back(side_[(i + 1) % r.sides].front());
-        ring.side[i] = side_[i];
-    }
-    const auto first_inside = std::uint32_t(places_.size());
-    if (inner_points(r) > 0) {
-        const std::uint32_t n = r.sides == 4 ? r.up : r.across;
-        for (std::uint32_t j = 1; j < n; ++j)
-            for (std::uint32_t i = 1; i < (r.sides == 4 ? r.across : r.across - j); ++i)
-                put(cells_.at(cell, i, r.across, j, n), {double(i) / r.across, double(j) / n});
-    }
+        in_cell_.push_back(in_cell * samples);
+    });
     const auto at = patch_.points(cells_.patch(cell), places_);
     points_.assign(at.begin(), at.end());
 
@@ -136,7 +116,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
         if (!fails) check(face[0], face[1], face[3]);
         if (!fails) check(face[1], face[2], face[3]);
     });
-    emit_faces(r, ring, first_inside, visitor);
+    emit_faces(r, border_.ring, first_inside, visitor);
     return out;
 }
 

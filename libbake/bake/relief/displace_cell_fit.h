@@ -59,7 +59,7 @@ private:
     DisplacedPatch patch_;
     const PatchCells& cells_;
     CellSamples samples_;
-    std::array<std::vector<FaceCorner>, 4> side_;
+    CellRing border_;
     std::vector<Vec2d> places_, in_cell_;
     std::vector<Vec3d> points_;
 };

@@ -131,27 +131,9 @@ private:
 } // namespace
 
 CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& r, double enough) {
-    // The cell's points with numbers of its own: the border around, then inside.
     std::vector<Vec2d> places;
-    std::array<std::vector<FaceCorner>, 4> side;
-    PatchRing ring;
-    const auto put = [&](const Vec2d& place) {
-        const auto number = std::uint32_t(places.size());
-        places.push_back(place);
-        return FaceCorner{number, number, number};
-    };
-    for (int i = 0; i < r.sides; ++i)
-        for (std::uint32_t k = 0; k < r.side[i]; ++k) side[i].push_back(put(cells.on_side(cell, i, k, r.side[i])));
-    for (int i = 0; i < r.sides; ++i) {
-        side[i].push_back(side[(i + 1) % r.sides].front());
-        ring.side[i] = side[i];
-    }
-    const auto inside = std::uint32_t(places.size());
-    if (inner_points(r) > 0) {
-        const std::uint32_t n = r.sides == 4 ? r.up : r.across;
-        for (std::uint32_t j = 1; j < n; ++j)
-            for (std::uint32_t i = 1; i < (r.sides == 4 ? r.across : r.across - j); ++i) put(cells.at(cell, i, r.across, j, n));
-    }
+    CellRing border;
+    const std::uint32_t inside = border.number(cells, cell, r, [&](const Vec2d& place, const Vec2d&) { places.push_back(place); });
     const std::uint32_t number = cells.patch(cell);
     std::vector<Vec3d> points(places.size());
     std::vector<Vec2d> texels(places.size());
@@ -163,7 +145,7 @@ CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32
     }
     Comparison comparison(patch, number, places, points, texels, inside, enough);
     FaceVisitor visitor([&](std::span<const std::uint32_t> face) { comparison.add(face); });
-    emit_faces(r, ring, inside, visitor);
+    emit_faces(r, border.ring, inside, visitor);
     return comparison.finish();
 }
 

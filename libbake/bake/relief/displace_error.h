@@ -26,6 +26,37 @@ private:
     std::vector<Vec3d> points_;
 };
 
+/// The ring of a cell's lattice in numbers of its own.
+struct CellRing {
+    std::array<std::vector<FaceCorner>, 4> side;
+    PatchRing ring; ///< views of side
+
+    /// Numbers the lattice's points from 0, the border around and then inside, and calls put(place on the patch, place in the
+    /// cell) for each. The first number inside.
+    template <class Put> std::uint32_t number(const PatchCells& cells, std::uint32_t cell, const PatchRates& r, const Put& put) {
+        static constexpr Vec2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
+        const Vec2d* const corner = r.sides == 4 ? square : triangle;
+        std::uint32_t next = 0;
+        for (int i = 0; i < r.sides; ++i) {
+            side[i].clear();
+            for (std::uint32_t k = 0; k < r.side[i]; ++k, ++next) {
+                put(cells.on_side(cell, i, k, r.side[i]), glm::mix(corner[i], corner[(i + 1) % r.sides], double(k) / r.side[i]));
+                side[i].push_back({next, next, next});
+            }
+        }
+        for (int i = 0; i < r.sides; ++i) {
+            side[i].push_back(side[(i + 1) % r.sides].front());
+            ring.side[i] = side[i];
+        }
+        if (inner_points(r) == 0) return next;
+        const std::uint32_t n = r.sides == 4 ? r.up : r.across;
+        for (std::uint32_t j = 1; j < n; ++j)
+            for (std::uint32_t i = 1; i < (r.sides == 4 ? r.across : r.across - j); ++i)
+                put(cells.at(cell, i, r.across, j, n), Vec2d(double(i) / r.across, double(j) / n));
+        return next;
+    }
+};
+
 struct CellError {
     double inside = 0; ///< largest distance from faces all of whose corners are inside the cell
     double border = 0; ///< from those with a corner on its border
