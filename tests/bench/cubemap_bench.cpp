@@ -7,10 +7,10 @@
 // cubemap_bench --errors FILE: mean, 95th percentile and largest error of a file that holds it; a lat-long is texel-centred
 // unless tagged.
 #include "bench.h"
-#include "bake/asset/image_io.h"
-#include "bake/environment/environment_io.h"
-#include "bake/environment/resample.h"
-#include "bake/environment/solid_angle.h"
+#include "bake/picture/image_io.h"
+#include "bake/environment/file/environment_io.h"
+#include "bake/environment/resample/resample.h"
+#include "bake/environment/sky/solid_angle.h"
 #include "environment/smooth_skies.h"
 #include <cstring>
 #include <random>

@@ -3,8 +3,8 @@
 // the normal that a shader shows at the middle of a face, interpolated from its corners. The limit is writing as many bytes
 // as the mesh has. Rows as in bench.h; size counts faces.
 #include "bench.h"
-#include "bake/relief/displace.h"
-#include "relief/torus_relief.h"
+#include "bake/relief/displace/displace.h"
+#include "relief/map/torus_relief.h"
 #include <cstring>
 
 using namespace bake;

@@ -5,8 +5,8 @@
 // error_*_deg: angles of the normals in the mesh that was timed: on shapes against the closed form; on cages against
 // Max's normals of its own faces (those at seams left out), themselves of order 2 in the edge's length. note: worst position error over
 // the diagonal (shapes), bytes, milliseconds in all.
-#include "bake/asset/mesh_io.h"
-#include "bake/relief/displace.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/displace/displace.h"
 #include "waves.h"
 #include <cstring>
 #include <filesystem>

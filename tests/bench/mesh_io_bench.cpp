@@ -3,9 +3,9 @@
 //   mesh_io_bench FILE [repeats]                                 median of each, MB/s, their ratio
 //   mesh_io_bench --make-quads N OUT [--no-normals] [repeats]    a wavy grid of about N quads, by OUT's ending
 //
-// The error column of a reader is 0 by test: every number is the float nearest to its text (tests/asset/mesh_io_test).
-#include "bake/asset/mesh_io.h"
-#include "bake/asset/triangulate.h"
+// The error column of a reader is 0 by test: every number is the float nearest to its text (tests/mesh/file/mesh_io_test).
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/triangulate.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include <algorithm>

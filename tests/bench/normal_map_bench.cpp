@@ -4,14 +4,14 @@
 //
 // Time and error of a bake on a mesh, for all four methods, at SIZE^2 (4096 unless given) on a
 // torus fine enough not to matter, and at 1024^2 on the plain torus of 4096 triangles; the steps before the bake; and
-// the bake on a plane. The oracle is the closed form of the torus relief (tests/relief/torus_relief.h), the map decoded
+// the bake on a plane. The oracle is the closed form of the torus relief (tests/relief/map/torus_relief.h), the map decoded
 // in the frames a shader would have. Size counts texels along a side, or triangles. The limit is one pass that reads
 // what a bake reads per texel, hit and height, 16 bytes, and writes the 12 of the map.
 #include "bench.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
-#include "bake/surface/tangent_space.h"
-#include "relief/torus_relief.h"
+#include "bake/surface/chart/tangent_space.h"
+#include "relief/map/torus_relief.h"
 
 using namespace bake;
 

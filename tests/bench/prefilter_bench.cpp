@@ -6,10 +6,10 @@
 // for mips, the zonal series of tests/oracle/zonal.h for the rest, which shares no code with what is timed. The limit is a
 // pass that reads the sky and writes the result, or, for the lobes, the plain sum over all texels of the sky, timed on
 // a few directions and scaled.
-#include "bake/environment/convolve.h"
-#include "bake/environment/irradiance.h"
-#include "bake/environment/mips.h"
-#include "bake/environment/prefilter.h"
+#include "bake/environment/filter/convolve.h"
+#include "bake/environment/filter/irradiance.h"
+#include "bake/environment/filter/mips.h"
+#include "bake/environment/filter/prefilter.h"
 #include "bench.h"
 #include "environment/skies.h"
 #include "oracle/zonal.h"

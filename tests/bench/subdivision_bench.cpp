@@ -5,8 +5,8 @@
 // was timed; the note has that of the position. MESHES is the folder with opensubdiv/ and spot/ in it.
 // Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts points; ratio is the time over that of Bfr at its defaults for the same derivatives.
-#include "bake/asset/mesh_io.h"
-#include "bake/surface/subdivision.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/surface/subdivision/subdivision.h"
 #include "bench/bench.h"
 #include "oracle/limit_masks.h"
 #include "oracle/surfaces.h"

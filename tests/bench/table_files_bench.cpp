@@ -4,7 +4,7 @@
 //   table_files_bench --errors TABLE                      mean,p95,max error in degrees of a table of it in --units texel
 //   table_files_bench --compare TABLE BUMPSLOPES          the largest difference to a maketx --bumpslopes file of the same
 //                                                         height: inside, and on the ring of texels at the border
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "bake/base/error.h"
 #include "waves.h"
 

@@ -3,7 +3,7 @@
 // Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts triangles; ratio is the time over that of reading the input once and writing the output once.
 #include "bake/base/parallel.h"
-#include "bake/surface/tangent_space.h"
+#include "bake/surface/chart/tangent_space.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -3,7 +3,7 @@
 // Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts texels along a side; ratio is the time over that of writing as many hits once, on as many threads.
 #include "bake/base/parallel.h"
-#include "bake/surface/uv_raster.h"
+#include "bake/surface/chart/uv_raster.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -9,8 +9,8 @@
 // them from above.
 #define DOCTEST_CONFIG_DISABLE // of the tests' helpers only those without checks are used
 #include "bench.h"
-#include "bake/asset/mesh_io.h"
-#include "relief/watertight.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "relief/displace/watertight.h"
 #include <filesystem>
 
 using namespace bake;

@@ -1,7 +1,7 @@
 // The height of the table benches: waves of about 64 x 32 texels, and its closed form.
 #pragma once
 #include "bench.h"
-#include "relief/torus_relief.h"
+#include "relief/map/torus_relief.h"
 #include <cmath>
 
 namespace bench {

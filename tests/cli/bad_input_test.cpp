@@ -1,5 +1,5 @@
 // Damaged files through the verbs that bake; check has its own test of them.
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <algorithm>
 #include <cmath>

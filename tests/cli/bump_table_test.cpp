@@ -1,6 +1,6 @@
 // bake bump-table from outside: signs, units, borders, encodings and mips on heights whose slopes are known.
-#include "asset/png_bytes.h"
-#include "bake/asset/image_io.h"
+#include "picture/png_bytes.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "bake/asset/image_io.h"
-#include "bake/environment/environment_io.h"
+#include "bake/picture/image_io.h"
+#include "bake/environment/file/environment_io.h"
 #include "cli/command.h"
 #include <cmath>
 #include <limits>

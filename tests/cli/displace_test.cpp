@@ -1,7 +1,7 @@
 // bake displace from outside: what each base and format gives, what is refused, and what is left behind.
-#include "bake/asset/image_io.h"
-#include "bake/asset/mesh_io.h"
-#include "bake/surface/mesh_check.h"
+#include "bake/picture/image_io.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/check/mesh_check.h"
 #include "cli/command.h"
 #include <cmath>
 #include <limits>

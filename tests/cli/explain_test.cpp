@@ -1,5 +1,5 @@
 // bake explain: the whole route of one texel, as a golden text.
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // glTF from outside: the Khronos validator on what we write, and verbs on what others wrote.
-#include "asset/gltf_files.h"
-#include "bake/surface/tangent_space.h"
+#include "mesh/gltf/gltf_files.h"
+#include "bake/surface/chart/tangent_space.h"
 #include "cli/command.h"
 #include <cstdlib>
 #include <sys/wait.h>

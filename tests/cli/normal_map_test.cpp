@@ -1,6 +1,6 @@
 // bake normal-map from outside: what the map says in the options' conventions, and real heights on a plane and a mesh.
-#include "asset/png_bytes.h"
-#include "bake/asset/image_io.h"
+#include "picture/png_bytes.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What the verbs leave behind when all goes well, when the disk is full, when they may not write, and when interrupted.
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <cmath>
 #include <sys/mount.h>

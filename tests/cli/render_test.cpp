@@ -1,7 +1,7 @@
-#include "bake/asset/image_io.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/picture/image_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/output_file.h"
-#include "../preview/little_scenes.h"
+#include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // bake surface from outside: shapes, meshes and cages as meshes and as maps, and everything it refuses.
-#include "asset/mesh_files.h"
-#include "bake/asset/image_io.h"
+#include "mesh/file/mesh_files.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <cmath>
 #include <nlohmann/json.hpp>

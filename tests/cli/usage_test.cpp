@@ -1,5 +1,5 @@
 // The command line itself: what is refused before anything is read.
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // Skies for tests, and what tests ask of a cube. Texel directions come from the face table written out once more, so
 // that nothing here leans on libbake's geometry.
 #pragma once
-#include "bake/environment/cube.h"
+#include "bake/environment/sky/cube.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>

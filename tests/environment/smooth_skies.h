@@ -1,7 +1,7 @@
 // Skies in closed form, and pictures of them.
 #pragma once
-#include "bake/environment/environment.h"
-#include "bake/environment/solid_angle.h"
+#include "bake/environment/sky/environment.h"
+#include "bake/environment/sky/solid_angle.h"
 #include <cmath>
 #include <vector>
 

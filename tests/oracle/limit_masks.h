@@ -7,7 +7,7 @@
 //   at borders and creases      eigenvectors as in Biermann, Levin, Zorin, Piecewise Smooth Subdivision Surfaces, 2000,
 //                               of the plain rules
 #pragma once
-#include "bake/surface/subdivision.h"
+#include "bake/surface/subdivision/subdivision.h"
 #include <map>
 #include <optional>
 

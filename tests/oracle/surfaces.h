@@ -1,7 +1,7 @@
 // Closed forms that tests measure against. They share no code with libbake beyond its plain types.
 #pragma once
-#include "bake/asset/mesh.h"
-#include "bake/relief/displaced_normal.h"
+#include "bake/mesh/mesh.h"
+#include "bake/relief/map/displaced_normal.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "bake/preview/material.h"
-#include "bake/relief/normal_map.h"
-#include "little_scenes.h"
+#include "bake/relief/map/normal_map.h"
+#include "preview/little_scenes.h"
 #include <doctest/doctest.h>
 #include <random>
 

@@ -1,8 +1,8 @@
 #include "bake/preview/scene_io.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
-#include "little_scenes.h"
+#include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>

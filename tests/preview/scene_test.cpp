@@ -1,6 +1,6 @@
 #include "bake/preview/scene.h"
 #include "bake/base/error.h"
-#include "little_scenes.h"
+#include "preview/little_scenes.h"
 #include <doctest/doctest.h>
 #include <initializer_list>
 

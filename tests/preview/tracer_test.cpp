@@ -1,7 +1,7 @@
 #include "bake/preview/tracer.h"
 #include "bake/base/parallel.h"
-#include "bake/relief/bump_table.h"
-#include "little_scenes.h"
+#include "bake/relief/map/bump_table.h"
+#include "preview/little_scenes.h"
 #include <cstring>
 #include <doctest/doctest.h>
 #include <limits>

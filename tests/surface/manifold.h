@@ -1,6 +1,6 @@
 // What a mesh is as a surface: its edges by how many faces they have, and its volume.
 #pragma once
-#include "bake/asset/mesh.h"
+#include "bake/mesh/mesh.h"
 #include <algorithm>
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "bake/relief/bake_budget.h"
+#include "bake/relief/map/bake_budget.h"
 #include "options.h"
 #include "verb.h"
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
-#include "bake/environment/mips.h"
+#include "bake/environment/filter/mips.h"
 #include <algorithm>
 #include <cmath>
 #include <array>

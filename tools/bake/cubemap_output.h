@@ -1,8 +1,8 @@
 // What bake cubemap writes: an environment in a layout, levels of it, six files that appear together.
 #pragma once
-#include "bake/asset/image_io.h"
-#include "bake/environment/environment_io.h"
-#include "bake/environment/resample.h"
+#include "bake/picture/image_io.h"
+#include "bake/environment/file/environment_io.h"
+#include "bake/environment/resample/resample.h"
 #include <string>
 #include <vector>
 

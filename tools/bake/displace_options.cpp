@@ -1,7 +1,7 @@
 #include "displace_options.h"
-#include "bake/asset/mesh_io.h"
-#include "bake/relief/vector_height.h"
-#include "bake/surface/weld.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/height/vector_height.h"
+#include "bake/mesh/weld.h"
 #include "camera_options.h"
 #include <cctype>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Options of displace, and what they mean for the library.
 #pragma once
-#include "bake/relief/displace.h"
+#include "bake/relief/displace/displace.h"
 #include "options.h"
 
 namespace bake {

@@ -1,8 +1,8 @@
 // bake displace: a mesh, the limit of a cage or a shape, really displaced.
 #include "displace_options.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/output_file.h"
-#include "bake/surface/mesh_audit.h"
+#include "bake/mesh/check/mesh_audit.h"
 #include <cstdio>
 #include <filesystem>
 

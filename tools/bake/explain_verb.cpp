@@ -1,4 +1,4 @@
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/verdict/explain.h"
 #include "normal_map_options.h"
 #include <cstdio>

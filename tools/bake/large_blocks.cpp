@@ -1,6 +1,6 @@
 // Large blocks in huge pages. Meshes of millions of faces live in vectors of many megabytes, each written once: with
 // pages of 4 KiB the system's handing out of them was a fifth of all time of bake displace.
-#include "bake/asset/image.h"
+#include "bake/picture/image.h"
 #include <cstdlib>
 #include <new>
 

@@ -1,6 +1,6 @@
 // Options of normal-map, which explain has too.
 #pragma once
-#include "bake/relief/normal_map.h"
+#include "bake/relief/map/normal_map.h"
 #include "options.h"
 
 namespace bake {

@@ -1,6 +1,6 @@
 #include "normal_map_options.h"
-#include "bake/asset/mesh_io.h"
-#include "bake/relief/bake_budget.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/map/bake_budget.h"
 #include <cstdio>
 
 namespace bake {

@@ -1,5 +1,5 @@
 #include "options.h"
-#include "bake/relief/dequantise.h"
+#include "bake/relief/height/dequantise.h"
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,10 +1,10 @@
 // Options that several verbs share, and how their values are written.
 #pragma once
-#include "bake/asset/image_io.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/picture/image_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/text.h"
-#include "bake/relief/bump_table.h"
-#include "bake/relief/error_budget.h"
+#include "bake/relief/map/bump_table.h"
+#include "bake/relief/map/error_budget.h"
 #include "verb.h"
 #include <optional>
 #include <utility>

@@ -1,6 +1,6 @@
 // bake render: a picture of a scene.
 #include "verb.h"
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "bake/base/output_file.h"
 #include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"

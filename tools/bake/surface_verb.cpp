@@ -1,8 +1,8 @@
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
-#include "bake/surface/surface_map.h"
-#include "bake/surface/surface_summary.h"
+#include "bake/surface/patch/surface_map.h"
+#include "bake/surface/patch/surface_summary.h"
 #include "options.h"
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // The sky as a scene sees it from a point: six faces.
 #pragma once
-#include "bake/environment/cube.h"
+#include "bake/environment/sky/cube.h"
 #include "bake/preview/tracer.h"
 
 namespace bake {

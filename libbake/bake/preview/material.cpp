@@ -1,5 +1,5 @@
 #include "bake/preview/material.h"
-#include "bake/relief/displaced_normal.h"
+#include "bake/relief/map/displaced_normal.h"
 
 namespace bake {
 namespace {

@@ -1,6 +1,6 @@
 // What is rendered: placed meshes with materials, lights, a camera, a sky.
 #pragma once
-#include "bake/environment/cube.h"
+#include "bake/environment/sky/cube.h"
 #include "bake/light/light.h"
 #include "bake/preview/material.h"
 #include "bake/ray/bvh.h"

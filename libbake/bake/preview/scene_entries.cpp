@@ -1,9 +1,9 @@
 #include "bake/preview/scene_entries.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
-#include "bake/environment/environment_io.h"
-#include "bake/environment/resample.h"
+#include "bake/environment/file/environment_io.h"
+#include "bake/environment/resample/resample.h"
 #include <map>
 #include <tuple>
 

@@ -1,6 +1,6 @@
 #include "bake/preview/scene_io.h"
 #include "bake/base/error.h"
-#include "bake/environment/face_files.h"
+#include "bake/environment/file/face_files.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #include "bake/preview/shape.h"
-#include "bake/surface/tangent_space.h"
+#include "bake/surface/chart/tangent_space.h"
 #include <algorithm>
 #include <array>
 

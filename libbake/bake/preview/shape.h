@@ -1,6 +1,6 @@
 // A mesh as the preview shades it: its surface, and what is interpolated over its triangles. All in object space.
 #pragma once
-#include "bake/surface/mesh_surface.h"
+#include "bake/surface/chart/mesh_surface.h"
 #include <memory>
 
 namespace bake {

@@ -1,6 +1,6 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
-#include "bake/relief/normal_map.h"
+#include "bake/relief/map/normal_map.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Textures of the preview: read once, shared by materials, looked up bilinearly with repeat.
 #pragma once
 #include "bake/base/vec.h"
-#include "bake/environment/radiance.h"
+#include "bake/environment/file/radiance.h"
 #include <memory>
 
 namespace bake {

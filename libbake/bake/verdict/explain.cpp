@@ -1,5 +1,5 @@
 #include "bake/verdict/explain.h"
-#include "bake/relief/error_budget.h"
+#include "bake/relief/map/error_budget.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // One texel's journey from height file to shaded pixel, every number printed (docs/route.md tells it in words).
 #pragma once
-#include "bake/relief/normal_map.h"
+#include "bake/relief/map/normal_map.h"
 #include <string>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // What is in an image, and what it looks made for.
 #pragma once
-#include "bake/asset/image_io.h"
+#include "bake/picture/image_io.h"
 #include "bake/base/vec.h"
 
 namespace bake {

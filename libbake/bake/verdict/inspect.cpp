@@ -1,6 +1,6 @@
 #include "bake/verdict/inspect.h"
-#include "bake/asset/gltf_io.h"
-#include "bake/asset/mesh_io.h"
+#include "bake/mesh/gltf/io.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
 #pragma once
-#include "bake/asset/mesh_io.h"
-#include "bake/relief/height.h"
-#include "bake/surface/mesh_audit.h"
-#include "bake/surface/mesh_check.h"
-#include "bake/surface/mesh_distance.h"
-#include "bake/surface/uv_check.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/height/height.h"
+#include "bake/mesh/check/mesh_audit.h"
+#include "bake/mesh/check/mesh_check.h"
+#include "bake/mesh/check/mesh_distance.h"
+#include "bake/surface/chart/uv_check.h"
 #include "bake/verdict/image_check.h"
 #include "bake/verdict/pair_check.h"
 #include <optional>

@@ -1,6 +1,6 @@
 // A height texture and a normal map said to be of the same relief: do they agree, and by which conventions.
 #pragma once
-#include "bake/asset/image.h"
+#include "bake/picture/image.h"
 
 namespace bake {
 

@@ -1,0 +1,69 @@
+#include "bake/base/file_bytes.h"
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <new>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace bake {
+namespace {
+
+struct Descriptor {
+    int number;
+    ~Descriptor() {
+        if (number >= 0) close(number);
+    }
+};
+
+[[noreturn]] void refuse(const std::string& path, int reason) {
+    throw Error(Refusal::unreadable,
+                path + ": cannot be read (" + std::strerror(reason) + "); check its name and its permissions");
+}
+
+} // namespace
+
+FileBytes read_file(const std::string& path) {
+    // Without O_NONBLOCK, opening a pipe would wait for a writer for ever.
+    const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    if (file.number < 0) refuse(path, errno);
+    struct stat status {};
+    if (fstat(file.number, &status) != 0) refuse(path, errno);
+    if (S_ISDIR(status.st_mode)) throw Error(Refusal::unreadable, path + ": is a folder; name a file in it");
+    if (!S_ISREG(status.st_mode))
+        throw Error(Refusal::unreadable, path + ": is not a regular file; copy its contents into one");
+
+    FileBytes bytes;
+    bytes.size = static_cast<std::size_t>(status.st_size);
+    const auto memory =
+        static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    if (bytes.size > memory)
+        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) +
+                                             " bytes are more than this machine's memory; split the file");
+    // Huge pages make the first touch of fresh memory several times cheaper.
+    const std::size_t page = std::size_t(2) << 20, rounded = (bytes.size + page) / page * page;
+    bytes.data.reset(
+        static_cast<char*>(bytes.size < page ? std::malloc(bytes.size + 1) : std::aligned_alloc(page, rounded)));
+    if (!bytes.data) throw std::bad_alloc();
+    if (bytes.size >= page) madvise(bytes.data.get(), rounded, MADV_HUGEPAGE);
+    bytes.data[bytes.size] = '\n';
+
+    const std::int64_t grain = std::int64_t(1) << 20;
+    for_rows(static_cast<std::int64_t>(bytes.size), grain, [&](std::int64_t begin, std::int64_t end) {
+        while (begin < end) {
+            const ssize_t got =
+                pread(file.number, bytes.data.get() + begin, static_cast<std::size_t>(end - begin), begin);
+            if (got < 0 && errno == EINTR) continue;
+            if (got < 0) refuse(path, errno);
+            if (got == 0) throw Error(Refusal::unreadable, path + ": shrank while it was read; try again");
+            begin += got;
+        }
+    });
+    return bytes;
+}
+
+} // namespace bake

@@ -1,0 +1,74 @@
+#include "bake/base/text_line.h"
+#include "bake/base/text_number.h"
+#include <algorithm>
+
+namespace bake {
+namespace {
+
+/// The backslash at the end of [begin, newline), or null.
+const char* final_backslash(const char* begin, const char* newline) noexcept {
+    const char* last = newline;
+    if (last > begin && last[-1] == '\r') --last;
+    return last > begin && last[-1] == '\\' ? last - 1 : nullptr;
+}
+
+const char* find_newline(const char* from, const char* end) noexcept {
+    return static_cast<const char*>(std::memchr(from, '\n', static_cast<std::size_t>(end - from)));
+}
+
+} // namespace
+
+std::string shown(std::string_view text) {
+    const std::size_t most = 40;
+    std::string out = "'";
+    for (const char c : text.substr(0, most)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    return out + (text.size() > most ? "...'" : "'");
+}
+
+std::size_t line_number(const char* begin, const char* at) noexcept {
+    return 1 + static_cast<std::size_t>(std::count(begin, at, '\n'));
+}
+
+std::vector<const char*> split_lines(const char* begin, const char* end, std::size_t grain) {
+    const auto size = static_cast<std::size_t>(end - begin);
+    const std::size_t pieces = std::max<std::size_t>(1, (size + grain - 1) / grain);
+    std::vector<const char*> bounds(pieces + 1, end);
+    bounds[0] = begin;
+    for (std::size_t i = 1; i < pieces; ++i) {
+        const char* from = std::max(bounds[i - 1], begin + i * grain);
+        if (from == bounds[i - 1]) {
+            bounds[i] = from; // one long line filled the piece before
+            continue;
+        }
+        const char* newline = find_newline(from - 1, end);
+        while (newline + 1 < end && final_backslash(begin, newline)) newline = find_newline(newline + 1, end);
+        bounds[i] = newline + 1;
+    }
+    return bounds;
+}
+
+bool detail::continues(const char* begin, const char* newline) noexcept {
+    const char* first = begin;
+    skip_blanks(first);
+    return *first != '#' && final_backslash(begin, newline);
+}
+
+void detail::join_lines(LineCursor& cursor) {
+    cursor.joined.clear();
+    const char* begin = cursor.begin;
+    const char* newline = cursor.end;
+    for (;;) {
+        const char* const backslash = final_backslash(begin, newline);
+        cursor.joined.append(begin, backslash ? backslash : newline);
+        if (!backslash || newline + 1 == cursor.stop) break;
+        cursor.joined += ' ';
+        begin = newline + 1;
+        newline = find_newline(begin, cursor.stop);
+    }
+    cursor.next = newline + 1;
+    cursor.joined += '\n';
+    cursor.begin = cursor.joined.data();
+    cursor.end = cursor.begin + cursor.joined.size() - 1;
+}
+
+} // namespace bake

@@ -1,0 +1,50 @@
+// Which file is which face: by its name, by a pattern, or by its place in a list; and the reading of all six.
+#pragma once
+#include "bake/environment/sky/cube.h"
+#include "bake/environment/file/radiance.h"
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+/// Six files in the order of CubeFace.
+struct FaceFiles {
+    std::array<std::string, 6> files;
+    std::string naming; ///< the six words that told the faces, "px nx py ny pz nz"; empty: the order of the list did
+};
+
+/// The words that stand for faces, each set in the order px nx py ny pz nz:
+///   px nx py ny pz nz | px mx py my pz mz | posx negx ... | right left up down front back | ... top bottom ...
+///   rt lf up dn bk ft (id Software's: bk is +Z) | rt lf up dn fr bk | +x -x +y -y +z -z | xpos xneg ... | 0 1 2 3 4 5
+/// in lower case, upper case or with a capital.
+///
+/// Six paths, in any order when what their names differ in are such words, else in the order px nx py ny pz nz. Throws
+/// Error{Refusal::usage}, naming what is missing or given twice, for any other number and for a face given twice.
+FaceFiles name_faces(const std::vector<std::string>& paths);
+
+/// The six files of a pattern with one `%s` that are there, by any of the sets of words. Throws Error{Refusal::usage}
+/// when it does not hold exactly one `%s`; Error{Refusal::unreadable}, naming the missing file, when no set is whole.
+FaceFiles find_faces(const std::string& pattern);
+
+/// The six names that are written for a pattern: `%s` is replaced by px, nx, py, ny, pz, nz. Throws
+/// Error{Refusal::usage} when it does not hold exactly one `%s`.
+std::array<std::string, 6> cube_files(const std::string& pattern);
+
+/// What was found while reading faces.
+struct FacesReport {
+    std::array<BadTexels, 6> mended;
+    ImageInfo first; ///< of px
+};
+
+/// Reads six faces with the channels they have, one to four. Throws Error naming the file: unreadable; unsuitable for a
+/// face that is not square, or whose size, number of channels or sample type is not that of the first.
+Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& options = {}, FacesReport* report = nullptr);
+
+/// Reads six faces for the preview: three channels, finite. Throws as read_faces, and for fewer than three channels.
+Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);
+
+/// The first three channels; grey gives three equal ones.
+Image<float> to_rgb(const Image<float>& image);
+
+} // namespace bake

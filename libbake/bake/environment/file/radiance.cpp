@@ -1,0 +1,134 @@
+#include "bake/environment/file/radiance.h"
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include "bake/base/text.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bake {
+namespace {
+
+constexpr float half_largest = 65504.0f;
+
+bool is_bad(float value, float largest) noexcept { return !(value >= 0 && value <= largest); }
+
+void count(BadTexels& bad, const float* texel, int channels, int alpha, float largest, int x, int y) noexcept {
+    bool nan = false, infinite = false, negative = false, over = false;
+    for (int c = 0; c < channels; ++c) {
+        const float value = texel[c];
+        if (c == alpha || !is_bad(value, largest)) continue;
+        if (bad.x < 0) bad.x = x, bad.y = y, bad.value = value;
+        nan |= std::isnan(value);
+        infinite |= std::isinf(value);
+        negative |= value < 0 && !std::isinf(value);
+        over |= value > largest && !std::isinf(value);
+    }
+    bad.nan += nan;
+    bad.infinite += infinite;
+    bad.negative += negative;
+    bad.over += over;
+    bad.texels += nan || infinite || negative || over;
+}
+
+void zero_texel(float* texel, int channels, int alpha, float largest) noexcept {
+    bool faulty = false;
+    for (int c = 0; c < channels; ++c) faulty |= c != alpha && is_bad(texel[c], largest);
+    if (!faulty) return;
+    for (int c = 0; c < channels; ++c)
+        if (c != alpha) texel[c] = 0;
+}
+
+void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept {
+    for (int c = 0; c < channels; ++c) {
+        if (c == alpha || !is_bad(texel[c], largest)) continue;
+        const float most = std::isinf(texel[c]) ? std::min(largest, half_largest) : largest;
+        texel[c] = texel[c] > 0 ? most : 0; // NaN gives 0
+    }
+}
+
+template <class Work> void each_texel(Image<float>& image, Work&& work) {
+    for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y)
+            for (int x = 0; x < image.width(); ++x) work(&image.at(x, y));
+    });
+}
+
+} // namespace
+
+bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
+    if (space != ColourSpace::automatic) return space == ColourSpace::srgb;
+    return info.type == SampleType::u8 || info.srgb_tagged;
+}
+
+BadTexels find_bad(const Image<float>& image, float largest, int alpha) {
+    std::vector<BadTexels> rows(image.height());
+    const int channels = image.channels();
+    for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y) {
+            const float* row = image.row(y);
+            // A quick look at the row decides: hardly any has a fault.
+            bool any = false;
+            for (int i = 0; i < image.width() * channels; ++i) any |= is_bad(row[i], largest);
+            if (!any) continue;
+            for (int x = 0; x < image.width(); ++x) count(rows[y], row + std::size_t(x) * channels, channels, alpha, largest, x, y);
+        }
+    });
+    BadTexels all;
+    for (const BadTexels& row : rows) {
+        if (all.x < 0 && row.x >= 0) all.x = row.x, all.y = row.y, all.value = row.value;
+        all.nan += row.nan;
+        all.infinite += row.infinite;
+        all.negative += row.negative;
+        all.over += row.over;
+        all.texels += row.texels;
+    }
+    return all;
+}
+
+std::string to_text(const BadTexels& bad, float largest) {
+    std::string text;
+    const auto add = [&](std::int64_t count, const std::string& what) {
+        if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+    };
+    add(bad.nan, "NaN");
+    add(bad.infinite, "infinite");
+    add(bad.negative, "negative");
+    add(bad.over, format("above %g", double(largest)));
+    return text + format("; first at column %d, row %d (%g)", bad.x, bad.y, double(bad.value));
+}
+
+BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest, int alpha) {
+    const BadTexels bad = find_bad(image, largest, alpha);
+    if (bad.texels == 0) return bad;
+    const int channels = image.channels();
+    switch (policy) {
+    case BadPolicy::refuse:
+        throw Error(Refusal::unsuitable, file + ": holds texels that are no radiance: " + to_text(bad, largest) +
+                                             "; mend the picture, or let bake cubemap do it with --bad zero or --bad clamp");
+    case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
+    case BadPolicy::clamp: each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); }); break;
+    }
+    return bad;
+}
+
+Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out, BadTexels* found) {
+    ImageInfo info;
+    Image<float> image = read_image(file, &info);
+    if (image.channels() > 4)
+        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
+                                             " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
+    if (is_srgb(options.space, info)) srgb_to_linear(image, info.alpha_channel);
+    BadTexels bad;
+    if (options.allow_negative) {
+        bad = find_bad(image, 3.4e38f, info.alpha_channel);
+        if (bad.nan + bad.infinite + bad.over > 0) bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
+    } else {
+        bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
+    }
+    if (info_out) *info_out = std::move(info);
+    if (found) *found = bad;
+    return image;
+}
+
+} // namespace bake

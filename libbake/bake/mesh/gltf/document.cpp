@@ -1,0 +1,231 @@
+#include "bake/mesh/gltf/document.h"
+#include "bake/base/text_line.h"
+#include "bake/base/error.h"
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace bake {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+    throw Error(Refusal::unreadable, path + ": " + why + "; copy or export the file again");
+}
+
+std::uint32_t little_endian(const char* p) noexcept {
+    const auto byte = [p](int i) { return std::uint32_t(static_cast<unsigned char>(p[i])) << (8 * i); };
+    return byte(0) | byte(1) | byte(2) | byte(3);
+}
+
+std::span<const std::uint8_t> bytes(const char* p, std::size_t size) noexcept {
+    return {reinterpret_cast<const std::uint8_t*>(p), size};
+}
+
+struct Chunks {
+    std::span<const std::uint8_t> json, binary;
+    bool has_binary = false;
+};
+
+/// The two chunks of a .glb; further ones are skipped, as the format asks.
+Chunks split_glb(const FileBytes& file, const std::string& path) {
+    constexpr std::uint32_t json_type = 0x4e4f534a, binary_type = 0x004e4942;
+    if (file.size < 20) refuse(path, "is cut short: " + std::to_string(file.size) + " bytes are no .glb");
+    const std::uint32_t version = little_endian(file.begin() + 4), length = little_endian(file.begin() + 8);
+    if (version != 2) refuse(path, "is a .glb of version " + std::to_string(version) + ", and not 2");
+    if (length > file.size)
+        refuse(path, "is cut short: it has " + std::to_string(file.size) + " of " + std::to_string(length) + " bytes");
+    Chunks chunks;
+    const char* p = file.begin() + 12;
+    const char* const end = file.begin() + length;
+    for (int chunk = 0; end - p >= 8; ++chunk) {
+        const std::size_t size = little_endian(p);
+        const std::uint32_t type = little_endian(p + 4);
+        p += 8;
+        if (size > static_cast<std::size_t>(end - p)) refuse(path, "has a chunk that reaches behind the end of the file");
+        if (chunk == 0 && type != json_type) refuse(path, "does not begin with JSON");
+        if (chunk == 0) chunks.json = bytes(p, size);
+        if (chunk == 1 && type == binary_type) chunks.binary = bytes(p, size), chunks.has_binary = true;
+        p += std::min((size + 3) / 4 * 4, static_cast<std::size_t>(end - p));
+    }
+    return chunks;
+}
+
+/// How deep lists and objects lie in each other.
+int depth_of(std::span<const std::uint8_t> text) noexcept {
+    int depth = 0, deepest = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::uint8_t c = text[i];
+        if (c == '"') quoted = !quoted;
+        else if (quoted) i += c == '\\' ? 1 : 0;
+        else if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        else if (c == ']' || c == '}') --depth;
+    }
+    return deepest;
+}
+
+json parse(std::span<const std::uint8_t> text, const std::string& path) {
+    // What reads the parsed JSON calls itself for every level. (The parser's own callback takes the square of the time.)
+    constexpr int deepest = 64;
+    if (depth_of(text) > deepest) refuse(path, "has JSON nested deeper than " + std::to_string(deepest));
+    try {
+        json parsed = json::parse(text.begin(), text.end());
+        if (!parsed.is_object()) refuse(path, "is not a glTF: its JSON is not an object");
+        return parsed;
+    } catch (const json::exception& error) {
+        const std::string why = error.what(); // "[json.exception.parse_error.101] parse error at line 1, ..."
+        refuse(path, "is not a glTF: " + shown(why.substr(why.find("] ") == std::string::npos ? 0 : why.find("] ") + 2)));
+    }
+}
+
+/// The value of a digit of base64, or -1.
+int base64_digit(char c) noexcept {
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
+}
+
+/// False for anything that is not base64.
+bool decode_base64(std::string_view text, std::vector<std::uint8_t>& out) {
+    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    if (text.size() % 4 == 1) return false;
+    out.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        const int digit = base64_digit(c);
+        if (digit < 0) return false;
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        out.push_back(static_cast<std::uint8_t>(bits >> held));
+    }
+    return true;
+}
+
+bool is_data_uri(const std::string& uri) { return uri.rfind("data:", 0) == 0; }
+
+/// data:MIME;base64,TEXT
+std::vector<std::uint8_t> decode_data_uri(const std::string& uri, std::string& mime_type, const std::string& what,
+                                          const std::string& path) {
+    const std::size_t comma = uri.find(',');
+    const std::string head = uri.substr(5, comma == std::string::npos ? 0 : comma - 5);
+    std::vector<std::uint8_t> out;
+    if (head.size() < 7 || head.compare(head.size() - 7, 7, ";base64") != 0 ||
+        !decode_base64(std::string_view(uri).substr(comma + 1), out))
+        refuse(path, what + " is not written in base64");
+    mime_type = head.substr(0, head.find(';'));
+    return out;
+}
+
+/// "%20" is a blank. Throws for what is no file beside the glTF.
+std::string file_of_uri(const std::string& uri, const std::string& what, const std::string& path) {
+    std::string name;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const auto hex = [&uri](std::size_t k) {
+            return k < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[k])) != 0;
+        };
+        if (uri[i] == '%' && hex(i + 1) && hex(i + 2)) {
+            name += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            name += uri[i];
+        }
+    }
+    const bool control = std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (name.empty() || control || name.find("://") != std::string::npos || std::filesystem::path(name).is_absolute())
+        refuse(path, what + " is at " + shown(name) + ", which is no file beside it");
+    return name;
+}
+
+std::string text_of(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const std::string& path, GltfDocument& out) {
+    const std::string what = "its buffer " + std::to_string(i);
+    const auto length = object.is_object() ? object.find("byteLength") : object.end();
+    if (!object.is_object() || length == object.end() || !length->is_number_unsigned())
+        refuse(path, what + " has no byteLength");
+    const std::string uri = text_of(object, "uri");
+    std::span<const std::uint8_t> found;
+    if (uri.empty()) {
+        if (i != 0 || !chunks.has_binary) refuse(path, what + " has neither a uri nor a binary chunk");
+        found = chunks.binary;
+    } else if (is_data_uri(uri)) {
+        std::string ignored;
+        out.decoded.push_back(decode_data_uri(uri, ignored, what, path));
+        found = out.decoded.back();
+    } else {
+        const auto file = std::filesystem::path(path).parent_path() / file_of_uri(uri, what, path);
+        out.beside.push_back(read_file(file.string()));
+        found = bytes(out.beside.back().begin(), out.beside.back().size);
+    }
+    if (length->get<std::uint64_t>() > found.size())
+        refuse(path, what + " has " + std::to_string(found.size()) + " of " + std::to_string(length->get<std::uint64_t>()) +
+                         " bytes");
+    out.buffers.push_back(found.first(static_cast<std::size_t>(length->get<std::uint64_t>())));
+}
+
+void read_image(const json& object, std::size_t i, const std::string& path, GltfDocument& out) {
+    const std::string what = "its image " + std::to_string(i);
+    if (!object.is_object()) refuse(path, what + " is not described");
+    GltfImage image{text_of(object, "name"), text_of(object, "mimeType"), {}, {}};
+    std::int64_t view = -1;
+    const std::string uri = text_of(object, "uri");
+    if (const auto found = object.find("bufferView"); found != object.end() && found->is_number_unsigned()) {
+        view = found->get<std::int64_t>();
+        if (view < 0) view = INT64_MAX; // beyond any table
+    } else if (is_data_uri(uri)) {
+        image.bytes = decode_data_uri(uri, image.mime_type, what, path);
+    } else if (!uri.empty()) {
+        image.uri = file_of_uri(uri, what, path);
+        try {
+            const FileBytes file = read_file((std::filesystem::path(path).parent_path() / image.uri).string());
+            image.bytes.assign(file.begin(), file.end());
+        } catch (const Error& error) {
+            if (error.refusal != Refusal::unreadable) throw; // a mesh is of use without its pictures
+        }
+    }
+    out.images.push_back(std::move(image));
+    out.image_view.push_back(view);
+}
+
+} // namespace
+
+GltfDocument read_gltf_document(const std::string& path) {
+    GltfDocument out;
+    out.file = read_file(path);
+    Chunks chunks;
+    if (out.file.size >= 4 && std::memcmp(out.file.begin(), "glTF", 4) == 0) {
+        chunks = split_glb(out.file, path);
+    } else {
+        chunks.json = bytes(out.file.begin(), out.file.size);
+    }
+    json parsed = parse(chunks.json, path);
+    const auto asset = parsed.find("asset");
+    const std::string version = asset != parsed.end() && asset->is_object() ? text_of(*asset, "version") : "";
+    if (version.rfind("2.", 0) != 0)
+        refuse(path, version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
+    const auto each = [&](const char* key, auto&& work) {
+        const auto list = parsed.find(key);
+        if (list == parsed.end()) return;
+        if (!list->is_array()) refuse(path, std::string("its ") + key + " are not a list");
+        out.decoded.reserve(out.decoded.size() + list->size()), out.beside.reserve(out.beside.size() + list->size());
+        for (std::size_t i = 0; i < list->size(); ++i) work((*list)[i], i);
+        parsed.erase(key);
+    };
+    each("buffers", [&](const json& object, std::size_t i) { read_buffer(object, i, chunks, path, out); });
+    each("images", [&](const json& object, std::size_t i) { read_image(object, i, path, out); });
+    for (const char* unread : {"animations", "skins", "cameras", "extensions", "extras"}) parsed.erase(unread);
+    out.json = parsed.dump();
+    return out;
+}
+
+} // namespace bake

@@ -1,0 +1,188 @@
+#include "bake/mesh/gltf/geometry.h"
+#include "bake/mesh/triangulate.h"
+#include <atomic>
+#include <map>
+
+namespace bake {
+namespace {
+
+constexpr std::int64_t grain = 1 << 16;
+
+std::uint32_t name_at(const std::vector<std::uint32_t>& face_name, std::size_t face) noexcept {
+    return face_name.empty() ? no_index : face_name[face];
+}
+
+std::size_t triangles_of(const Mesh& mesh, std::size_t face) noexcept {
+    return std::size_t(mesh.face_begin[face + 1]) - mesh.face_begin[face] - 2;
+}
+
+std::vector<GltfPart> parts_of(const Mesh& mesh, std::size_t first_face, std::size_t end_face) {
+    std::vector<GltfPart> parts;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;
+    for (std::size_t f = first_face; f < end_face; ++f) {
+        const std::pair pair(name_at(mesh.face_material, f), name_at(mesh.face_group, f));
+        if (!parts.empty() && parts.size() == 1 && parts[0].material == pair.first && parts[0].group == pair.second) {
+            parts[0].triangles += triangles_of(mesh, f); // the usual case, without a look-up
+            if (!parts[0].faces.empty()) parts[0].faces.push_back(static_cast<std::uint32_t>(f));
+            continue;
+        }
+        const auto [found, added] = known.try_emplace(pair, parts.size());
+        if (added) parts.push_back({pair.first, pair.second, 0, {}});
+        if (parts.size() == 2 && added)
+            for (std::size_t k = first_face; k < f; ++k) parts[0].faces.push_back(static_cast<std::uint32_t>(k));
+        parts[found->second].triangles += triangles_of(mesh, f);
+        if (parts.size() > 1) parts[found->second].faces.push_back(static_cast<std::uint32_t>(f));
+    }
+    return parts;
+}
+
+Bounds bounds_of(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
+    const auto rows = static_cast<std::int64_t>(corners.size());
+    const auto at = [&](std::int64_t i) { return mesh.positions[mesh.corner_position[corners[static_cast<std::size_t>(i)]]]; };
+    if (corners.empty()) return {};
+    std::vector<Bounds> boxes(static_cast<std::size_t>((rows + grain - 1) / grain), Bounds{at(0), at(0)});
+    for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
+        Bounds box = boxes[0];
+        box = {at(begin), at(begin)};
+        for (std::int64_t i = begin; i < end; ++i) box = {glm::min(box.min, at(i)), glm::max(box.max, at(i))};
+        boxes[static_cast<std::size_t>(begin / grain)] = box;
+    });
+    Bounds all = boxes[0];
+    for (const Bounds& box : boxes) all = {glm::min(all.min, box.min), glm::max(all.max, box.max)};
+    return all;
+}
+
+/// Newell's: right for any polygon, and +z for one without area.
+Vec3f face_normal(const Mesh& mesh, std::uint32_t corner) {
+    const auto after = std::upper_bound(mesh.face_begin.begin(), mesh.face_begin.end(), corner);
+    const std::uint32_t begin = *(after - 1), end = *after;
+    const Vec3d origin(mesh.positions[mesh.corner_position[begin]]);
+    Vec3d normal(0);
+    for (std::uint32_t c = begin; c < end; ++c) {
+        const std::uint32_t next = c + 1 < end ? c + 1 : begin;
+        normal += glm::cross(Vec3d(mesh.positions[mesh.corner_position[c]]) - origin,
+                             Vec3d(mesh.positions[mesh.corner_position[next]]) - origin);
+    }
+    const Vec3d unit = unit_or_zero(normal);
+    return unit == Vec3d(0) ? Vec3f(0, 0, 1) : Vec3f(unit);
+}
+
+/// The format asks for unit vectors; what rounding leaves is left as it is, so that it reads back to the last bit.
+bool is_unit(const Vec3f& v) noexcept { return std::abs(glm::dot(v, v) - 1) <= 1e-3f; }
+
+Vec3f unit_normal(const Mesh& mesh, std::uint32_t corner, bool& mended) {
+    const Vec3f n = normal_at(mesh, corner);
+    mended = !is_unit(n);
+    if (!mended) return n;
+    const Vec3f unit(unit_or_zero(Vec3d(n)));
+    return unit == Vec3f(0) ? face_normal(mesh, corner) : unit;
+}
+
+Vec4f unit_tangent(const Mesh& mesh, std::uint32_t corner, bool& mended) {
+    const Vec4f t = mesh.tangents[corner];
+    mended = !is_unit(Vec3f(t)) || (t.w != 1 && t.w != -1);
+    if (!mended) return t;
+    const float sign = t.w < 0 ? -1.0f : 1.0f;
+    const Vec3d unit = unit_or_zero(Vec3d(t));
+    if (unit != Vec3d(0)) return {Vec3f(unit), sign};
+    bool ignored = false;
+    const Vec3d n(unit_normal(mesh, corner, ignored));
+    return {Vec3f(unit_or_zero(glm::cross(n, std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)))), sign};
+}
+
+template <class Vec> void put_all(char* to, const Vec& value) noexcept {
+    for (int k = 0; k < Vec::length(); ++k) put_bytes(to, value[k]);
+}
+
+} // namespace
+
+GltfNodeGeometry lay_out(const Mesh& mesh, std::size_t first_face, std::size_t end_face) {
+    GltfNodeGeometry node{first_face, end_face, distinct_corners(mesh, first_face, end_face), {}, {}};
+    node.parts = parts_of(mesh, first_face, end_face);
+    node.bounds = bounds_of(mesh, node.vertices.first);
+    return node;
+}
+
+void write_positions(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node) {
+    write_fixed_rows(out, node.vertices.first.size(), 12, [&](char* to, std::size_t i) {
+        put_all(to, mesh.positions[mesh.corner_position[node.vertices.first[i]]]);
+    });
+}
+
+void write_normals(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node, GltfWritten& done) {
+    std::atomic<std::size_t> count = 0;
+    write_fixed_rows(out, node.vertices.first.size(), 12, [&](char* to, std::size_t i) {
+        bool mended = false;
+        put_all(to, unit_normal(mesh, node.vertices.first[i], mended));
+        if (mended) count.fetch_add(1, std::memory_order_relaxed);
+    });
+    done.mended_normals += count;
+}
+
+void write_tangents(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node, GltfWritten& done) {
+    std::atomic<std::size_t> count = 0;
+    write_fixed_rows(out, node.vertices.first.size(), 16, [&](char* to, std::size_t i) {
+        bool mended = false;
+        put_all(to, unit_tangent(mesh, node.vertices.first[i], mended));
+        if (mended) count.fetch_add(1, std::memory_order_relaxed);
+    });
+    done.mended_tangents += count;
+}
+
+void write_uvs(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node) {
+    write_fixed_rows(out, node.vertices.first.size(), 8, [&](char* to, std::size_t i) {
+        const Vec2f uv = uv_at(mesh, node.vertices.first[i]);
+        put_all(to, Vec2f(uv.x, 1 - uv.y));
+    });
+}
+
+void write_attribute(BlockWriter& out, const Attribute& attribute, bool flip_v, const GltfNodeGeometry& node) {
+    const auto n = static_cast<std::size_t>(attribute.components);
+    write_fixed_rows(out, node.vertices.first.size(), 4 * n, [&](char* to, std::size_t i) {
+        const float* const value = attribute.values.data() + node.vertices.first[i] * n;
+        for (std::size_t k = 0; k < n; ++k) put_bytes(to, flip_v && k == 1 ? 1 - value[k] : value[k]);
+    });
+}
+
+void write_indices(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node) {
+    const std::uint32_t first_corner = mesh.face_begin[node.first_face];
+    const bool narrow = node.index_bytes() == 2;
+    for (const GltfPart& part : node.parts) {
+        const std::size_t faces = part.faces.empty() ? node.end_face - node.first_face : part.faces.size();
+        const auto face = [&](std::size_t i) { return part.faces.empty() ? node.first_face + i : part.faces[i]; };
+        write_blocks(
+            out, faces,
+            [&](std::size_t first, std::size_t end) {
+                std::size_t triangles = 0;
+                if (part.faces.empty())
+                    triangles = mesh.face_begin[face(end)] - mesh.face_begin[face(first)] - 2 * (end - first);
+                else
+                    for (std::size_t i = first; i < end; ++i) triangles += triangles_of(mesh, face(i));
+                return triangles * 3 * node.index_bytes();
+            },
+            [&](std::size_t first, std::size_t end, char* to) {
+                std::vector<Triangle> triangles;
+                for (std::size_t i = first; i < end;) { // runs of faces side by side
+                    const std::size_t f = face(i);
+                    std::size_t run = 1;
+                    if (part.faces.empty()) run = end - i;
+                    else
+                        while (i + run < end && face(i + run) == f + run) ++run;
+                    triangles.resize(mesh.face_begin[f + run] - mesh.face_begin[f] - 2 * run);
+                    triangulate_faces(mesh, f, f + run, triangles.data());
+                    for (const Triangle& triangle : triangles)
+                        for (const std::uint32_t c : triangle.corner) {
+                            const std::uint32_t index = node.vertices.corner[c - first_corner];
+                            *to++ = static_cast<char>(index);
+                            *to++ = static_cast<char>(index >> 8);
+                            if (narrow) continue;
+                            *to++ = static_cast<char>(index >> 16);
+                            *to++ = static_cast<char>(index >> 24);
+                        }
+                    i += run;
+                }
+            });
+    }
+}
+
+} // namespace bake

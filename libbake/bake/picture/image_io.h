@@ -1,0 +1,52 @@
+// Images in and out: plain TIFF by ourselves, all other files by OpenImageIO.
+#pragma once
+#include "bake/picture/image.h"
+#include "bake/picture/image_types.h"
+#include <memory>
+
+namespace bake {
+
+/// Reads the header. Throws Error{Refusal::unreadable} naming the file and the reason.
+ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {});
+
+/// Reads all channels as data: unsigned integers divided by their largest value, floats as they are; never sRGB-decoded
+/// and never divided by alpha. Data windows are placed in their display window (0 outside).
+/// Throws Error{Refusal::unreadable} for a file that is missing, damaged, cut short or of an unknown format, and
+/// Error{Refusal::unsuitable} for one that is over `limits`.
+Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, const ReadLimits& limits = {});
+
+/// Decodes sRGB colour (IEC 61966-2-1) in place, alpha left alone: for colour textures and skies, never for data.
+void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
+/// The reverse, for pictures that people look at.
+float linear_to_srgb(float linear) noexcept;
+
+/// Depth a file of this name gets. Throws Error{Refusal::usage} for a depth its format cannot hold (half in png, 8 bit in
+/// exr) or an ending other than .png, .exr, .tif, .tiff.
+Depth resolve_depth(const std::string& path, Depth depth);
+
+/// Writes rows from the top down as they come, so that a large picture need never be whole in memory. Integer depths
+/// round [0,1] to the nearest level and clamp; the caller biases signed data first. Atomic: the target appears in finish().
+class ImageWriter {
+public:
+    /// Throws Error{Refusal::unwritable} or Error{Refusal::usage}, as resolve_depth.
+    ImageWriter(const std::string& path, int width, int height, int channels, const WriteOptions& options = {});
+    ~ImageWriter();
+    /// `rows` rows of width * channels floats.
+    /// With mips, every call but the last of a level writes a multiple of 64 rows.
+    void write(const float* values, int rows);
+    /// Ends a level and begins the next, half as wide and high, rounded down, at least 1.
+    void next_level();
+    /// Ends the file under its temporary name, when several are to appear together.
+    void close();
+    /// Closes, if that is still to do, and puts the file under its own name.
+    void finish();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Writes a whole image atomically. Throws as ImageWriter.
+void write_image(const std::string& path, const Image<float>& image, const WriteOptions& options = {});
+
+} // namespace bake

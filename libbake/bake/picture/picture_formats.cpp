@@ -1,0 +1,368 @@
+#include "bake/picture/picture_formats.h"
+#include "bake/picture/image_guard.h"
+#include "bake/picture/png_header.h"
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include "bake/base/progress.h"
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <unistd.h>
+
+namespace bake {
+namespace {
+
+constexpr int band_rows = 256; // a multiple of every compression's block of scanlines
+
+void configure_oiio() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("limits:channels", 64);
+        OIIO::attribute("limits:imagesize_MB", 64 * 1024);
+    });
+    OIIO::attribute("exr_threads", thread_count() > 1 ? thread_count() : 0);
+}
+
+// OIIO's messages may span lines and repeat the file's name; ours are one line.
+std::string one_line(std::string text, const std::string& path) {
+    const std::string ours = "the file";
+    for (const std::string& name : {'"' + path + '"', path})
+        for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += ours.size()) text.replace(at, name.size(), ours);
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32) c = ' ';
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+    return text.empty() ? "unknown error" : text;
+}
+
+Error unreadable(const std::string& path, const std::string& why, const char* mend = "the file is damaged; export it again") {
+    return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
+}
+
+// Most samples one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
+// anything is allocated.
+double largest_ratio(const OIIO::ImageSpec& spec, const std::string& format) {
+    if (format == "dds") return 16; // BC1: 8 bytes per 16 RGBA texels
+    // DWA deflates one mean per block of 8 x 8 texels; flat pictures measured 7000.
+    if (format == "openexr" && std::string(spec.get_string_attribute("compression")).starts_with("dwa")) return 32768;
+    return 4096; // deflate reaches 1032, flat JPEG blocks less
+}
+
+// A display window with nothing but black around its data costs no bytes in the file. More than this must be earned.
+constexpr double free_window_bytes = 256 << 20, window_ratio = 20000;
+
+SampleType sample_type(OIIO::TypeDesc type) {
+    switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8: return SampleType::u8;
+    case OIIO::TypeDesc::UINT16: return SampleType::u16;
+    case OIIO::TypeDesc::UINT32: return SampleType::u32;
+    case OIIO::TypeDesc::HALF: return SampleType::half;
+    case OIIO::TypeDesc::FLOAT: return SampleType::float32;
+    default: return SampleType::other;
+    }
+}
+
+// The part of the file that is the picture: the display window, except in OpenEXR's cube strips, whose six faces fill a
+// data window taller than it.
+struct Window {
+    int x, y, width, height;
+};
+
+constexpr const char *cube_format = "CubeFace Environment", *latlong_format = "LatLong Environment";
+
+EnvironmentTag environment_tag(const OIIO::ImageSpec& spec) {
+    const auto format = spec.get_string_attribute("textureformat");
+    if (format != cube_format && format != latlong_format) return EnvironmentTag::none;
+    // Which of the two, the shape says: exrenvmap passes OpenImageIO's own attribute on unchanged beside the new envmap.
+    return spec.height == 6 * std::int64_t(spec.width) ? EnvironmentTag::cube : EnvironmentTag::latlong;
+}
+
+Window picture_window(const OIIO::ImageSpec& spec) {
+    const bool cube = environment_tag(spec) == EnvironmentTag::cube;
+    if (cube || spec.full_width <= 0 || spec.full_height <= 0) return {spec.x, spec.y, spec.width, spec.height};
+    return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+}
+
+ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
+    const OIIO::ImageSpec& spec = in.spec();
+    const Window window = picture_window(spec);
+    ImageInfo info;
+    info.format = in.format_name();
+    info.width = window.width;
+    info.height = window.height;
+    info.channels = spec.channelnames;
+    info.channels.resize(spec.nchannels);
+    info.type = sample_type(spec.format);
+    info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
+    info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
+    info.alpha_channel = spec.alpha_channel;
+    info.environment = environment_tag(spec);
+    // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
+    if (info.format == "png")
+        if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
+    return info;
+}
+
+// libpng writes lines of its own to stderr, about whole files too; what matters of them comes back through OIIO.
+class MutedStderr {
+public:
+    explicit MutedStderr(bool mute) : saved_(mute ? dup(2) : -1) {
+        const int nowhere = saved_ >= 0 ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
+        if (nowhere < 0) return;
+        dup2(nowhere, 2);
+        close(nowhere);
+    }
+    ~MutedStderr() {
+        if (saved_ < 0) return;
+        dup2(saved_, 2);
+        close(saved_);
+    }
+    MutedStderr(const MutedStderr&) = delete;
+    MutedStderr& operator=(const MutedStderr&) = delete;
+
+private:
+    int saved_;
+};
+
+// First bytes of the file, fewer when it is short.
+std::string file_head(const std::string& path) {
+    std::string head(128, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), std::streamsize(head.size()));
+    head.resize(std::size_t(file.gcount()));
+    return head;
+}
+
+bool looks_like_png(const std::string& path) {
+    return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const ReadLimits& limits, ImageInfo& info) {
+    namespace fs = std::filesystem;
+    configure_oiio();
+    std::error_code failed;
+    const fs::file_status status = fs::status(path, failed);
+    if (!fs::exists(status)) throw unreadable(path, "no such file", "check the name");
+    if (fs::is_directory(status)) throw unreadable(path, "is a folder", "name an image file in it");
+    const auto stored = std::int64_t(fs::file_size(path, failed));
+    if (failed || !fs::is_regular_file(status)) throw unreadable(path, "is not a regular file", "name an image file");
+    if (stored == 0) throw unreadable(path, "is empty");
+    if (const std::string fault = image_fault(path, stored); !fault.empty()) throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
+
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
+    const MutedStderr muted(looks_like_png(path));
+    std::unique_ptr<OIIO::ImageInput> in;
+    try {
+        in = OIIO::ImageInput::open(path, &config);
+    } catch (const std::exception& error) { // some decoders pass on what their containers throw
+        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
+    }
+    if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
+
+    info = describe(*in, path);
+    const OIIO::ImageSpec& spec = in->spec();
+    const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
+    if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
+    if (spec.deep) throw unsuitable("is a deep image; flatten it");
+    if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
+        throw unreadable(path, "has no pixels");
+    // In double: a hostile header overflows 64 bits.
+    const double decoded = double(spec.width) * spec.height * spec.nchannels, picture = 4.0 * info.width * info.height * spec.nchannels;
+    const double stored_bytes = double(stored);
+    const std::string size = std::to_string(std::max(info.width, spec.width)) + " x " + std::to_string(std::max(info.height, spec.height));
+    if (decoded > largest_ratio(spec, info.format) * stored_bytes + 65536 || (picture > free_window_bytes && picture > window_ratio * stored_bytes))
+        throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
+    if (std::max(4 * decoded, picture) > double(limits.max_bytes) || std::max({info.width, info.height, spec.width, spec.height}) > (1 << 20))
+        throw unsuitable(size + " pixels need more memory than the limit of " + std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
+    return in;
+}
+
+// A library's warning that some of the picture is missing; other warnings are let pass.
+bool says_cut_short(const std::string& message) {
+    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
+}
+
+void read_window(OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
+    const OIIO::ImageSpec& spec = in.spec();
+    bool whole = true;
+    if (spec.tile_width == 0) {
+        for (int y = 0; y < spec.height && whole; y += band_rows) {
+            throw_if_interrupted();
+            const int end = std::min(spec.height, y + band_rows);
+            whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.row(y));
+        }
+    } else {
+        whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data());
+    }
+    const std::string message = in.geterror();
+    if (!whole || says_cut_short(message)) throw unreadable(path, message);
+}
+
+// Moves the data window to its place in the picture's window; what it does not cover is 0.
+Image<float> place(const Image<float>& data, const OIIO::ImageSpec& spec, const Window& window) {
+    Image<float> image(window.width, window.height, spec.nchannels);
+    std::fill_n(image.data(), image.size(), 0.0f);
+    const int left = std::max(spec.x, window.x), right = std::min(spec.x + spec.width, window.x + window.width);
+    const int top = std::max(spec.y, window.y), bottom = std::min(spec.y + spec.height, window.y + window.height);
+    for (int y = top; y < bottom && left < right; ++y)
+        std::copy_n(&data.at(left - spec.x, y - spec.y), std::size_t(right - left) * spec.nchannels,
+                    &image.at(left - window.x, y - window.y));
+    return image;
+}
+
+} // namespace
+
+namespace {
+
+ImageInfo read_info(const std::string& path, const ReadLimits& limits) {
+    ImageInfo info;
+    open_image(path, limits, info);
+    return info;
+}
+
+Image<float> read(const std::string& path, ImageInfo& info, const ReadLimits& limits) {
+    const auto in = open_image(path, limits, info);
+    const OIIO::ImageSpec spec = in->spec();
+    const Window window = picture_window(spec);
+    Image<float> image;
+    try {
+        image = Image<float>(spec.width, spec.height, spec.nchannels);
+        const MutedStderr muted(info.format == "png");
+        read_window(*in, path, image);
+        if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
+            image = place(image, spec, window);
+    } catch (const std::bad_alloc&) {
+        throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
+    } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
+        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
+    }
+    return image;
+}
+
+OIIO::TypeDesc stored_type(Depth depth) {
+    switch (depth) {
+    case Depth::u8: return OIIO::TypeDesc::UINT8;
+    case Depth::u16: return OIIO::TypeDesc::UINT16;
+    case Depth::half: return OIIO::TypeDesc::HALF;
+    default: return OIIO::TypeDesc::FLOAT;
+    }
+}
+
+} // namespace
+
+struct FormatWriter {
+    FormatWriter(const std::string& target, const std::string& file, const OIIO::ImageSpec& header, OIIO::TypeDesc rows)
+        : path(target), temporary(file), spec(header), type(rows) {}
+
+    std::string path, temporary;
+    OIIO::ImageSpec spec;
+    OIIO::TypeDesc type; ///< of the rows handed over
+    std::unique_ptr<OIIO::ImageOutput> out;
+    int next_row = 0;
+
+    // libpng complains on stderr about a file that is given up; its reason is told elsewhere.
+    ~FormatWriter() {
+        const MutedStderr muted(out && out->format_name() == std::string("png"));
+        out.reset();
+    }
+
+    [[noreturn]] void fail(const std::string& why) {
+        throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, temporary) + "); is the disk full?");
+    }
+};
+
+namespace {
+
+std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::string& temporary, const PictureSize& size,
+                                          const WriteOptions& options) {
+    configure_oiio();
+    const OIIO::TypeDesc stored = stored_type(options.depth);
+    const bool integers = options.depth == Depth::u8 || options.depth == Depth::u16;
+    const auto writer = std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
+                                                       integers ? stored : OIIO::TypeDesc::FLOAT);
+    writer->out = OIIO::ImageOutput::create(path);
+    if (!writer->out) writer->fail(OIIO::geterror());
+
+    OIIO::ImageSpec& spec = writer->spec;
+    spec.channelnames = options.channels;
+    spec.alpha_channel = -1;
+    for (int c = 0; c < size.channels; ++c)
+        if (spec.channelnames[c] == "A") spec.alpha_channel = c;
+    const std::string format = writer->out->format_name();
+    const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
+    if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
+    if (format == "png" && options.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+    if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
+    if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (options.environment == EnvironmentTag::cube) {
+        spec.attribute("textureformat", cube_format);
+        spec.full_height = spec.full_width;
+    }
+    if (options.environment == EnvironmentTag::latlong) spec.attribute("textureformat", latlong_format);
+    if (options.mips) {
+        if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        spec.tile_width = spec.tile_height = 64;
+        if (options.environment == EnvironmentTag::none) spec.attribute("textureformat", "Plain Texture");
+    }
+    if (!writer->out->open(temporary, spec)) writer->fail(writer->out->geterror());
+    return writer;
+}
+
+// TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
+bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
+    const OIIO::ImageSpec& spec = writer.spec;
+    const std::size_t texel = writer.type.size() * spec.nchannels, row_size = texel * spec.width, tile_row = texel * spec.tile_width;
+    std::vector<char> tile(tile_row * spec.tile_height);
+    for (int y = 0; y < rows; y += spec.tile_height)
+        for (int x = 0; x < spec.width; x += spec.tile_width) {
+            std::fill(tile.begin(), tile.end(), '\0');
+            const std::size_t covered = texel * std::min(spec.tile_width, spec.width - x);
+            for (int j = 0; j < std::min(spec.tile_height, rows - y); ++j)
+                std::memcpy(tile.data() + j * tile_row, values + (y + j) * row_size + x * texel, covered);
+            if (!writer.out->write_tile(x, writer.next_row + y, 0, writer.type, tile.data())) return false;
+        }
+    return true;
+}
+
+void write(FormatWriter& writer, const void* values, int rows) {
+    OIIO::ImageOutput& out = *writer.out;
+    const int first = writer.next_row, end = first + rows;
+    const bool written = !writer.spec.tile_width  ? out.write_scanlines(first, end, 0, writer.type, values)
+                         : out.supports("mipmap") ? out.write_tiles(0, writer.spec.width, first, end, 0, 1, writer.type, values)
+                                                  : write_whole_tiles(writer, static_cast<const char*>(values), rows);
+    if (!written) writer.fail(out.geterror());
+    writer.next_row = end;
+}
+
+void next_level(FormatWriter& writer) {
+    OIIO::ImageSpec& spec = writer.spec;
+    spec.width = spec.full_width = std::max(1, spec.width / 2);
+    spec.height = spec.full_height = std::max(1, spec.height / 2);
+    if (spec.get_string_attribute("textureformat") == cube_format) spec.full_height = spec.full_width;
+    writer.next_row = 0;
+    // In TIFF the levels are images of their own, which OIIO reads back as levels.
+    const auto mode = writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
+    if (!writer.out->open(writer.temporary, spec, mode)) writer.fail(writer.out->geterror());
+}
+
+void finish(FormatWriter& writer) {
+    if (!writer.out->close()) writer.fail(writer.out->geterror());
+    writer.out.reset(); // close() leaves EXR files with mips open
+    if (!reaches_its_end(writer.temporary)) writer.fail("is cut short");
+}
+
+} // namespace
+} // namespace bake
+
+extern "C" const bake::PictureFormats* bake_picture_formats() {
+    static const bake::PictureFormats formats{bake::read_info, bake::read, bake::open_writer, bake::write, bake::next_level, bake::finish};
+    return &formats;
+}

@@ -1,0 +1,222 @@
+// Rates by error: each edge by its own points, each cell by its lattice (displace_cell_fit.h), cells of whatever size needs
+// the fewest triangles.
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include "bake/relief/displace/cell_fit.h"
+#include "bake/relief/displace/curves.h"
+#include "bake/relief/displace/rates.h"
+#include <memory>
+
+namespace bake {
+namespace {
+
+/// Cells along a patch: about eight segments in the cell that needs most, so that rates follow the relief and cells
+/// that need nothing cost little.
+std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend, double error, std::uint32_t most) {
+    const PatchComplex& complex = surface.base().complex();
+    const auto patches = std::uint32_t(complex.patches.size());
+    const std::uint32_t stride = (patches + 1023) / 1024, probes = (patches + stride - 1) / stride;
+    const std::uint32_t lines = std::clamp(1024 / probes, 2u, 16u);
+    std::vector<double> need(probes); // segments of a square cell
+    for_rows(probes, 1, [&](std::int64_t begin, std::int64_t end) {
+        DisplacedPatch patch(surface, blend);
+        for (auto i = begin; i < end; ++i) {
+            const std::uint32_t p = std::uint32_t(i) * stride;
+            std::uint32_t most_needed[2] = {1, 1};
+            for (std::uint32_t k = 0; k < lines; ++k) {
+                const double x = (k + 0.5) / lines, end_x = complex.patches[p].sides() == 4 ? 1 : 1 - x;
+                for (const bool up : {false, true}) {
+                    const Vec2d from = up ? Vec2d(x, 0) : Vec2d(0, x), to = up ? Vec2d(x, end_x) : Vec2d(end_x, x);
+                    const double texels = std::clamp(std::ceil(texels_along(patch, p, from, to)), 32.0, 4096.0);
+                    most_needed[up] = std::max(most_needed[up], rate_within(along(patch, p, from, to, std::uint32_t(texels)), error, most));
+                }
+            }
+            need[i] = std::sqrt(double(most_needed[0]) * most_needed[1]);
+        }
+    });
+    std::sort(need.begin(), need.end());
+    const double high = need[need.size() * 9 / 10];
+    std::uint32_t split = 1;
+    while (split * 12 <= high && std::uint64_t(patches) * split * split * 4 <= (1u << 21)) split *= 2;
+    return split;
+}
+
+constexpr std::int64_t cells_per_job = 8;
+
+/// Of a cell, by Euler's formula: quads as two.
+std::uint64_t triangles_of(const PatchRates& r) noexcept {
+    std::uint64_t border = 0;
+    for (int i = 0; i < r.sides; ++i) border += r.side[i];
+    return 2 * std::uint64_t(inner_points(r)) + border - 2;
+}
+
+/// Each from its own points alone; at seams from those of every side.
+std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells, double error,
+                                      std::uint32_t most) {
+    const PatchComplex& complex = cells.complex();
+    const std::vector<std::uint32_t> owner = edge_owners(complex);
+    const MeetingTable meetings = edge_meetings(complex);
+    std::vector<std::uint16_t> rates(complex.edges, 1);
+    for_rows(complex.edges, 64, [&](std::int64_t begin, std::int64_t end) {
+        DisplacedPatch patch(surface, blend);
+        for (auto e = std::uint32_t(begin); e < end; ++e) {
+            const auto consider = [&](std::uint32_t cell, int side) {
+                if (is_point(complex.patches[cell], side)) return;
+                const std::uint32_t number = cells.patch(cell);
+                const Vec2d a = cells.on_side(cell, side, 0, 1), b = cells.on_side(cell, side, 1, 1);
+                const double samples = std::clamp(std::ceil(2 * texels_along(patch, number, a, b)), 16.0, 4096.0);
+                const std::uint32_t rate = rate_within(along(patch, number, a, b, std::uint32_t(samples)), error, most);
+                rates[e] = std::uint16_t(std::max<std::uint32_t>(rates[e], rate));
+            };
+            if (const Meeting* m = meetings.find(e))
+                for (const MeetingSide* s = meetings.begin(*m); s != meetings.end(*m); ++s) consider(s->cell, s->place);
+            else if (owner[e] != no_index) consider(owner[e] / 4, int(owner[e] % 4));
+        }
+    });
+    return rates;
+}
+
+/// Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
+constexpr float first_aim = 0.85f;
+
+/// A plan of so many cells along a patch, made in two steps: what samples show, and then what measuring adds.
+class Planner {
+public:
+    Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split)
+        : surface_(surface), blend_(blend), error_(rates.error), cells_(surface.base().complex(), split),
+          aim_(cells_.count(), first_aim), fitted_(cells_.count(), Vec2f(0)) {
+        const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
+        most_ = std::clamp(4 * limit / split, 1u, limit);
+        plan_.split = split;
+        plan_.rates.edge = edge_rates(surface, blend, cells_, first_aim * error_, most_);
+        plan_.rates.across.assign(cells_.count(), 1), plan_.rates.up.assign(cells_.count(), 1);
+        changed_ = fit(std::vector<bool>(cells_.count(), true), 1);
+    }
+    std::uint64_t triangles() const {
+        std::uint64_t sum = 0;
+        for (std::uint32_t c = 0; c < cells_.count(); ++c) sum += triangles_of(rates_of_cell(cells_, plan_.rates, c));
+        return sum;
+    }
+    /// Whether no cell is as fine as it may be.
+    bool within_limit() const {
+        bool within = true;
+        for (std::uint32_t c = 0; c < cells_.count(); ++c) within &= has_room(c);
+        return within;
+    }
+    /// What the samples did not show is measured, and fitted again among more of them.
+    RatePlan finish() {
+        for (int round = 1;; ++round) {
+            cut_poles_as_cells(cells_.complex(), plan_.rates);
+            std::vector<char> failed(cells_.count(), 0);
+            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, cells_);
+                for (auto c = std::uint32_t(begin); c < end; ++c)
+                    if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(cells_, plan_.rates, c)) > error_;
+            });
+            std::vector<bool> wanted(cells_.count());
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) wanted[c] = failed[c] && has_room(c);
+            if (round == 12 || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return std::move(plan_);
+            for (std::uint32_t c = 0; c < cells_.count(); ++c)
+                if (wanted[c]) aim_[c] = std::max(0.8f * aim_[c], 0.5f);
+            const CellRates before = plan_.rates;
+            changed_ = fit(std::move(wanted), std::exp2(std::min(round, 3)));
+            // From here on rounds are alike: what has not helped will not.
+            const CellRates& now = plan_.rates;
+            if (round > 3 && now.across == before.across && now.up == before.up && now.edge == before.edge) return std::move(plan_);
+        }
+    }
+
+private:
+    bool has_room(std::uint32_t c) const { return plan_.rates.across[c] < most_ || plan_.rates.up[c] < most_; }
+
+    /// Fits these cells, and those beside sides that change by it; which these were.
+    std::vector<bool> fit(std::vector<bool> now, double density) {
+        const PatchComplex& complex = cells_.complex();
+        std::vector<bool> changed = now;
+        for (;;) {
+            std::vector<char> too_coarse(cells_.count(), 0);
+            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, cells_);
+                for (auto c = std::uint32_t(begin); c < end; ++c) {
+                    if (!now[c]) continue;
+                    PatchRates start{.sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
+                    for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
+                    const CellFitter::Fit found =
+                        fitter.fit(c, start, aim_[c] * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
+                    plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
+                    fitted_[c] = Vec2f(found.density);
+                    too_coarse[c] = found.sides_too_coarse;
+                }
+            });
+            std::vector<std::uint16_t> finer(plan_.rates.edge);
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
+                if (!too_coarse[c]) continue;
+                for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                    std::uint16_t& rate = finer[complex.patches[c].edge[i]];
+                    rate = std::max(rate, i % 2 == 0 ? plan_.rates.across[c] : plan_.rates.up[c]);
+                }
+            }
+            bool any = false;
+            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
+                now[c] = false;
+                for (int i = 0; i < complex.patches[c].sides(); ++i) {
+                    const std::uint32_t e = complex.patches[c].edge[i];
+                    if (finer[e] > plan_.rates.edge[e]) now[c] = changed[c] = any = true;
+                }
+            }
+            if (!any) return changed;
+            plan_.rates.edge = std::move(finer);
+        }
+    }
+
+    const ReliefSurface& surface_;
+    const SeamBlend& blend_;
+    double error_;
+    PatchCells cells_;
+    std::uint32_t most_; ///< segments of a cell
+    RatePlan plan_;
+    std::vector<float> aim_;    ///< part of the error that a cell is fitted to
+    std::vector<Vec2f> fitted_; ///< samples per texel that a cell took, 0: not fitted yet
+    std::vector<bool> changed_;
+};
+
+} // namespace
+
+RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
+    if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
+    // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
+    const auto patches = std::uint64_t(surface.base().complex().patches.size());
+    std::uint32_t split = choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
+    auto best = std::make_unique<Planner>(surface, blend, rates, split);
+    while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
+        split *= 2;
+        auto next = std::make_unique<Planner>(surface, blend, rates, split);
+        if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles()) break;
+        best = std::move(next);
+    }
+    return best->finish();
+}
+
+std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most) {
+    // A patch of uniform rate is cells of a part of it, of about 32 segments each. None is coarser than their edges need.
+    const PatchComplex& complex = surface.base().complex();
+    const std::uint32_t split = std::max(1u, choose_split(surface, blend, error, std::uint32_t(most)) / 4);
+    const PatchCells cells(complex, split);
+    const auto limit = std::max(1u, std::uint32_t(most) / split);
+    const std::vector<std::uint16_t> edges = edge_rates(surface, blend, cells, error, limit);
+    const std::uint32_t least = edges.empty() ? 1 : *std::max_element(edges.begin(), edges.end());
+    if (least >= limit) return 0;
+    std::vector<std::uint32_t> need(cells.count());
+    for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+        CellFitter fitter(surface, blend, cells);
+        for (auto c = std::uint32_t(begin); c < end; ++c) need[c] = fitter.uniform(c, least, error, limit);
+    });
+    const std::uint32_t rate = *std::max_element(need.begin(), need.end());
+    if (rate >= limit) return 0;
+    const std::uint64_t high = std::uint64_t(rate) * split;
+    std::uint64_t triangles = 0;
+    for (const PatchComplex::Patch& p : complex.patches) triangles += high * high * (p.sides() == 4 ? 2 : 1);
+    return triangles;
+}
+
+} // namespace bake

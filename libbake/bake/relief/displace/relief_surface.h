@@ -1,0 +1,95 @@
+// A base surface under a relief, point by point: value of the relief, displaced point, exact normal.
+//
+//   p' = p + d      N' = (p_s + d_s) x (p_t + d_t)      d = b n along the normal
+//
+// s and t are the parameters of the jet; N' is turned by sigma so that it is outward.
+#pragma once
+#include "bake/relief/map/displaced_normal.h"
+#include "bake/relief/displace/types.h"
+#include "bake/surface/patch/base_surface.h"
+#include <memory>
+
+namespace bake {
+
+/// What the relief adds at a point, and its derivatives along the jet's parameters: (b, 0, 0), b along the normal, or the
+/// displacement itself in object space.
+struct ReliefValue {
+    Vec3d at{0}, s{0}, t{0};
+};
+
+struct DisplacedPoint {
+    Vec3d p;
+    Vec3d normal; ///< N', not unit; zero where the surface has no tangents or folds flat
+};
+
+class ReliefSurface {
+public:
+    /// Both must outlive it. With `as_vectors` heights are given as displacements too, b n, which may then be turned.
+    ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors = false);
+
+    const BaseSurface& base() const noexcept { return *base_; }
+    /// Whether the relief is a height along the normal, whether it needs one at all, and whether values are (b, 0, 0).
+    bool along_normal() const noexcept { return !space_; }
+    bool uses_normal() const noexcept { return space_ != VectorSpace::object; }
+    bool values_are_heights() const noexcept { return !space_ && !as_vectors_; }
+    /// Texels along u and v.
+    Vec2d texels() const noexcept { return texels_; }
+
+    /// Values at points of one patch that base().evaluate gave for `st`.
+    void values(std::uint32_t patch, std::span<const Vec2d> st, std::span<const SurfacePoint> points,
+                std::span<ReliefValue> out) const;
+
+    /// Along the normal: of one uv, with derivatives along the uv's own.
+    Height<double> height(const Vec2d& uv) const noexcept { return channels_[0].sample(uv.x, uv.y); }
+
+    /// Of a value: how far along the normal it moves the point, and the whole move.
+    double height_of(const SurfacePoint& point, const ReliefValue& value) const noexcept {
+        return values_are_heights() ? value.at.x : glm::dot(value.at, point.jet.n);
+    }
+    Vec3d displacement(const SurfacePoint& point, const ReliefValue& value) const noexcept {
+        return values_are_heights() ? value.at.x * point.jet.n : value.at;
+    }
+    DisplacedPoint displaced(const SurfacePoint& point, const ReliefValue& value) const noexcept;
+
+private:
+    Vec3d vector(const SurfacePoint& point) const noexcept;
+
+    const BaseSurface* base_;
+    std::optional<VectorSpace> space_;
+    bool as_vectors_;
+    Vec2d texels_;
+    std::vector<HeightSampler<float>> channels_; ///< one, or three
+};
+
+/// The value along the normal: b and its slopes along the jet's parameters.
+inline ReliefValue along_normal(const SurfacePoint& point, const Height<double>& h) noexcept {
+    return {{h.b, 0, 0},
+            {h.b_u * point.uv_s.x + h.b_v * point.uv_s.y, 0, 0},
+            {h.b_u * point.uv_t.x + h.b_v * point.uv_t.y, 0, 0}};
+}
+
+inline DisplacedPoint displaced_along_normal(const Jet<double>& jet, const ReliefValue& value) noexcept {
+    const double b = value.at.x;
+    if (jet.sigma == 0) return {jet.p + b * jet.n, Vec3d(0)};
+    return {jet.p + b * jet.n, detail::cell_normal(jet, {b, value.s.x, value.t.x}, b)};
+}
+
+/// min(1 + b a_i), a_i the principal curvatures: 0 and less where the surface displaced by b turns inside out. 1 where
+/// there are no tangents.
+inline double fold_margin(const Jet<double>& s, double b) noexcept {
+    // n_u = A p_u, n_v = A p_v on the tangent plane: trace and determinant of A come from cross products.
+    const double area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    if (area == 0 || s.sigma == 0) return 1;
+    const double per_area = 1 / area;
+    const double mean = 0.5 * per_area * glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v));
+    const double gauss = per_area * glm::dot(s.n, glm::cross(s.n_u, s.n_v));
+    const double half = std::sqrt(std::max(0.0, mean * mean - gauss));
+    return 1 + b * mean - std::abs(b) * half;
+}
+
+/// Whether the jet runs along the uv chart, else along the patch's own parameters.
+inline bool along_chart(const SurfacePoint& point) noexcept {
+    return point.uv_s == Vec2d(1, 0) && point.uv_t == Vec2d(0, 1);
+}
+
+} // namespace bake

@@ -1,0 +1,12 @@
+// Vector displacement maps: three channels instead of one height.
+#pragma once
+#include "bake/picture/image_io.h"
+
+namespace bake {
+
+/// The first three colour channels of a picture, taken as stored: never sRGB-decoded, [0,1] for integer files.
+/// Throws as read_image, and Error{Refusal::unsuitable} for a picture with fewer than three colour channels or with NaN,
+/// Inf and values beyond 1e12 (with their count and first place).
+Image<float> read_vector_height(const std::string& path, ImageInfo* info = nullptr);
+
+} // namespace bake

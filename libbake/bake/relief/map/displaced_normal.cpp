@@ -1,0 +1,15 @@
+#include "bake/relief/map/displaced_normal.h"
+
+namespace bake {
+
+std::string_view name(NormalMethod method) noexcept {
+    switch (method) {
+    case NormalMethod::exact: return "exact";
+    case NormalMethod::blinn: return "blinn";
+    case NormalMethod::surface_gradient: return "surface-gradient";
+    case NormalMethod::lecture: return "lecture";
+    }
+    return "";
+}
+
+} // namespace bake

@@ -1,0 +1,94 @@
+// Normal of a displaced surface.
+//
+//   base surface p(u,v), unit normal n, height b(u,v)
+//   p' = p + b n          N' = p'_u x p'_v
+//
+// Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978; Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU,
+// JGT 2010.
+#pragma once
+#include "bake/relief/height/height.h"
+#include "bake/surface/point/jet.h"
+#include <string_view>
+
+namespace bake {
+
+/// How N' is found, best first.
+enum class NormalMethod {
+    exact,            ///< every term
+    blinn,            ///< drops b n_u and b n_v: right while |b * curvature| stays under about 0.5 %
+    surface_gradient, ///< n - grad b: blinn's normal, from the surface gradient
+    lecture,          ///< blinn with one constant length per unit of u and of v, and a square frame
+};
+inline constexpr NormalMethod all_normal_methods[] = {NormalMethod::exact, NormalMethod::blinn,
+                                                      NormalMethod::surface_gradient, NormalMethod::lecture};
+/// "exact", "blinn", "surface-gradient", "lecture"
+std::string_view name(NormalMethod method) noexcept;
+
+/// The lecture's constants: object units per unit of u and of v, the same all over the surface.
+template <class T> struct LectureScale {
+    T u = 1, v = 1;
+};
+
+/// N', outward, not normalised. For exact and blinn its length is the area of the displaced (du,dv) cell over that of
+/// the method's own terms; it is 0 where the surface folds or the chart has a pole. The caller decides what 0 means.
+template <class T>
+Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
+                         const LectureScale<T>& scale = {}) noexcept;
+
+/// Whether the surface displaced by b turns inside out there, along one principal direction or both: min(1 + b a_i) <= 0,
+/// a_i the principal curvatures. The sign of N' . n is not enough: it is positive again where both directions turned.
+/// False where the chart has no area.
+template <class T> bool folds(const Jet<T>& s, T b) noexcept;
+
+// What follows is here so that loops over texels can have it inline.
+
+namespace detail {
+
+// n x n vanishes, so with b = 0 in p'_u and p'_v this is N + b_u (n x p_v) - b_v (n x p_u).
+template <class T> inline Vec3<T> cell_normal(const Jet<T>& s, const Height<T>& h, T b) noexcept {
+    const Vec3<T> q_u = s.p_u + h.b_u * s.n + b * s.n_u;
+    const Vec3<T> q_v = s.p_v + h.b_v * s.n + b * s.n_v;
+    return s.sigma * glm::cross(q_u, q_v); // sigma is -1 on mirrored charts, so N' stays outward
+}
+
+// n - grad b, with grad b = sigma (b_u (p_v x n) + b_v (n x p_u)) / J and J = sigma n . (p_u x p_v).
+template <class T> inline Vec3<T> gradient_normal(const Jet<T>& s, const Height<T>& h) noexcept {
+    const T signed_area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    if (signed_area == T(0)) return Vec3<T>(T(0));
+    const Vec3<T> gradient = (h.b_u * glm::cross(s.p_v, s.n) + h.b_v * glm::cross(s.n, s.p_u)) / signed_area;
+    return s.n - gradient;
+}
+
+// The frame is unit p_u and its perpendicular towards +v: right only where the chart is square and evenly scaled.
+template <class T> inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const LectureScale<T>& scale) noexcept {
+    const Vec3<T> t = unit_or_zero(s.p_u);
+    const Vec3<T> bitangent = s.sigma * glm::cross(s.n, t);
+    return s.n - (h.b_u / scale.u) * t - (h.b_v / scale.v) * bitangent;
+}
+
+} // namespace detail
+
+template <class T>
+inline Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
+                         const LectureScale<T>& scale) noexcept {
+    switch (method) {
+    case NormalMethod::exact: return detail::cell_normal(s, h, h.b);
+    case NormalMethod::blinn: return detail::cell_normal(s, h, T(0));
+    case NormalMethod::surface_gradient: return detail::gradient_normal(s, h);
+    case NormalMethod::lecture: return detail::lecture_normal(s, h, scale);
+    }
+    return Vec3<T>(T(0));
+}
+
+template <class T> inline bool folds(const Jet<T>& s, T b) noexcept {
+    // M = I + b A on the tangent plane, n_u = A p_u, n_v = A p_v: both eigenvalues are positive iff its determinant and
+    // its trace are. Times the signed area, both come from cross products.
+    const T area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    const T trace = glm::dot(s.n, glm::cross(s.n_u, s.p_v) + glm::cross(s.p_u, s.n_v));
+    const T determinant = glm::dot(s.n, glm::cross(s.n_u, s.n_v));
+    const T side = area < T(0) ? T(-1) : T(1);
+    if (area == T(0)) return false;
+    return side * (area + b * trace + b * b * determinant) <= T(0) || side * (2 * area + b * trace) <= T(0);
+}
+
+} // namespace bake

@@ -1,0 +1,236 @@
+#include "bake/relief/map/normal_map.h"
+#include "bake/base/error.h"
+#include "bake/base/parallel.h"
+#include "bake/surface/chart/tangent_space.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace bake {
+
+Vec3f encode_normal(const Vec3f& t, bool directx) noexcept {
+    return Vec3f(0.5f * t.x, directx ? -0.5f * t.y : 0.5f * t.y, 0.5f * t.z) + 0.5f;
+}
+
+Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept {
+    const Vec3f t = 2.0f * rgb - 1.0f;
+    return directx ? Vec3f(t.x, -t.y, t.z) : t;
+}
+
+Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept {
+    // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
+    // determinant has the sign of `sign`.
+    const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
+    const Vec3f unit = unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
+                              along_n * glm::dot(tangent, tangent) - along_t * skew));
+    // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
+    constexpr float rounding = 1e-6f;
+    return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
+}
+
+namespace {
+
+constexpr Vec3f flat_normal(0, 0, 1);
+
+bool matches(const Image<float>& values, int width, int height) {
+    return values.width() == width && values.height() == height;
+}
+
+bool shrinks(const Image<float>& values, int width, int height) {
+    return values.width() >= 2 * width || values.height() >= 2 * height;
+}
+
+} // namespace
+
+HeightField::HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width,
+                         int height_texels)
+    : width_(width), map_height_(height_texels), options_(options),
+      minified_(shrinks(height.values, width, height_texels) ? box_minify(height.values, width, height_texels) : Image<float>()),
+      values_(minified_.empty() ? &height.values : &minified_),
+      slopes_(*values_, resolve_filter(filter, height), options.wrap_u, options.wrap_v),
+      spline_(resolve_filter(filter, height) == Filter::c2) {
+    if (matches(*values_, width, height_texels)) return;
+    if (spline_) {
+        value_sampler_.emplace(*values_, Interpolation::c2, options);
+        return;
+    }
+    Image<float> along_u(values_->width(), values_->height(), 1), along_v(values_->width(), values_->height(), 1);
+    const auto scale_u = float(options.amplitude * values_->width()), scale_v = float(options.amplitude * values_->height());
+    for_rows(values_->height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<float> pairs(2 * std::size_t(values_->width()));
+        for (auto y = int(begin); y < int(end); ++y) {
+            slopes_.row(y, scale_u, scale_v, pairs.data(), scratch);
+            for (int x = 0; x < values_->width(); ++x) {
+                along_u.at(x, y) = pairs[2 * x];
+                along_v.at(x, y) = pairs[2 * x + 1];
+            }
+        }
+    });
+    const HeightOptions as_is{.amplitude = 1, .midlevel = 0, .wrap_u = options.wrap_u, .wrap_v = options.wrap_v};
+    value_sampler_.emplace(*values_, Interpolation::catmull_rom, options);
+    u_sampler_.emplace(along_u, Interpolation::catmull_rom, as_is);
+    v_sampler_.emplace(along_v, Interpolation::catmull_rom, as_is);
+}
+
+void HeightField::row(int y, Height<float>* out, SlopeFilter<float>::Scratch& scratch) const {
+    if (!value_sampler_) {
+        // The pairs are written over the tail of the row of triples, ahead of where they are read.
+        float* const pairs = reinterpret_cast<float*>(out) + width_;
+        slopes_.row(y, float(options_.amplitude * width_), float(options_.amplitude * map_height_), pairs, scratch);
+        const float* values = values_->row(y);
+        for (int x = 0; x < width_; ++x) {
+            const float b_u = pairs[2 * x], b_v = pairs[2 * x + 1];
+            out[x] = {float(options_.amplitude) * (values[x] - float(options_.midlevel)), b_u, b_v};
+        }
+        return;
+    }
+    const float v = 1 - (float(y) + 0.5f) / float(map_height_);
+    for (int x = 0; x < width_; ++x) {
+        const float u = (float(x) + 0.5f) / float(width_);
+        out[x] = value_sampler_->at(u, v);
+        if (spline_) continue;
+        out[x].b_u = u_sampler_->at(u, v).b;
+        out[x].b_v = v_sampler_->at(u, v).b;
+    }
+}
+
+Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options, Progress* progress) {
+    Jet<float> plane{};
+    plane.p_u = Vec3f(float(extent.x), 0, 0);
+    plane.p_v = Vec3f(0, float(extent.y), 0);
+    plane.n = flat_normal;
+    const LectureScale<float> scale{float(extent.x), float(extent.y)};
+    Image<float> map(field.width(), field.height(), 3);
+    for_rows(field.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<Height<float>> heights(field.width());
+        for (auto y = int(begin); y < int(end); ++y) {
+            field.row(y, heights.data(), scratch);
+            float* to = map.row(y);
+            for (int x = 0; x < field.width(); ++x, to += 3) {
+                const Vec3f n = unit_or_zero(displaced_normal(plane, heights[x], options.method, scale));
+                const Vec3f rgb = encode_normal(n, options.directx);
+                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+            }
+        }
+    }, progress);
+    return map;
+}
+
+namespace {
+
+/// Mean length of p_u and p_v over the charts, each triangle by its area in uv: the lecture's one constant per axis.
+LectureScale<float> mean_scale(const MeshSurface& s) {
+    double area_sum = 0, u_sum = 0, v_sum = 0;
+    for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+        if (s.sigma[i] == 0) continue;
+        const auto uv = [&](int k) { return Vec2d(s.mesh->uvs[s.mesh->corner_uv[s.triangles[i].corner[k]]]); };
+        const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+        const double area = std::abs(d1.x * d2.y - d2.x * d1.y);
+        area_sum += area;
+        for (const std::uint32_t corner : s.triangles[i].corner) {
+            u_sum += area / 3 * glm::length(Vec3d(s.p_u[corner]));
+            v_sum += area / 3 * glm::length(Vec3d(s.p_v[corner]));
+        }
+    }
+    if (!(u_sum > 0) || !(v_sum > 0)) return {};
+    return {float(u_sum / area_sum), float(v_sum / area_sum)};
+}
+
+/// One texel: the frame of the triangle under it, and N' in it.
+struct Texel {
+    Vec3f t{0};
+    bool folded = false;
+};
+
+/// What the texels of one triangle share.
+struct TriangleFrame {
+    std::uint32_t triangle = no_index;
+    TrianglePatch<float> patch{};
+    Vec3f tangent[3];
+    float sign = 1;
+};
+
+TriangleFrame triangle_frame(const BakeTarget& target, std::uint32_t triangle) noexcept {
+    TriangleFrame frame{.triangle = triangle, .patch = triangle_patch<float>(target.surface, triangle)};
+    const auto& corner = target.surface.triangles[triangle].corner;
+    for (int k = 0; k < 3; ++k) frame.tangent[k] = Vec3f(target.tangents[corner[k]]);
+    frame.sign = target.tangents[corner[0]].w;
+    return frame;
+}
+
+Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h, const LectureScale<float>& lecture,
+                 const NormalMapOptions& options) noexcept {
+    const Jet<float> jet = jet_at(frame.patch, b1, b2);
+    const bool folded = folds(jet, h.b);
+    // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
+    const NormalMethod method = folded && options.method == NormalMethod::exact ? NormalMethod::blinn : options.method;
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, lecture));
+    if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
+    const auto mix = [&, b0 = 1 - b1 - b2](const Vec3f(&a)[3]) { return b0 * a[0] + b1 * a[1] + b2 * a[2]; };
+    return {to_tangent_space(normal, mix(frame.tangent), mix(frame.patch.n), frame.sign), folded};
+}
+
+} // namespace
+
+BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height) {
+    if (mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs; unwrap the mesh first");
+    BakeTarget target;
+    target.surface = make_mesh_surface(mesh);
+    target.tangents = corner_tangents(mesh, target.surface.triangles, target.surface.n);
+    target.raster = uv_raster(mesh, target.surface.triangles, width, height);
+    target.lecture = mean_scale(target.surface);
+    if (target.raster.covered + target.raster.border == 0)
+        throw Error(Refusal::unsuitable, path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
+    return target;
+}
+
+Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                        NormalMapReport& report, Progress* progress) {
+    const int width = field.width(), height = field.height();
+    Image<float> map(width, height, 3);
+    Image<unsigned char> owned(width, height, 1);
+    std::atomic<std::int64_t> degenerate{0}, folded{0};
+    for_rows(height, 16, [&](std::int64_t begin, std::int64_t end) {
+        SlopeFilter<float>::Scratch scratch;
+        std::vector<Height<float>> heights(width);
+        TriangleFrame frame;
+        std::int64_t degenerate_here = 0, folded_here = 0;
+        for (auto y = int(begin); y < int(end); ++y) {
+            field.row(y, heights.data(), scratch);
+            const TexelHit* hits = target.raster.hits.row(y);
+            float* to = map.row(y);
+            for (int x = 0; x < width; ++x, to += 3) {
+                Texel texel{flat_normal};
+                const bool hit = hits[x].triangle != no_index;
+                if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
+                if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.lecture, options);
+                const bool own = hit && texel.t != Vec3f(0);
+                if (hit && !own) ++degenerate_here, texel.t = flat_normal;
+                folded_here += texel.folded;
+                owned.at(x, y) = own;
+                const Vec3f rgb = encode_normal(texel.t, options.directx);
+                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+            }
+        }
+        degenerate += degenerate_here;
+        folded += folded_here;
+    }, progress);
+    const UvRaster& raster = target.raster;
+    report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
+    report.flat_triangles = raster.degenerate;
+    for (const Triangle& t : target.surface.triangles)
+        for (const std::uint32_t corner : t.corner)
+            if (target.surface.mesh->corner_uv[corner] == no_index) {
+                ++report.triangles_without_uv;
+                break;
+            }
+    report.degenerate = degenerate;
+    report.folded = folded;
+    report.padded = pad_texels(map, owned, options.padding);
+    report.empty = std::int64_t(width) * height - report.covered - report.border + report.degenerate - report.padded;
+    return map;
+}
+
+} // namespace bake

@@ -1,0 +1,92 @@
+// Normal maps from a height: on a plane, or on a UV-mapped mesh with the mesh's own metric and curvature.
+#pragma once
+#include "bake/picture/pad_texels.h"
+#include "bake/relief/map/bump_table.h"
+#include "bake/relief/map/displaced_normal.h"
+#include "bake/surface/chart/mesh_surface.h"
+#include "bake/surface/chart/uv_raster.h"
+#include <optional>
+
+namespace bake {
+
+class Progress;
+
+enum class Space {
+    tangent, ///< MikkTSpace
+    object,
+};
+
+struct NormalMapOptions {
+    int width = 0, height = 0; ///< texels of the map; 0: as the height
+    NormalMethod method = NormalMethod::exact;
+    HeightOptions height_options;
+    Filter filter = Filter::automatic;
+    Space space = Space::tangent;
+    bool directx = false; ///< green points down
+    int padding = 16;     ///< texels filled beyond the charts' borders
+};
+
+/// What became of the texels of a map on a mesh.
+struct NormalMapReport {
+    std::int64_t covered = 0, border = 0, overlapped = 0; ///< as UvRaster
+    std::int64_t outside_faces = 0, crossing_faces = 0;   ///< as UvRaster
+    std::int64_t flat_triangles = 0;                      ///< without area in uv
+    std::int64_t triangles_without_uv = 0;
+    std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
+    std::int64_t empty = 0;      ///< texels left at the flat normal
+    std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
+    std::int64_t folded = 0;     ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
+};
+
+/// rgb = (t + 1) / 2, each in [0,1]; green is turned where `directx`.
+Vec3f encode_normal(const Vec3f& t, bool directx) noexcept;
+/// The reverse, not renormalised.
+Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept;
+
+/// The coordinates t of a normal in the frame that shaders build: n = t.x T + t.y B + t.z N with B = sign (N x T), T and
+/// N as interpolated, neither unit nor perpendicular. Unit; zero where the frame is singular. x and y within 1e-6 of 0
+/// are 0.
+Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept;
+
+/// Height and slopes at the texel centres of a map.
+class HeightField {
+public:
+    /// Slopes are those of `filter` where the map has the height's size. Where it is smaller the height is box-filtered
+    /// first by whole factors; where texel centres differ, value and filtered slopes are interpolated (Catmull-Rom; the
+    /// spline itself for c2). The height must outlive it.
+    HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width, int height_texels);
+    /// The heights and slopes (per unit of u and v) of row y of the map.
+    void row(int y, Height<float>* out, SlopeFilter<float>::Scratch& scratch) const;
+    /// The height the slopes are taken of: the texture, or its minified copy.
+    const Image<float>& values() const noexcept { return *values_; }
+    int width() const noexcept { return width_; }
+    int height() const noexcept { return map_height_; }
+
+private:
+    int width_, map_height_;
+    HeightOptions options_;
+    Image<float> minified_;
+    const Image<float>* values_;
+    SlopeFilter<float> slopes_;
+    std::optional<HeightSampler<float>> value_sampler_, u_sampler_, v_sampler_;
+    bool spline_ = false;
+};
+
+/// The normal map of a height on a flat rectangle of extent (object units): three channels, encoded.
+Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options, Progress* progress = nullptr);
+
+/// The mesh side of a bake, made once: the jets, the tangent space, and which triangle lies under each texel.
+struct BakeTarget {
+    MeshSurface surface;
+    std::vector<Vec4f> tangents; ///< corners
+    UvRaster raster;
+    LectureScale<float> lecture; ///< mean |p_u| and |p_v| over the charts
+};
+/// The mesh must outlive it. Throws Error{Refusal::unsuitable} for a mesh without uvs (`path` is named in it).
+BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height);
+
+/// The normal map of a height on a mesh: three channels, encoded.
+Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                        NormalMapReport& report, Progress* progress = nullptr);
+
+} // namespace bake

@@ -1,0 +1,62 @@
+// A surface as a mesh to write: normals, tangents and curvatures at its corners, and where each lies on the surface.
+#pragma once
+#include "bake/mesh/triangulate.h"
+#include "bake/surface/patch/base_surface.h"
+
+namespace bake {
+
+class Progress;
+
+/// What a BaseSurface was made of.
+enum class SurfaceKind { mesh, limit, shape };
+
+/// What is wrong at a point.
+enum class Degenerate : unsigned char {
+    none,
+    pole,           ///< no tangent plane along the parameters, but a normal: the limit, or that of the meridian
+    without_normal, ///< neither
+    no_chart,       ///< a normal, but no area in uv: p_u and p_v do not exist
+};
+
+/// Everything about one point, with respect to the uv chart.
+struct SurfaceValues {
+    Vec3d p{0}, n{0}, p_u{0}, p_v{0};
+    double sigma = 0; ///< -1 on mirrored charts, 0 without chart
+    double mean_curvature = 0, gauss_curvature = 0;
+    Degenerate degenerate = Degenerate::none;
+};
+/// p_u and p_v are zero where the chart has no area, curvatures zero where there is no tangent plane. Without uvs
+/// (`has_uv` false) no_chart is nothing wrong.
+SurfaceValues surface_values(const SurfacePoint& point, bool has_uv) noexcept;
+
+/// A triangle of the mesh on the surface: all three corners in one patch.
+struct TrianglePlace {
+    std::uint32_t patch;
+    Vec2d st[3];
+};
+
+/// One distinct point of a patch that corners of the mesh show.
+struct SurfaceSample {
+    Vec3f n;
+    float length_u, length_v; ///< |p_u|, |p_v|
+    float mean, gauss;        ///< curvatures
+    Degenerate degenerate;
+};
+
+struct SurfaceMesh {
+    SurfaceKind kind = SurfaceKind::mesh;
+    Mesh mesh;
+    std::vector<Triangle> triangles;   ///< triangulate(mesh)
+    std::vector<TrianglePlace> places; ///< triangles
+    std::vector<SurfaceSample> samples;
+    std::vector<std::uint32_t> corner_sample; ///< corners
+};
+
+/// Meshes and shapes as they are, limit surfaces as rate x rate quads (or rate^2 triangles) of every patch, points at
+/// common edges taken from the first patch that has them. With unit normals, MikkTSpace tangents where there are uvs,
+/// and the attributes mean_curvature and gauss_curvature. At a degenerate corner normal and curvatures are those of a
+/// point 1/1024 of the way to the middle of the patch, so that a sphere has its curvature at the poles too.
+/// Throws Error{Refusal::unsuitable} for more corners than a mesh can have.
+SurfaceMesh surface_mesh(const BaseSurface& surface, SurfaceKind kind, int rate = 1, Progress* progress = nullptr);
+
+} // namespace bake

@@ -1,0 +1,29 @@
+// Smallest, largest and mean values of a surface, and its degenerate points.
+#pragma once
+#include "bake/surface/patch/surface_mesh.h"
+
+namespace bake {
+
+/// Over the corners of a mesh; the mean is weighted by area. All zero where there is nothing to sum.
+struct ValueRange {
+    double min = 0, max = 0, mean = 0;
+};
+
+struct DegeneratePoint {
+    Degenerate what;
+    Vec3f p;
+    Vec2f uv; ///< zero without uvs
+    std::size_t face;
+};
+
+struct SurfaceSummary {
+    ValueRange x, y, z;
+    ValueRange length_u, length_v;               ///< |p_u|, |p_v|, where the chart has area
+    ValueRange mean_curvature, gauss_curvature;  ///< where there is a tangent plane
+    double area = 0;                             ///< of the mesh's triangles
+    std::vector<DegeneratePoint> degenerate;     ///< one per position and kind, in order of the corners
+};
+
+SurfaceSummary summarise(const SurfaceMesh& surface);
+
+} // namespace bake

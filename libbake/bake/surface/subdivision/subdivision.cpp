@@ -1,0 +1,46 @@
+#include "bake/surface/subdivision/subdivision.h"
+#include "bake/base/error.h"
+#include "bake/surface/subdivision/stage.h"
+#include <cassert>
+#include <new>
+
+namespace bake {
+
+struct SubdivisionSurface::Limit {
+    LimitPatches patches;
+};
+
+SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options)
+    : limit_(std::make_unique<Limit>()) {
+    assert(options.isolation >= 1 && options.isolation <= stage_levels);
+    try {
+        make_patches(cage, options, limit_->patches);
+    } catch (const std::bad_alloc&) {
+        throw Error(Refusal::unsuitable, "the subdivision surface needs more memory than there is; use a smaller cage or "
+                                         "fewer semi-sharp creases");
+    }
+}
+SubdivisionSurface::~SubdivisionSurface() = default;
+SubdivisionSurface::SubdivisionSurface(SubdivisionSurface&&) noexcept = default;
+
+std::uint32_t SubdivisionSurface::patches() const noexcept { return std::uint32_t(limit_->patches.patches.size()); }
+std::uint32_t SubdivisionSurface::face(std::uint32_t patch) const noexcept { return limit_->patches.patches[patch].face; }
+std::uint32_t SubdivisionSurface::corner(std::uint32_t patch) const noexcept { return limit_->patches.patches[patch].corner; }
+bool SubdivisionSurface::has_uv() const noexcept { return limit_->patches.has_uv; }
+
+void SubdivisionSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
+                                  std::span<LimitPoint> out) const noexcept {
+    bake::evaluate(limit_->patches, patch, st, order, out);
+}
+
+void SubdivisionSurface::evaluate_lattice(std::uint32_t patch, int rate, Derivatives order,
+                                          std::span<LimitPoint> out) const noexcept {
+    evaluate_rows(patch, rate, 0, rate + 1, order, out);
+}
+
+void SubdivisionSurface::evaluate_rows(std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
+                                       std::span<LimitPoint> out) const noexcept {
+    bake::evaluate_rows(limit_->patches, patch, rate, row_begin, row_end, order, out);
+}
+
+} // namespace bake

@@ -1,0 +1,137 @@
+#include "mesh/file/mesh_files.h"
+#include "bake/surface/subdivision/subdivision.h"
+#include "oracle/surfaces.h"
+#include "surface/subdivision/cages.h"
+
+using namespace bake;
+using namespace bake_tests;
+
+namespace {
+
+/// What check_cage says, the name of the file left out; empty when it is content.
+std::string refusal(const Mesh& cage, Scheme scheme = Scheme::catmark) {
+    try {
+        check_cage(cage, scheme, "cage.obj");
+        return "";
+    } catch (const Error& error) {
+        CHECK(error.refusal == Refusal::unsuitable);
+        const std::string what = error.what();
+        CHECK(what.rfind("cage.obj: ", 0) == 0);
+        CHECK(what.find('\n') == std::string::npos);
+        CHECK(what.find("; ") != std::string::npos); // the mend
+        return what.substr(10);
+    }
+}
+
+std::string refusal_of_file(const std::string& name, Scheme scheme = Scheme::catmark) {
+    return refusal(read_mesh((source_folder() / "meshes/trouble" / name).string()), scheme);
+}
+
+bool begins(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+} // namespace
+
+TEST_SUITE("unit") {
+    TEST_CASE("check_cage: closed, open, mixed and triangle cages are taken, tags and loose vertices too") {
+        CHECK(refusal(box()) == "");
+        CHECK(refusal(dome(5)) == "");
+        CHECK(refusal(in_triangles(box()), Scheme::loop) == "");
+        CHECK(refusal(oracle::torus_mesh(8, 5, true)) == "");
+        Mesh tagged = box();
+        tagged.positions.emplace_back(9, 9, 9);
+        tagged.tags = {{{5, 4, 2}, {0, 1, 10}}, {{3, 1}}, SubdivisionTags::Boundary::none};
+        CHECK(refusal(tagged) == "");
+    }
+
+    TEST_CASE("check_cage: two faces of the same vertices count as duplicates however they are turned") {
+        const std::vector<Vec3f> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {2, 3, 0, 1}})), "face 1 and face 2 lie on the same vertices"));
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {3, 2, 1, 0}})), "face 1 and face 2 lie on the same vertices"));
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {0, 2, 1, 3}})), "face 1 and face 2 lie on the same vertices"));
+    }
+
+    TEST_CASE("check_cage: of several places the first is named") {
+        Mesh cage = box();
+        for (const std::uint32_t f : {5u, 2u}) std::swap(cage.corner_position[4 * f + 1], cage.corner_position[4 * f + 3]);
+        CHECK(begins(refusal(cage), "face 1 and face 6 run along the edge between vertex 1 and vertex 4 the same way"));
+    }
+}
+
+TEST_SUITE("stability") {
+    TEST_CASE("check_cage: a non-manifold edge is refused with its place") {
+        CHECK(begins(refusal_of_file("nonmanifold_edge.obj"), "three faces or more, among them face 1 and face 2, share the "
+                                                              "edge between vertex 1 and vertex 2; "));
+    }
+    TEST_CASE("check_cage: a non-manifold vertex is refused with its place") {
+        CHECK(begins(refusal_of_file("nonmanifold_vertex.obj"), "face 1 and face 2 touch at vertex 3 without sharing an edge"));
+        // Two closed fans, where counting corners and edges sees nothing.
+        Mesh twins = box();
+        const Mesh other = box();
+        for (std::size_t v = 1; v < other.positions.size(); ++v) twins.positions.push_back(-other.positions[v]);
+        for (std::size_t f = 0; f < other.faces(); ++f) {
+            for (int k = 3; k >= 0; --k) {
+                const std::uint32_t v = other.corner_position[4 * f + std::size_t(k)];
+                twins.corner_position.push_back(v == 0 ? 0 : v + 7);
+            }
+            twins.face_begin.push_back(std::uint32_t(twins.corners()));
+        }
+        CHECK(begins(refusal(twins), "face 1 and face 7 touch at vertex 1 without sharing an edge"));
+    }
+    TEST_CASE("check_cage: a flipped face is refused with its place") {
+        CHECK(begins(refusal_of_file("flipped_face.obj"), "face 1 and face 6 run along the edge between vertex 1 and vertex 4 "
+                                                          "the same way; turn one of them round"));
+    }
+    TEST_CASE("check_cage: a duplicate face is refused with its place") {
+        CHECK(begins(refusal_of_file("duplicate_face.obj"), "face 2 and face 7 lie on the same vertices; remove one"));
+    }
+    TEST_CASE("check_cage: a face that uses a position twice is refused with its place") {
+        CHECK(begins(refusal_of_file("zero_area_face.obj"), "face 3 uses vertex 2 twice"));
+    }
+    TEST_CASE("check_cage: a crease that is no edge is refused with its place") {
+        CHECK(begins(refusal_of_file("crease_without_edge.obj"), "there is a crease between vertex 1 and vertex 7, but no edge"));
+        Mesh cage = box();
+        cage.tags.creases = {{3, 999, 1}};
+        CHECK(begins(refusal(cage), "there is a crease between vertex 4 and vertex 1000, but no edge"));
+        cage.tags.creases.clear();
+        cage.tags.corners = {{999, 1}};
+        CHECK(begins(refusal(cage), "a corner is tagged at vertex 1000, which is not there"));
+    }
+    TEST_CASE("check_cage: Loop refuses the first face that is no triangle") {
+        Mesh cage = in_triangles(box());
+        CHECK(refusal(cage, Scheme::loop) == "");
+        CHECK(begins(refusal(dome(3), Scheme::loop), "face 1 has 4 corners, and Loop subdivision takes triangles"));
+    }
+    TEST_CASE("check_cage: a Moebius strip has no way round and is refused") {
+        const Mesh strip = cage_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}},
+                                   {{0, 2, 3, 1}, {2, 4, 5, 3}, {4, 1, 0, 5}});
+        CHECK(refusal(strip).find("the same way") != std::string::npos);
+    }
+    TEST_CASE("cage, 2-gon: refused by the reader") {
+        CHECK(outcome_of(source_folder() / "meshes/trouble/two_index_face.obj").code == 3);
+    }
+    TEST_CASE("cage, bad index: refused by the reader, beyond the last and zero") {
+        for (const char* name : {"index_out_of_range.obj", "index_zero.obj"})
+            CHECK_MESSAGE(outcome_of(source_folder() / "meshes/trouble" / name).code == 3, name);
+    }
+    TEST_CASE("cage, NaN vertex: refused by the reader") {
+        CHECK(outcome_of(source_folder() / "meshes/trouble/nan_vertex.obj").code == 3);
+    }
+}
+
+TEST_SUITE("real") {
+    TEST_CASE("check_cage: the collection's cages are taken, its broken ones refused") {
+        const auto data = source_folder() / "../shared/data";
+        if (!std::filesystem::exists(data)) {
+            MESSAGE("no ../shared/data: skipped");
+            return;
+        }
+        for (const char* name : {"catmark_car", "catmark_cubes_semisharp", "catmark_fvar_bound1", "catmark_nonquads",
+                                 "catmark_righthanded", "catmark_torus", "reference/catmark_dart_edgecorner_level1"})
+            CHECK_MESSAGE(refusal(read_mesh((data / "meshes/opensubdiv" / name).string() + ".obj")) == "", name);
+        CHECK(refusal(read_mesh((data / "meshes/spot/spot_control_mesh.obj").string())) == "");
+        CHECK(refusal(read_mesh((data / "meshes/leeperrysmith/LeePerrySmith.obj").string()), Scheme::loop) == "");
+        const auto bad = [&](const char* name) { return refusal(read_mesh((data / "bad/meshes" / name).string())); };
+        CHECK(bad("osd_catmark_nonman_verts.obj").find("touch at vertex") != std::string::npos);
+        CHECK(bad("trimesh_joined_tetrahedra.obj").find("face 4 and face 8 lie on the same vertices") != std::string::npos);
+    }
+}
