@@ -93,19 +93,18 @@ TEST_SUITE("oracle") {
         std::mt19937_64 random(1);
         char text[64];
         for (int i = 0; i < 20000; ++i) {
-            const auto bits = static_cast<std::uint32_t>(random());
+            const auto bits = std::uint32_t(random());
             float f;
             std::memcpy(&f, &bits, sizeof f);
             if (!std::isfinite(f)) continue;
             check_nearest(std::string(text, std::to_chars(text, text + sizeof text, f).ptr)); // shortest
-            std::snprintf(text, sizeof text, "%.9g", static_cast<double>(f));
+            std::snprintf(text, sizeof text, "%.9g", double(f));
             check_nearest(text);
-            std::snprintf(text, sizeof text, "%.*f", static_cast<int>(random() % 12),
-                          static_cast<double>(random() % 2000000) / 1000.0 - 1000);
+            std::snprintf(text, sizeof text, "%.*f", int(random() % 12), double(random() % 2000000) / 1000.0 - 1000);
             check_nearest(text);
-            std::snprintf(
-                text, sizeof text, "%llu.%llue%d", static_cast<unsigned long long>(random() >> (random() % 64)),
-                static_cast<unsigned long long>(random() >> (random() % 64)), static_cast<int>(random() % 90) - 50);
+            std::snprintf(text, sizeof text, "%llu.%llue%d",
+                          static_cast<unsigned long long>(random() >> (random() % 64)),
+                          static_cast<unsigned long long>(random() >> (random() % 64)), int(random() % 90) - 50);
             check_nearest(text);
         }
     }
@@ -114,16 +113,15 @@ TEST_SUITE("oracle") {
         // Here rounding to double and then to float goes wrong unless the fast way gives up.
         std::mt19937 random(2);
         for (int i = 0; i < 5000; ++i) {
-            const float f =
-                static_cast<float>(1 + random() % 16777215) * std::ldexp(1.0f, static_cast<int>(random() % 12) - 8);
-            const double middle = (static_cast<double>(f) + static_cast<double>(std::nextafter(f, 1e30f))) / 2;
+            const float f = float(1 + random() % 16777215) * std::ldexp(1.0f, int(random() % 12) - 8);
+            const double middle = (double(f) + double(std::nextafter(f, 1e30f))) / 2;
             char text[64];
             std::snprintf(text, sizeof text, "%.40g", middle); // exact: the middle is a dyadic fraction of few digits
             const std::string exact = text;
             check_nearest(exact);
             const bool point = exact.find('.') != std::string::npos;
             for (const int zeros : {0, 3, 8})
-                check_nearest(exact + (point ? "" : ".") + std::string(static_cast<std::size_t>(zeros), '0') + "1");
+                check_nearest(exact + (point ? "" : ".") + std::string(std::size_t(zeros), '0') + "1");
             std::snprintf(text, sizeof text, "%.17g", std::nextafter(middle, 0.0));
             check_nearest(text);
             std::snprintf(text, sizeof text, "%.17g", std::nextafter(middle, 1e300));

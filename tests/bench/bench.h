@@ -73,8 +73,9 @@ inline Errors errors_of(std::vector<float> values) {
 
 inline void print_row(const std::string& name, const std::string& what, std::int64_t size, double ns_per_item,
                       const Errors& errors, double ratio, const std::string& against, const std::string& note) {
-    std::printf("%s,%s,%lld,%d,%.4g,%.4g,%.4g,%.4g,%.3g,%s,%s\n", name.c_str(), what.c_str(), static_cast<long long>(size),
-                bake::thread_count(), ns_per_item, errors.mean, errors.p95, errors.max, ratio, against.c_str(), note.c_str());
+    std::printf("%s,%s,%lld,%d,%.4g,%.4g,%.4g,%.4g,%.3g,%s,%s\n", name.c_str(), what.c_str(),
+                static_cast<long long>(size), bake::thread_count(), ns_per_item, errors.mean, errors.p95, errors.max,
+                ratio, against.c_str(), note.c_str());
     std::fflush(stdout);
 }
 

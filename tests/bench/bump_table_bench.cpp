@@ -36,23 +36,24 @@ void rows(int size, int bits, int threads) {
     for (const Filter filter : all_filters) {
         const BumpTable kernel(height, {.filter = filter, .amplitude = 2 * bench::waves(size).A});
         const bool two_passes = filter == Filter::c2;
-        const auto times = bench::in_turn(7, {
-            [&] {
-                read_4_write_8(height.values, table);
-                if (two_passes) read_4_write_4(height.values, copy);
-            },
-            [&] {
-                for_rows(size, grain, [&](std::int64_t begin, std::int64_t end) {
-                    SlopeFilter<float>::Scratch scratch;
-                    for (auto y = int(begin); y < int(end); ++y) kernel.row(y, table.row(y), scratch);
-                });
-            }});
+        const auto times = bench::in_turn(7, {[&] {
+                                                  read_4_write_8(height.values, table);
+                                                  if (two_passes) read_4_write_4(height.values, copy);
+                                              },
+                                              [&] {
+                                                  for_rows(size, grain, [&](std::int64_t begin, std::int64_t end) {
+                                                      SlopeFilter<float>::Scratch scratch;
+                                                      for (auto y = int(begin); y < int(end); ++y)
+                                                          kernel.row(y, table.row(y), scratch);
+                                                  });
+                                              }});
         const double texels = double(size) * size;
         const auto slopes = [&](int x, int y) { return Vec2d(table.at(x, y, 0), table.at(x, y, 1)); };
-        bench::print_row("bump_table", std::string(name(filter)) + (bits ? "_" + std::to_string(bits) + "bit" : "_float"), size,
-                         1e9 * times[1].median() / texels, bench::wave_errors(size, slopes), times[1].ratio_to(times[0]),
-                         two_passes ? "two read+write passes" : "read+write pass",
-                         bench::text("limit %.3f ns; %.1f ms in all", 1e9 * times[0].median() / texels, 1e3 * times[1].median()));
+        bench::print_row(
+            "bump_table", std::string(name(filter)) + (bits ? "_" + std::to_string(bits) + "bit" : "_float"), size,
+            1e9 * times[1].median() / texels, bench::wave_errors(size, slopes), times[1].ratio_to(times[0]),
+            two_passes ? "two read+write passes" : "read+write pass",
+            bench::text("limit %.3f ns; %.1f ms in all", 1e9 * times[0].median() / texels, 1e3 * times[1].median()));
     }
 }
 
@@ -63,7 +64,8 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
     if (sizes.empty()) sizes = {4096};
     for (const int size : sizes)
-        if (size < 64 || size > 32768) return std::fprintf(stderr, "usage: bump_table_bench [SIZE ...], 64 to 32768\n"), 2;
+        if (size < 64 || size > 32768)
+            return std::fprintf(stderr, "usage: bump_table_bench [SIZE ...], 64 to 32768\n"), 2;
     for (const int size : sizes) {
         for (const int threads : {1, 0}) rows(size, 16, threads);
         if (size == sizes[0]) rows(size, 8, 0), rows(size, 0, 0);

@@ -6,11 +6,12 @@
 // cubemap_bench --make-edges WIDTH OUT.exr: the same with OpenEXR's edge samples, tagged.
 // cubemap_bench --errors FILE: mean, 95th percentile and largest error of a file that holds it; a lat-long is texel-centred
 // unless tagged.
-#include "bench.h"
-#include "bake/picture/image_io.h"
+#include "bake/base/vec.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
 #include "bake/environment/sky/solid_angle.h"
+#include "bake/picture/image_io.h"
+#include "bench.h"
 #include "environment/smooth_skies.h"
 #include <cstring>
 #include <random>
@@ -28,10 +29,12 @@ Environment suns(int width, std::vector<Vec3d>& directions) {
     std::fill_n(sky.picture.data(), sky.picture.size(), 0.0f);
     for (int i = 0; i < 250; ++i) {
         const double up = 1 - (2 * i + 1) / 250.0, phi = i * 2.399963229728653, across = std::sqrt(1 - up * up);
-        const Vec2d at = picture_point(Projection::latlong, width, height, {across * std::sin(phi), up, across * std::cos(phi)});
+        const Vec2d at =
+            picture_point(Projection::latlong, width, height, {across * std::sin(phi), up, across * std::cos(phi)});
         const int x = std::min(width - 1, int(at.x)), y = std::min(height - 1, int(at.y));
         directions.push_back(picture_direction(Projection::latlong, width, height, x + 0.5, y + 0.5));
-        sky.picture.at(x, y) = float(1 / (2 * M_PI / width * (std::cos(M_PI * y / height) - std::cos(M_PI * (y + 1) / height))));
+        sky.picture.at(x, y) =
+            float(1 / (2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height))));
     }
     return sky;
 }
@@ -56,22 +59,26 @@ void rows(int width, int threads) {
     const Environment sky = smooth_rgb(Projection::latlong, width);
     std::vector<Vec3d> directions;
     const Environment spots = suns(width, directions);
-    const std::pair<const char*, Samples> ways[] = {{"one", Samples::one}, {"4x4", Samples::grid4}, {"exact", Samples::exact}};
+    const std::pair<const char*, Samples> ways[] = {
+        {"one", Samples::one}, {"4x4", Samples::grid4}, {"exact", Samples::exact}};
     Cube results[3];
     std::vector<std::function<void()>> works;
     for (int i = 0; i < 3; ++i) works.push_back([&, i] { results[i] = to_cube(sky, {n, false}, {ways[i].second}); });
     const auto times = bench::in_turn(width > 4096 ? 1 : 3, works);
     for (int i = 0; i < 3; ++i) {
         const double deviation = flux_deviation(to_cube(spots, {n, false}, {ways[i].second}), directions);
-        bench::print_row("cubemap", ways[i].first, n, 1e9 * times[i].median() / (6.0 * n * n), bench::errors_of(test::smooth_errors(results[i], false)),
-                         times[i].ratio_to(times[0]), "one look per texel",
-                         bench::text("radiance relative to its mean; flux of 250 suns off by %.3g rms; %.2f Mtexel/s", deviation, 6e-6 * n * n / times[i].median()));
+        bench::print_row("cubemap", ways[i].first, n, 1e9 * times[i].median() / (6.0 * n * n),
+                         bench::errors_of(test::smooth_errors(results[i], false)), times[i].ratio_to(times[0]),
+                         "one look per texel",
+                         bench::text("radiance relative to its mean; flux of 250 suns off by %.3g rms; %.2f Mtexel/s",
+                                     deviation, 6e-6 * n * n / times[i].median()));
     }
 }
 
 int print_errors(const char* file) {
     const Environment sky = read_environment({file});
-    const bench::Errors e = bench::errors_of(sky.is_cube() ? test::smooth_errors(sky.cube, sky.edge_samples) : test::smooth_errors(sky.picture, sky.projection));
+    const bench::Errors e = bench::errors_of(sky.is_cube() ? test::smooth_errors(sky.cube, sky.edge_samples)
+                                                           : test::smooth_errors(sky.picture, sky.projection));
     std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
     return 0;
 }
@@ -84,11 +91,16 @@ int main(int argc, char** argv) {
     const bool edges = first == "--make-edges";
     if ((first == "--make" || edges) && argc == 4) {
         const Environment sky = smooth_rgb(edges ? Projection::latlong_edges : Projection::latlong, std::atoi(argv[2]));
-        write_image(argv[3], sky.picture, {.depth = Depth::float32, .environment = edges ? EnvironmentTag::latlong : EnvironmentTag::none});
+        write_image(argv[3], sky.picture,
+                    {.depth = Depth::float32, .environment = edges ? EnvironmentTag::latlong : EnvironmentTag::none});
         return 0;
     }
     const int width = argc > 1 ? std::atoi(argv[1]) : 2048;
-    if (width < 64 || width > 16384 || argc > 2) return std::fprintf(stderr, "usage: cubemap_bench [WIDTH] | --make WIDTH FILE | --make-edges WIDTH FILE | --errors FILE\n"), 2;
+    if (width < 64 || width > 16384 || argc > 2)
+        return std::fprintf(
+                   stderr,
+                   "usage: cubemap_bench [WIDTH] | --make WIDTH FILE | --make-edges WIDTH FILE | --errors FILE\n"),
+               2;
     for (const int threads : {1, 0}) rows(width, threads);
     return 0;
 }

@@ -2,8 +2,8 @@
 // its 4 x 4 patches cut into 2^level x 2^level. The oracle is the displaced torus in closed form; the error is the angle of
 // the normal that a shader shows at the middle of a face, interpolated from its corners. The limit is writing as many bytes
 // as the mesh has. Rows as in bench.h; size counts faces.
-#include "bench.h"
 #include "bake/relief/displace/displace.h"
+#include "bench.h"
 #include "relief/map/torus_relief.h"
 #include <cstring>
 
@@ -35,7 +35,8 @@ Found found(const Mesh& mesh, const oracle::TorusRelief& relief) {
         const Vec3d exact = y_up(s.p + oracle::relief(relief, uv.x, uv.y).b * s.n);
         const Vec3d N = y_up(oracle::relief_normal(relief, uv.x, uv.y));
         angles.push_back(float(oracle::angle_deg(n, N)));
-        result.farthest = std::max(result.farthest, std::abs(glm::dot(p - exact, N))); // along the normal, to first order
+        result.farthest =
+            std::max(result.farthest, std::abs(glm::dot(p - exact, N))); // along the normal, to first order
     }
     result.normals = bench::errors_of(std::move(angles));
     return result;
@@ -67,8 +68,8 @@ int main() {
                                               }});
         const Found error = found(result.mesh, relief);
         bench::print_row("displace", bench::text("torus_levels_%d", levels), std::int64_t(result.mesh.faces()),
-                         1e9 * times[0].median() / double(result.mesh.faces()), error.normals, times[0].ratio_to(times[1]),
-                         "write pass",
+                         1e9 * times[0].median() / double(result.mesh.faces()), error.normals,
+                         times[0].ratio_to(times[1]), "write pass",
                          bench::text("%.3g ms in all; farthest %.2g of the diagonal", 1e3 * times[0].median(),
                                      error.farthest / std::sqrt(2 * 2.8 * 2.8 + 0.8 * 0.8)));
     }

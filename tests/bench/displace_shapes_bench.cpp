@@ -12,7 +12,6 @@
 #include <filesystem>
 
 using namespace bake;
-using oracle::pi;
 
 namespace {
 
@@ -33,7 +32,8 @@ Jet<double> y_up(Jet<double> s, double du, double dv) {
 
 Mesh cube() {
     Mesh mesh;
-    mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh.corner_position = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 2, 3, 7, 6, 1, 2, 6, 5, 0, 4, 7, 3};
     for (std::uint32_t c = 0; c < 24; ++c) mesh.corner_uv.push_back(c % 4);
@@ -48,7 +48,9 @@ bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const M
         for (std::size_t f = 0; f < mesh.faces(); ++f) {
             const std::uint32_t first = mesh.face_begin[f], n = mesh.face_begin[f + 1] - first;
             for (std::uint32_t k = 0; k < n; ++k) {
-                const auto at = [&](std::uint32_t i) { return Vec3d(mesh.positions[mesh.corner_position[first + i % n]]); };
+                const auto at = [&](std::uint32_t i) {
+                    return Vec3d(mesh.positions[mesh.corner_position[first + i % n]]);
+                };
                 const Vec3d a = at(k + 1) - at(k), b = at(k + n - 1) - at(k);
                 own[mesh.corner_normal[first + k]] += glm::cross(a, b) / (glm::dot(a, a) * glm::dot(b, b));
             }
@@ -63,7 +65,8 @@ bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const M
         known = mesh.corner_uv[corner];
     }
     for (std::size_t f = 0; f < mesh.faces() && !c.form; ++f) {
-        const auto corners = std::span(mesh.corner_position).subspan(mesh.face_begin[f], mesh.face_begin[f + 1] - mesh.face_begin[f]);
+        const auto corners =
+            std::span(mesh.corner_position).subspan(mesh.face_begin[f], mesh.face_begin[f + 1] - mesh.face_begin[f]);
         if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t p) { return seam[p]; }))
             for (const std::uint32_t p : corners) step[p] = true;
     }
@@ -80,8 +83,10 @@ bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const M
         if (at.y <= 0 || at.y >= 1) continue; // poles: their uv is that of a face
         const Jet<double> s = c.form(at.x, at.y);
         const Height<double> h = oracle::relief(r, at.x, at.y);
-        position = std::max(position, glm::length(Vec3d(mesh.positions[mesh.corner_position[corner]]) - s.p - h.b * s.n) / c.diagonal);
-        errors.push_back(float(oracle::angle_deg(n, glm::cross(s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v))));
+        position = std::max(
+            position, glm::length(Vec3d(mesh.positions[mesh.corner_position[corner]]) - s.p - h.b * s.n) / c.diagonal);
+        errors.push_back(float(
+            oracle::angle_deg(n, glm::cross(s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v))));
     }
     return bench::errors_of(std::move(errors));
 }
@@ -97,22 +102,22 @@ void run(const Case& c, int threads) {
     Displaced out = displace(c.base, height, options);
     const std::size_t bytes = 12 * (out.mesh.positions.size() + out.mesh.normals.size() + out.mesh.corners()) +
                               8 * out.mesh.uvs.size() + 4 * out.mesh.faces();
-    const auto times = bench::in_turn(5, {
-        [&] {
-            const std::unique_ptr<char[]> fresh(new char[bytes]);
-            for_rows(std::int64_t(bytes >> 20), 1, [&](std::int64_t begin, std::int64_t end) {
-                std::memset(fresh.get() + (begin << 20), int(begin), std::size_t(end - begin) << 20);
-            });
-        },
-        [&] {
-            out = {};
-            out = displace(c.base, height, options);
-        }});
+    const auto times =
+        bench::in_turn(5, {[&] {
+                               const std::unique_ptr<char[]> fresh(new char[bytes]);
+                               for_rows(std::int64_t(bytes >> 20), 1, [&](std::int64_t begin, std::int64_t end) {
+                                   std::memset(fresh.get() + (begin << 20), int(begin), std::size_t(end - begin) << 20);
+                               });
+                           },
+                           [&] {
+                               out = {};
+                               out = displace(c.base, height, options);
+                           }});
     double position = 0;
     const bench::Errors errors = normal_errors(c, r, out.mesh, position);
     const double points = double(out.mesh.positions.size());
-    bench::print_row("displace_shapes", c.name, std::int64_t(points), 1e9 * times[1].median() / points, errors, times[1].ratio_to(times[0]),
-                     "writing the bytes",
+    bench::print_row("displace_shapes", c.name, std::int64_t(points), 1e9 * times[1].median() / points, errors,
+                     times[1].ratio_to(times[0]), "writing the bytes",
                      (c.form ? bench::text("position %.2g of the diagonal; ", position) : std::string()) +
                          bench::text("%.0f MB; %.0f ms", double(bytes) / 1e6, 1e3 * times[1].median()));
 }
@@ -121,14 +126,22 @@ void run(const Case& c, int threads) {
 
 int main(int argc, char** argv) {
     const int more = argc > 1 ? std::atoi(argv[1]) : 0;
-    if (more < 0 || more > 2) return std::fprintf(stderr, "usage: displace_shapes_bench [LEVELS_MORE [CAGE]], 0 to 2\n"), 2;
+    if (more < 0 || more > 2)
+        return std::fprintf(stderr, "usage: displace_shapes_bench [LEVELS_MORE [CAGE]], 0 to 2\n"), 2;
     std::vector<Case> cases;
-    cases.push_back({"torus", BaseSurface(ParametricSurface("torus:R=1,r=0.4"), 32, 32), 5 + more,
-                     [](double u, double v) { return y_up(oracle::torus(1, 0.4, 2 * pi * u, 2 * pi * v), 2 * pi, 2 * pi); }, std::sqrt(2.8 * 2.8 * 2 + 0.8 * 0.8)});
+    cases.push_back(
+        {"torus", BaseSurface(ParametricSurface("torus:R=1,r=0.4"), 32, 32), 5 + more,
+         [](double u, double v) { return y_up(oracle::torus(1, 0.4, 2 * pi * u, 2 * pi * v), 2 * pi, 2 * pi); },
+         std::sqrt(2.8 * 2.8 * 2 + 0.8 * 0.8)});
     cases.push_back({"sphere", BaseSurface(ParametricSurface("sphere:R=1"), 32, 32), 5 + more,
-                     [](double u, double v) { return y_up(oracle::sphere(1, 2 * pi * u, pi * (v - 0.5)), 2 * pi, pi); }, std::sqrt(12.0)});
+                     [](double u, double v) { return y_up(oracle::sphere(1, 2 * pi * u, pi * (v - 0.5)), 2 * pi, pi); },
+                     std::sqrt(12.0)});
     cases.push_back({"cube_limit", BaseSurface(cube(), SubdivisionOptions{}), 9 + more, {}});
-    if (argc > 2) cases.push_back({std::filesystem::path(argv[2]).stem().string() + "_limit", BaseSurface(read_mesh(argv[2]), SubdivisionOptions{}), 5 + more, {}});
+    if (argc > 2)
+        cases.push_back({std::filesystem::path(argv[2]).stem().string() + "_limit",
+                         BaseSurface(read_mesh(argv[2]), SubdivisionOptions{}),
+                         5 + more,
+                         {}});
     for (const Case& c : cases)
         for (const int threads : {1, 0}) run(c, threads);
 }

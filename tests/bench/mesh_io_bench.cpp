@@ -4,10 +4,10 @@
 //   mesh_io_bench --make-quads N OUT [--no-normals] [repeats]    a wavy grid of about N quads, by OUT's ending
 //
 // The error column of a reader is 0 by test: every number is the float nearest to its text (tests/mesh/file/mesh_io_test).
-#include "bake/mesh/file/mesh_io.h"
-#include "bake/mesh/triangulate.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/triangulate.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -45,13 +45,13 @@ double median(std::vector<double> values) {
 std::uint64_t plain_read(const char* path, std::int64_t size) {
     const int file = open(path, O_RDONLY);
     const std::int64_t grain = 1 << 20;
-    std::vector<std::uint64_t> sums(static_cast<std::size_t>((size + grain - 1) / grain));
+    std::vector<std::uint64_t> sums(std::size_t((size + grain - 1) / grain));
     for_rows(size, grain, [&](std::int64_t begin, std::int64_t end) {
         static thread_local std::vector<std::uint64_t> words(grain / 8);
-        const ssize_t got = pread(file, words.data(), static_cast<std::size_t>(end - begin), begin);
+        const ssize_t got = pread(file, words.data(), std::size_t(end - begin), begin);
         std::uint64_t sum = 0;
-        for (ssize_t i = 0; i < got / 8; ++i) sum += words[static_cast<std::size_t>(i)];
-        sums[static_cast<std::size_t>(begin / grain)] = sum;
+        for (ssize_t i = 0; i < got / 8; ++i) sum += words[std::size_t(i)];
+        sums[std::size_t(begin / grain)] = sum;
     });
     close(file);
     std::uint64_t sum = 0;
@@ -60,10 +60,8 @@ std::uint64_t plain_read(const char* path, std::int64_t size) {
 }
 
 Mesh wavy_grid(std::size_t quads, bool normals) {
-    const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(quads))));
-    const auto rounded = [](double v, double decimals) {
-        return static_cast<float>(std::round(v * decimals) / decimals);
-    };
+    const auto n = std::uint32_t(std::lround(std::sqrt(double(quads))));
+    const auto rounded = [](double v, double decimals) { return float(std::round(v * decimals) / decimals); };
     Mesh mesh;
     for (std::uint32_t j = 0; j <= n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i) {
@@ -79,7 +77,7 @@ Mesh wavy_grid(std::size_t quads, bool normals) {
         for (std::uint32_t i = 0; i < n; ++i) {
             const std::uint32_t a = j * (n + 1) + i;
             for (const std::uint32_t c : {a, a + n + 1, a + n + 2, a + 1}) mesh.corner_position.push_back(c);
-            mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners()));
+            mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
         }
     mesh.corner_uv = mesh.corner_position;
     if (normals) mesh.corner_normal = mesh.corner_position;
@@ -110,15 +108,17 @@ void measure_write(const Mesh& mesh, const std::string& path, int repeats) {
         limit.push_back(seconds_of([&] { plain_write(path + ".copy", bytes); }));
         std::filesystem::remove(path + ".copy");
     }
-    const double mega = 1e-6 * static_cast<double>(bytes.size());
-    std::printf("%s: %.1f MB, %zu faces, %d threads, median of %d\n", path.c_str(), mega, mesh.faces(), thread_count(), repeats);
-    std::printf("write_mesh   %8.4f s  %8.0f MB/s  (%.4f s of processors)\n", median(write), mega / median(write), median(processor));
+    const double mega = 1e-6 * double(bytes.size());
+    std::printf("%s: %.1f MB, %zu faces, %d threads, median of %d\n", path.c_str(), mega, mesh.faces(), thread_count(),
+                repeats);
+    std::printf("write_mesh   %8.4f s  %8.0f MB/s  (%.4f s of processors)\n", median(write), mega / median(write),
+                median(processor));
     std::printf("plain write  %8.4f s  %8.0f MB/s  (the limit; ratio %.1f)\n", median(limit), mega / median(limit),
                 median(write) / median(limit));
 }
 
 void measure(const char* path, int repeats) {
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+    const auto size = std::int64_t(std::filesystem::file_size(path));
     std::vector<double> read, limit, split;
     std::uint64_t sum = plain_read(path, size); // warms the page cache
     std::size_t faces = 0, triangles = 0;
@@ -129,13 +129,13 @@ void measure(const char* path, int repeats) {
         split.push_back(seconds_of([&] { triangles = triangulate(mesh).size(); }));
         faces = mesh.faces();
     }
-    const double mega = static_cast<double>(size) * 1e-6;
+    const double mega = double(size) * 1e-6;
     std::printf("%s: %.1f MB, %zu faces, %d threads, median of %d\n", path, mega, faces, thread_count(), repeats);
     std::printf("read_mesh    %8.4f s  %8.0f MB/s\n", median(read), mega / median(read));
     std::printf("plain read   %8.4f s  %8.0f MB/s  (the limit; ratio %.1f, sum %llx)\n", median(limit),
                 mega / median(limit), median(read) / median(limit), static_cast<unsigned long long>(sum));
     std::printf("triangulate  %8.4f s  %8.1f ns per triangle\n", median(split),
-                1e9 * median(split) / static_cast<double>(triangles));
+                1e9 * median(split) / double(triangles));
 }
 
 } // namespace
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     try {
         if (argc >= 4 && std::strcmp(argv[1], "--make-quads") == 0) {
             const bool normals = argc < 5 || std::strcmp(argv[4], "--no-normals") != 0;
-            const Mesh mesh = wavy_grid(static_cast<std::size_t>(std::atoll(argv[2])), normals);
+            const Mesh mesh = wavy_grid(std::size_t(std::atoll(argv[2])), normals);
             const int repeats = std::atoi(argv[argc - 1]);
             measure_write(mesh, argv[3], argc > 4 && repeats > 0 ? repeats : 1);
             return 0;
@@ -157,6 +157,6 @@ int main(int argc, char** argv) {
         return 2;
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
-        return static_cast<int>(error.refusal);
+        return int(error.refusal);
     }
 }

@@ -7,10 +7,10 @@
 // the bake on a plane. The oracle is the closed form of the torus relief (tests/relief/map/torus_relief.h), the map decoded
 // in the frames a shader would have. Size counts texels along a side, or triangles. The limit is one pass that reads
 // what a bake reads per texel, hit and height, 16 bytes, and writes the 12 of the map.
-#include "bench.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "bench.h"
 #include "relief/map/torus_relief.h"
 
 using namespace bake;
@@ -70,7 +70,7 @@ void method_rows(const std::string& name, const Mesh& mesh, int size) {
         NormalMapReport report;
         const auto times = bench::in_turn(3, {[&] { read_16_write_12(target.raster.hits, height.values, room); },
                                               [&] { map = normal_map(field, target, options, report); }});
-        const bench::Times& limit = times[0], &bake = times[1];
+        const bench::Times &limit = times[0], &bake = times[1];
         bench::print_row("normal_map", name + "_" + std::string(bake::name(method)), size, 1e9 * bake.median() / texels,
                          map_errors(map, target), bake.ratio_to(limit), "read+write pass",
                          bench::text("limit %.2f ns; %.0f ms in all; %zu triangles", 1e9 * limit.median() / texels,
@@ -96,8 +96,9 @@ void plane_row(int size) {
             errors.push_back(float(oracle::angle_deg(Vec3d(t), {-h.b_u, -h.b_v, 1})));
         }
     const double texels = double(size) * size;
-    bench::print_row("normal_map", "plane_exact", size, 1e9 * times[1].median() / texels, bench::errors_of(std::move(errors)),
-                     times[1].ratio_to(times[0]), "read+write pass", bench::text("%.0f ms in all", 1e3 * times[1].median()));
+    bench::print_row("normal_map", "plane_exact", size, 1e9 * times[1].median() / texels,
+                     bench::errors_of(std::move(errors)), times[1].ratio_to(times[0]), "read+write pass",
+                     bench::text("%.0f ms in all", 1e3 * times[1].median()));
 }
 
 /// What make_bake_target does, step by step; the tangents' oracle is the closed form of dp/du.
@@ -124,9 +125,11 @@ void step_rows(const Mesh& mesh, int size) {
             const Vec2d found = uv(0) + double(hit.b1) * (uv(1) - uv(0)) + double(hit.b2) * (uv(2) - uv(0));
             raster_errors.push_back(float(360 * glm::length(found - Vec2d((x + 0.5) / size, 1 - (y + 0.5) / size))));
         }
-    const auto row = [&](const char* name, std::int64_t items, double seconds, std::vector<float> errors, const char* note) {
-        bench::print_row("normal_map", name, items, 1e9 * seconds / double(items == size ? std::int64_t(size) * size : items),
-                         bench::errors_of(std::move(errors)), 0, "", bench::text("%.0f ms in all; %s", 1e3 * seconds, note));
+    const auto row = [&](const char* name, std::int64_t items, double seconds, std::vector<float> errors,
+                         const char* note) {
+        bench::print_row(
+            "normal_map", name, items, 1e9 * seconds / double(items == size ? std::int64_t(size) * size : items),
+            bench::errors_of(std::move(errors)), 0, "", bench::text("%.0f ms in all; %s", 1e3 * seconds, note));
     };
     row("step_surface", triangles, times[0].median(), surface_errors, "per triangle; error of p_u at the corners");
     row("step_tangents", triangles, times[1].median(), tangent_errors, "per triangle; error of T at the corners");
@@ -141,7 +144,8 @@ int make_or_measure(const std::string& what, int argc, char** argv) {
     const Mesh torus = oracle::torus_mesh(64, 32);
     if (what == "--make-torus" && argc == 3) return write_mesh(argv[2], torus), 0;
     if (what == "--make-height" && argc == 4)
-        return write_image(argv[3], oracle::relief_texture({}, std::atoi(argv[2])).values, {.depth = Depth::float32}), 0;
+        return write_image(argv[3], oracle::relief_texture({}, std::atoi(argv[2])).values, {.depth = Depth::float32}),
+               0;
     if (what != "--errors" || argc != 3) return 2;
     const Image<float> read = read_image(argv[2]);
     Image<float> map(read.width(), read.height(), 3);

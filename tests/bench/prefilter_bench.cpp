@@ -6,6 +6,7 @@
 // for mips, the zonal series of tests/oracle/zonal.h for the rest, which shares no code with what is timed. The limit is a
 // pass that reads the sky and writes the result, or, for the lobes, the plain sum over all texels of the sky, timed on
 // a few directions and scaled.
+#include "bake/base/vec.h"
 #include "bake/environment/filter/convolve.h"
 #include "bake/environment/filter/irradiance.h"
 #include "bake/environment/filter/mips.h"
@@ -71,8 +72,8 @@ Timed timed(const std::function<void()>& yardstick, const std::function<void()>&
 void row(const std::string& what, int size, const Timed& time, double items, const Measured& measured, double ratio,
          const std::string& against) {
     bench::print_row("prefilter", what, size, time.seconds * 1e9 / items, measured.errors, ratio, against,
-                     bench::text("%.3g s and %.3g CPU s; errors over the mean; RMSE/mean %.3g", time.seconds, time.cpu_seconds,
-                                 measured.rmse));
+                     bench::text("%.3g s and %.3g CPU s; errors over the mean; RMSE/mean %.3g", time.seconds,
+                                 time.cpu_seconds, measured.rmse));
 }
 
 /// Reads every value once and writes as many as a mip chain has.
@@ -80,7 +81,8 @@ void read_and_write(const Cube& sky, std::vector<float>& to) {
     for (int face = 0; face < 6; ++face) {
         const float* from = sky.faces[face].data();
         const std::size_t size = sky.faces[face].size();
-        for (std::size_t i = 0; i + 4 <= size; i += 4) to[face * (size / 4) + i / 4] = from[i] + from[i + 1] + from[i + 2] + from[i + 3];
+        for (std::size_t i = 0; i + 4 <= size; i += 4)
+            to[face * (size / 4) + i / 4] = from[i] + from[i + 1] + from[i + 2] + from[i + 3];
     }
 }
 
@@ -96,33 +98,37 @@ void mip_rows(const Cube& sky) {
             squares += double(errors.back()) * double(errors.back());
         }
         row(filter == MipFilter::tent ? "mips_tent_flux" : "mips_box_flux", sky.size(), time, texels(sky),
-            {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))}, time.ratio, "read+quarter write pass");
+            {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))}, time.ratio,
+            "read+quarter write pass");
     }
 }
 
 void irradiance_rows(const Cube& sky, bool on_smooth) {
     const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
-    constexpr double pi = std::numbers::pi;
     const auto expected = [&](const Vec3d& n) {
-        return exact(glm::dot(n, sun_direction)) + (on_smooth ? pi + 2 * pi / 3 * 0.5 * n.y + pi / 4 * 0.3 * n.x * n.z : 0);
+        return exact(glm::dot(n, sun_direction)) +
+               (on_smooth ? pi + 2 * pi / 3 * 0.5 * n.y + pi / 4 * 0.3 * n.x * n.z : 0);
     };
     std::vector<float> scratch(6 * (sky.faces[0].size() / 4));
     using enum IrradianceMethod;
-    const std::pair<const char*, IrradianceOptions> cases[] = {{"sh3", {.method = sh, .bands = 3}},
-                                                               {"sh9", {.method = sh, .bands = 9}},
-                                                               {"sh9_hann", {.method = sh, .bands = 9, .window = ShWindow::hann}},
-                                                               {"sh33", {.method = sh, .bands = 33}},
-                                                               {"direct", {.method = direct}}};
+    const std::pair<const char*, IrradianceOptions> cases[] = {
+        {"sh3", {.method = sh, .bands = 3}},
+        {"sh9", {.method = sh, .bands = 9}},
+        {"sh9_hann", {.method = sh, .bands = 9, .window = ShWindow::hann}},
+        {"sh33", {.method = sh, .bands = 33}},
+        {"direct", {.method = direct}}};
     for (const auto& [name, options] : cases) {
         Cube out;
-        const Timed time = timed([&] { read_and_write(sky, scratch); }, [&, &o = options] { out = irradiance(sky, o); });
+        const Timed time =
+            timed([&] { read_and_write(sky, scratch); }, [&, &o = options] { out = irradiance(sky, o); });
         row(std::string("irradiance_") + name + (on_smooth ? "_sun_and_sky" : "_sun"), sky.size(), time, texels(sky),
             measure(out, expected), time.ratio, "read+quarter write pass");
     }
 }
 
 template <class Lobe, class Kernel>
-void lobe_row(const std::string& name, const Cube& sky, int size, const Lobe& lobe, double roughness, SpecularLobe kind, Kernel&& kernel) {
+void lobe_row(const std::string& name, const Cube& sky, int size, const Lobe& lobe, double roughness, SpecularLobe kind,
+              Kernel&& kernel) {
     const oracle::ConvolvedSun exact(sun, kernel);
     std::vector<Cube> chain;
     Cube few;
@@ -130,7 +136,8 @@ void lobe_row(const std::string& name, const Cube& sky, int size, const Lobe& lo
     const Timed time = timed([&] { few = convolve(tree, lobe, 2, {.node_width = 0, .tolerance = 0}); },
                              [&] { chain = prefilter(sky, {.lobe = kind, .roughness = {roughness}, .size = size}); });
     const Cube& out = chain[0];
-    row(name, size, time, texels(out), measure(out, [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)) / exact.norm; }),
+    row(name, size, time, texels(out),
+        measure(out, [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)) / exact.norm; }),
         time.ratio * texels(few) / texels(out), "sum over every texel");
 }
 
@@ -143,16 +150,18 @@ void lobe_rows(const Cube& sky) {
                      [=](double c) { return oracle::ggx_kernel(c, alpha); });
     }
     for (const auto& [exponent, edge] : {std::pair{500.0, 2}, {50.0, 4}, {5.0, 8}})
-        lobe_row("phong_" + bench::text("%g", exponent), sky, sky.size() / edge, PhongLobe{float(exponent)}, exponent, SpecularLobe::phong,
-                 [e = exponent](double c) { return oracle::phong_kernel(c, e); });
+        lobe_row("phong_" + bench::text("%g", exponent), sky, sky.size() / edge, PhongLobe{float(exponent)}, exponent,
+                 SpecularLobe::phong, [e = exponent](double c) { return oracle::phong_kernel(c, e); });
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     const int faces = argc > 1 ? std::atoi(argv[1]) : 256;
-    if (argc > 2 || faces < 32 || faces > 2048) return std::fprintf(stderr, "usage: prefilter_bench [FACES], 32 to 2048\n"), 2;
-    const Cube sun_alone = sun_sky(faces, false), sun_2k = sun_sky(2 * faces, false), sun_and_sky_2k = sun_sky(2 * faces, true);
+    if (argc > 2 || faces < 32 || faces > 2048)
+        return std::fprintf(stderr, "usage: prefilter_bench [FACES], 32 to 2048\n"), 2;
+    const Cube sun_alone = sun_sky(faces, false), sun_2k = sun_sky(2 * faces, false),
+               sun_and_sky_2k = sun_sky(2 * faces, true);
     for (const int threads : {1, 0}) {
         const ThreadLimit limit(threads);
         mip_rows(sun_2k);

@@ -54,11 +54,13 @@ Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patch
             const auto found = std::lower_bound(patches.begin(), patches.end(), face.patch);
             if (found == patches.end() || *found != face.patch) continue;
             const Vec2d at = double(rate) * face.st[k];
-            const auto index = std::size_t(found - patches.begin()) * per_patch + std::size_t(at.y) * (rate + 1) + std::size_t(at.x);
+            const auto index =
+                std::size_t(found - patches.begin()) * per_patch + std::size_t(at.y) * (rate + 1) + std::size_t(at.x);
             const oracle::Limit limit = masks.at(f, k);
             errors.position = std::max(errors.position, glm::distance(samples[index].p, limit.p) / diagonal);
             if (normals && limit.normal && glm::length(*limit.normal) > 1e-12 * diagonal * diagonal)
-                angles.push_back(float(oracle::angle_deg(*limit.normal, glm::cross(samples[index].p_s, samples[index].p_t))));
+                angles.push_back(
+                    float(oracle::angle_deg(*limit.normal, glm::cross(samples[index].p_s, samples[index].p_t))));
         }
     errors.normal_deg = bench::errors_of(std::move(angles));
     return errors;
@@ -119,7 +121,8 @@ public:
             places_.push_back({&face, {}});
             for (std::size_t i = 0; i < per_patch; ++i) {
                 Vec2d st = lattice_point(i), uv = st;
-                if (parameters.HasSubFaces()) parameters.ConvertNormalizedSubFaceToCoord(int(surface.corner(patch)), &st.x, &uv.x);
+                if (parameters.HasSubFaces())
+                    parameters.ConvertNormalizedSubFaceToCoord(int(surface.corner(patch)), &st.x, &uv.x);
                 places_.back().at.push_back(uv);
             }
         }
@@ -129,9 +132,9 @@ public:
         for (const Place& place : places_)
             for (const Vec2d& at : place.at) {
                 if (derivatives)
-                    place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x, &p->p_s.x, &p->p_t.x);
-                else
-                    place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x);
+                    place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x, &p->p_s.x,
+                                                 &p->p_t.x);
+                else place.face->surface.Evaluate(&at.x, place.face->points.data(), {3, 3}, &p->p.x);
                 ++p;
             }
     }
@@ -171,7 +174,8 @@ public:
             from = to;
         }
         if (table_->GetNumLocalPoints() > 0)
-            table_->GetLocalPointStencilTable<double>()->UpdateValues(points_.data(), points_.data() + refiner.GetNumVerticesTotal());
+            table_->GetLocalPointStencilTable<double>()->UpdateValues(points_.data(),
+                                                                      points_.data() + refiner.GetNumVerticesTotal());
     }
     void evaluate(const std::vector<std::uint32_t>& patches, bool derivatives, Samples& out) const {
         LimitPoint* p = out.data();
@@ -224,16 +228,19 @@ double case_of(const std::string& name, const std::string& file) {
     double speed_up = 0;
     for (const bool derivatives : {false, true}) {
         const Derivatives order = derivatives ? Derivatives::first : Derivatives::none;
-        const auto patch_of = [&](Samples& samples, std::size_t i) { return std::span(samples).subspan(i * per_patch, per_patch); };
+        const auto patch_of = [&](Samples& samples, std::size_t i) {
+            return std::span(samples).subspan(i * per_patch, per_patch);
+        };
         const std::vector<std::function<void()>> works = {
-            [&] { bfr->evaluate(derivatives, out[0]); },
-            [&] { fine_bfr->evaluate(derivatives, out[1]); },
+            [&] { bfr->evaluate(derivatives, out[0]); }, [&] { fine_bfr->evaluate(derivatives, out[1]); },
             [&] { far->evaluate(patches, derivatives, out[2]); },
             [&] {
-                for (std::size_t i = 0; i < patches.size(); ++i) ours->evaluate(patches[i], lattice, order, patch_of(out[3], i));
+                for (std::size_t i = 0; i < patches.size(); ++i)
+                    ours->evaluate(patches[i], lattice, order, patch_of(out[3], i));
             },
             [&] {
-                for (std::size_t i = 0; i < patches.size(); ++i) ours->evaluate_lattice(patches[i], rate, order, patch_of(out[4], i));
+                for (std::size_t i = 0; i < patches.size(); ++i)
+                    ours->evaluate_lattice(patches[i], rate, order, patch_of(out[4], i));
             }};
         const std::vector<bench::Times> times = bench::in_turn(51, works);
         const char* names[] = {"bfr", "bfr_level10", "far_level10", "points", "lattice"};
@@ -241,9 +248,10 @@ double case_of(const std::string& name, const std::string& file) {
         for (std::size_t i = 0; i < works.size(); ++i) {
             const Errors errors = errors_of(out[i], patches, fine, size, derivatives);
             bench::print_row("subdivision", name + (derivatives ? "_P_Du_Dv_" : "_P_") + names[i], std::int64_t(count),
-                             times[i].median() / double(count) * 1e9, errors.normal_deg, times[i].ratio_to(times[0]), "bfr",
-                             bench::text("position error %.2g of the diagonal; %.1f M points/s; made in %.1f ms", errors.position,
-                                         double(count) / times[i].median() * 1e-6, made[i] * 1e3));
+                             times[i].median() / double(count) * 1e9, errors.normal_deg, times[i].ratio_to(times[0]),
+                             "bfr",
+                             bench::text("position error %.2g of the diagonal; %.1f M points/s; made in %.1f ms",
+                                         errors.position, double(count) / times[i].median() * 1e-6, made[i] * 1e3));
         }
         if (derivatives) speed_up = 1 / times[4].ratio_to(times[0]);
     }

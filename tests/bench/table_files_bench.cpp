@@ -4,8 +4,8 @@
 //   table_files_bench --errors TABLE                      mean,p95,max error in degrees of a table of it in --units texel
 //   table_files_bench --compare TABLE BUMPSLOPES          the largest difference to a maketx --bumpslopes file of the same
 //                                                         height: inside, and on the ring of texels at the border
-#include "bake/picture/image_io.h"
 #include "bake/base/error.h"
+#include "bake/picture/image_io.h"
 #include "waves.h"
 
 using namespace bake;
@@ -38,12 +38,15 @@ int main(int argc, char** argv) try {
     } else if (what == "--errors" && argc == 3) {
         const Image<float> table = read_image(argv[2]);
         const double to_uv = 2 * bench::waves(table.width()).A * table.width();
-        const bench::Errors e = bench::wave_errors(table.width(), [&](int x, int y) { return to_uv * slopes(table, x, y); });
+        const bench::Errors e =
+            bench::wave_errors(table.width(), [&](int x, int y) { return to_uv * slopes(table, x, y); });
         std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
     } else if (what == "--compare" && argc == 4) {
         compare(read_image(argv[2]), read_image(argv[3]));
     } else {
-        return std::fprintf(stderr, "usage: table_files_bench --make SIZE OUT | --errors TABLE | --compare TABLE BUMPSLOPES\n"), 2;
+        return std::fprintf(stderr,
+                            "usage: table_files_bench --make SIZE OUT | --errors TABLE | --compare TABLE BUMPSLOPES\n"),
+               2;
     }
     return 0;
 } catch (const Error& error) {

@@ -3,6 +3,7 @@
 // Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts triangles; ratio is the time over that of reading the input once and writing the output once.
 #include "bake/base/parallel.h"
+#include "bake/base/vec.h"
 #include "bake/surface/chart/tangent_space.h"
 #include <algorithm>
 #include <chrono>
@@ -10,7 +11,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <string>
 
 using namespace bake;
@@ -26,7 +26,7 @@ struct Corners {
 // R = 1, r = 0.4, split quads; u goes around the axis, v around the tube.
 Corners torus(int around, int across) {
     Corners out;
-    const double turn = 2 * std::numbers::pi;
+    const double turn = 2 * pi;
     const auto add = [&](int i, int j) {
         const double a = turn * (i % around) / around, b = turn * (j % across) / across;
         out.positions.emplace_back((1 + 0.4 * std::cos(b)) * std::cos(a), (1 + 0.4 * std::cos(b)) * std::sin(a),
@@ -72,9 +72,8 @@ void row(const std::string& name, const Corners& mesh, int threads) {
     std::vector<Vec4f> tangents, copy;
     std::vector<double> times, passes;
     for (int run = 0; run < 5; ++run) {
-        times.push_back(seconds([&] {
-            tangents = corner_tangents(mesh.positions, mesh.normals, mesh.uvs, face_begin);
-        }));
+        times.push_back(
+            seconds([&] { tangents = corner_tangents(mesh.positions, mesh.normals, mesh.uvs, face_begin); }));
         passes.push_back(seconds([&] {
             copy = std::vector<Vec4f>(corners);
             for (std::size_t c = 0; c < corners; ++c)
@@ -90,15 +89,15 @@ void row(const std::string& name, const Corners& mesh, int threads) {
     int signs = 0;
     for (std::size_t c = 0; c < corners; ++c) {
         const Vec3d a(tangents[c]), b(mesh.oracle[c]);
-        errors.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi);
+        errors.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / pi);
         sum += errors.back();
         difference = std::max(difference, glm::length(a - b));
         signs += tangents[c].w != mesh.oracle[c].w;
     }
     std::sort(errors.begin(), errors.end());
-    std::printf("tangent_space,%s,%zu,%d,%.1f,%.3g,%.3g,%.3g,%.1f,read+write pass,", name.c_str(), corners / 3, thread_count(),
-                times[2] * 1e9 / double(corners / 3), sum / double(corners), errors[corners * 95 / 100], errors.back(),
-                times[2] / passes[2]);
+    std::printf("tangent_space,%s,%zu,%d,%.1f,%.3g,%.3g,%.3g,%.1f,read+write pass,", name.c_str(), corners / 3,
+                thread_count(), times[2] * 1e9 / double(corners / 3), sum / double(corners), errors[corners * 95 / 100],
+                errors.back(), times[2] / passes[2]);
     std::printf("first run %.2f ms; median %.2f ms; max |dT| %.2g; %d signs differ\n", first * 1e3, times[2] * 1e3,
                 difference, signs);
 }

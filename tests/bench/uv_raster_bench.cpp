@@ -66,7 +66,8 @@ void row(const std::string& name, const Chart& chart, int size, int threads) {
         writes.push_back(seconds([&] {
             Image<TexelHit> plain(size, size, 1);
             for_rows(size, 16, [&](std::int64_t begin, std::int64_t end) {
-                std::fill(plain.row(int(begin)), plain.row(int(begin)) + (end - begin) * size, TexelHit{no_index, 0, 0});
+                std::fill(plain.row(int(begin)), plain.row(int(begin)) + (end - begin) * size,
+                          TexelHit{no_index, 0, 0});
             });
         }));
     }

@@ -8,8 +8,8 @@
 // that are none once bit-equal points are one. mixed: patches whose sides are cut differently. Meshes without uvs get
 // them from above.
 #define DOCTEST_CONFIG_DISABLE // of the tests' helpers only those without checks are used
-#include "bench.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bench.h"
 #include "relief/displace/watertight.h"
 #include <filesystem>
 
@@ -25,14 +25,17 @@ bool sweep(const std::string& name, const char* kind, const BaseSurface& base) {
     for (const bool mixed : {false, true})
         for (const Seam seam : {Seam::average, Seam::blend}) {
             const Rates rates = mixed ? test::mixed_rates(base.mesh(), 4.0 * double(patches))
-                                      : test::uniform(patches > 20000 ? 1 : patches > 2000 ? 2 : 3);
+                                      : test::uniform(patches > 20000  ? 1
+                                                      : patches > 2000 ? 2
+                                                                       : 3);
             test::Noisy noisy;
             const double seconds = bench::seconds([&] { noisy = test::displaced_by_noise(base, rates, seam); });
             const Mesh& mesh = noisy.displaced.mesh;
             const test::Cracks cracks = test::cracks_of(mesh, base, noisy.plan);
-            std::printf("%-34s %6zu %-8s %-8s %-8s %8zu %7zu %7lld %5lld %7lld %8.2f\n", name.c_str(), base.mesh().faces(), kind,
-                        mixed ? "mixed" : "uniform", seam == Seam::blend ? "blend" : "average", mesh.faces(),
-                        test::mixed_patches(base, noisy.plan), cracks.border_edges, cracks.t_junctions, cracks.parted, seconds);
+            std::printf("%-34s %6zu %-8s %-8s %-8s %8zu %7zu %7lld %5lld %7lld %8.2f\n", name.c_str(),
+                        base.mesh().faces(), kind, mixed ? "mixed" : "uniform",
+                        seam == Seam::blend ? "blend" : "average", mesh.faces(), test::mixed_patches(base, noisy.plan),
+                        cracks.border_edges, cracks.t_junctions, cracks.parted, seconds);
             std::fflush(stdout);
             whole &= !cracks.any();
         }
@@ -45,15 +48,16 @@ int main(int argc, char** argv) {
     std::vector<fs::path> files;
     if (argc == 2 && fs::is_directory(argv[1]))
         for (const auto& entry : fs::recursive_directory_iterator(argv[1]))
-            if (const auto kind = entry.path().extension(); kind == ".obj" || kind == ".ply" || kind == ".glb" || kind == ".gltf")
+            if (const auto kind = entry.path().extension();
+                kind == ".obj" || kind == ".ply" || kind == ".glb" || kind == ".gltf")
                 files.push_back(entry.path());
     if (files.empty()) {
         std::fprintf(stderr, "watertight_sweep FOLDER: a folder with meshes (.obj .ply .glb .gltf)\n");
         return 2;
     }
     std::sort(files.begin(), files.end());
-    std::printf("%-34s %6s %-8s %-8s %-8s %8s %7s %7s %5s %7s %8s\n", "mesh", "faces", "surface", "rates", "seam", "result", "mixed",
-                "border", "T", "parted", "seconds");
+    std::printf("%-34s %6s %-8s %-8s %-8s %8s %7s %7s %5s %7s %8s\n", "mesh", "faces", "surface", "rates", "seam",
+                "result", "mixed", "border", "T", "parted", "seconds");
     bool whole = true;
     for (const fs::path& file : files) {
         Mesh mesh = read_mesh(file.string());

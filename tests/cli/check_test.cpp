@@ -90,20 +90,20 @@ TEST_SUITE("cli") {
     }
 
     TEST_CASE("bake check: pairs may be given again, and files may follow them") {
-    const Folder folder;
-    const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
-    const auto json = nlohmann::json::parse(folder.check("--json --pair a.png b.png --pair c.png d.png " + good).out);
-    REQUIRE(json["files"].size() == 3);
-    CHECK(json["files"][0]["kind"] == "mesh");
-    CHECK(json["files"][2]["code"] == 3);
-    CHECK(folder.check("--pair a.png").code == 2);
-}
+        const Folder folder;
+        const std::string good = folder.write("good.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
+        const auto json =
+            nlohmann::json::parse(folder.check("--json --pair a.png b.png --pair c.png d.png " + good).out);
+        REQUIRE(json["files"].size() == 3);
+        CHECK(json["files"][0]["kind"] == "mesh");
+        CHECK(json["files"][2]["code"] == 3);
+        CHECK(folder.check("--pair a.png").code == 2);
+    }
 
     TEST_CASE("bake check --against: distances of two meshes, and exit 1 over --limit") {
         const Folder folder;
         const std::string low = folder.write("low.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");
-        const std::string high =
-            folder.write("high.obj", "v 0 0 .25\nv 1 0 .25\nv 1 1 .25\nv 0 1 .25\nf 1 2 3 4\n");
+        const std::string high = folder.write("high.obj", "v 0 0 .25\nv 1 0 .25\nv 1 1 .25\nv 0 1 .25\nf 1 2 3 4\n");
         const Result plain = folder.check(low + " --against " + high);
         CHECK(plain.code == 0);
         CHECK(plain.out.find("low.obj against ") != std::string::npos);
@@ -183,10 +183,8 @@ TEST_SUITE("cli") {
             const bool refused = r.code == 3 || r.code == 4;
             CHECK((refused || r.code == 0));
             CHECK(lines(r.err) == (refused ? 1 : 0));
-            if (refused)
-                CHECK(r.err.find(entry.path().filename().string()) != std::string::npos);
-            else
-                CHECK(!r.out.empty());
+            if (refused) CHECK(r.err.find(entry.path().filename().string()) != std::string::npos);
+            else CHECK(!r.out.empty());
         }
     }
 }

@@ -30,7 +30,8 @@ Folder::~Folder() {
 
 std::set<std::string> Folder::names() const {
     std::set<std::string> all;
-    for (const auto& entry : fs::recursive_directory_iterator(path)) all.insert(fs::relative(entry.path(), path).string());
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+        all.insert(fs::relative(entry.path(), path).string());
     return all;
 }
 
@@ -89,7 +90,8 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
     return run;
 }
 
-void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named, const RunLimits& limits) {
+void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named,
+                   const RunLimits& limits) {
     std::string line;
     for (const std::string& argument : arguments) line += argument + " ";
     CAPTURE(line);

@@ -29,11 +29,11 @@ void write_file(const std::string& file, const std::string& bytes);
 std::size_t lines(const std::string& text);
 
 struct RunLimits {
-    double seconds = 20;               ///< killed after
-    long long file_bytes = -1;         ///< largest file it may write; -1: any
-    double interrupt_after = -1;       ///< seconds after which SIGINT is sent; -1: never
-    bool as_nobody = false;            ///< without root's rights
-    std::string stdout_path;           ///< where stdout goes instead
+    double seconds = 20;         ///< killed after
+    long long file_bytes = -1;   ///< largest file it may write; -1: any
+    double interrupt_after = -1; ///< seconds after which SIGINT is sent; -1: never
+    bool as_nobody = false;      ///< without root's rights
+    std::string stdout_path;     ///< where stdout goes instead
 };
 
 struct Run {

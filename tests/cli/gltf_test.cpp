@@ -1,7 +1,7 @@
 // glTF from outside: the Khronos validator on what we write, and verbs on what others wrote.
-#include "mesh/gltf/gltf_files.h"
 #include "bake/surface/chart/tangent_space.h"
 #include "cli/command.h"
+#include "mesh/gltf/gltf_files.h"
 #include <cstdlib>
 #include <sys/wait.h>
 
@@ -12,7 +12,8 @@ using namespace bake_tests;
 /// What the Khronos validator finds wrong with all .glb and .gltf of the folder: "" for nothing.
 std::string validator_says(const std::filesystem::path& folder) {
     const std::string out = (folder / "validator.txt").string();
-    const std::string command = "cd '" + folder.string() + "' && '" + (std::filesystem::absolute(source_folder()) / "scripts/gltf_validator").string() +
+    const std::string command = "cd '" + folder.string() + "' && '" +
+                                (std::filesystem::absolute(source_folder()) / "scripts/gltf_validator").string() +
                                 "' $(ls | grep -E '[.](glb|gltf)$') > '" + out + "' 2>&1";
     const int status = std::system(command.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
@@ -26,9 +27,10 @@ std::string validator_says(const std::filesystem::path& folder) {
 
 /// Ours has bytes that viewers look at: a picture of one pixel.
 std::vector<std::uint8_t> one_pixel() {
-    return {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0, 1, 0, 0, 0, 1, 8, 0, 0, 0, 0,
-            0x3a, 0x7e, 0x9b, 0x55, 0, 0, 0, 10, 'I', 'D', 'A', 'T', 0x78, 0x9c, 0x63, 0x68, 0, 0, 0, 0x82, 0, 0x81, 0x77, 0xcd, 0x72,
-            0xb6, 0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    return {0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,    0,    13,  'I',  'H',  'D',  'R',  0,
+            0,    0,    1,    0,    0,    0,    1,    8,    0,    0,    0,    0,   0x3a, 0x7e, 0x9b, 0x55, 0,
+            0,    0,    10,   'I',  'D',  'A',  'T',  0x78, 0x9c, 0x63, 0x68, 0,   0,    0,    0x82, 0,    0x81,
+            0x77, 0xcd, 0x72, 0xb6, 0,    0,    0,    0,    'I',  'E',  'N',  'D', 0xae, 0x42, 0x60, 0x82};
 }
 
 void write_both(const TemporaryFolder& folder, const std::string& name, const Gltf& gltf) {
@@ -40,7 +42,8 @@ TEST_SUITE("cli") {
     TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write") {
         const TemporaryFolder folder;
         Gltf rich{rich_triangles(6, 3), {}, {}, {}};
-        rich.images = {{"height", "image/png", "", one_pixel()}, {"", "", "a b.png", one_pixel()}, {"", "", "gone.png", {}}};
+        rich.images = {
+            {"height", "image/png", "", one_pixel()}, {"", "", "a b.png", one_pixel()}, {"", "", "gone.png", {}}};
         GltfMaterial brick{.name = "brick"};
         brick.normal = GltfTexture{1, 0, 0.5, {33071, 33648, 9987, 9729}};
         brick.base_color = GltfTexture{0, 1, 1, {}};
@@ -53,9 +56,15 @@ TEST_SUITE("cli") {
         write_both(folder, "rich", rich);
 
         // What other formats allow: no normals, zero normals, missing uvs, names that are no UTF-8, attributes that clash.
-        Gltf poor{read_text("t.obj", "v 0 0 0\nv 3 0 0\nv 1 1 0\nv 0 3 0\nv 5 5 1\nvn 0 0 0\nvt .5 1\nusemtl \xff\nf 1 2/1 3//1 4\nf 2 5 4 3 1\nf 1 1 2\n"), {}, {}, {}};
-        poor.mesh.attributes = {{"a b", 1, std::vector<float>(poor.mesh.corners())}, {"A_B", 2, std::vector<float>(2 * poor.mesh.corners())},
-                                {"TEXCOORD_7", 2, std::vector<float>(2 * poor.mesh.corners())}, {"COLOR_1", 3, std::vector<float>(3 * poor.mesh.corners())},
+        Gltf poor{read_text("t.obj", "v 0 0 0\nv 3 0 0\nv 1 1 0\nv 0 3 0\nv 5 5 1\nvn 0 0 0\nvt .5 1\nusemtl \xff\nf 1 "
+                                     "2/1 3//1 4\nf 2 5 4 3 1\nf 1 1 2\n"),
+                  {},
+                  {},
+                  {}};
+        poor.mesh.attributes = {{"a b", 1, std::vector<float>(poor.mesh.corners())},
+                                {"A_B", 2, std::vector<float>(2 * poor.mesh.corners())},
+                                {"TEXCOORD_7", 2, std::vector<float>(2 * poor.mesh.corners())},
+                                {"COLOR_1", 3, std::vector<float>(3 * poor.mesh.corners())},
                                 {"", 1, std::vector<float>(poor.mesh.corners())}};
         poor.mesh.tangents.assign(poor.mesh.corners(), Vec4f(0, 0, 0, 0));
         write_both(folder, "poor", poor);
@@ -87,7 +96,8 @@ TEST_SUITE("cli") {
         CHECK(check({}).find("1 image that is not there") != std::string::npos);
         CHECK(check({"--json"}).find("\"missing_images\":1") != std::string::npos);
         std::filesystem::remove(folder / "a.bin");
-        test::check_refused(folder, {"normal-map", "a.gltf", "--height", "a.gltf", "--amplitude", "1", "-o", "n.png"}, 3, "a.gltf");
+        test::check_refused(folder, {"normal-map", "a.gltf", "--height", "a.gltf", "--amplitude", "1", "-o", "n.png"},
+                            3, "a.gltf");
     }
 
     TEST_CASE("gltf: normal-map, explain and render take a .glb as they take the same mesh as .obj") {
@@ -104,7 +114,8 @@ TEST_SUITE("cli") {
             return done.out;
         };
         const auto bake_map = [&](const std::string& name, const std::string& out, std::vector<std::string> more = {}) {
-            std::vector<std::string> all = {"normal-map", name, "--height", height, "--amplitude", "1%", "--size", "128", "-o", out};
+            std::vector<std::string> all = {"normal-map", name,     "--height", height, "--amplitude",
+                                            "1%",         "--size", "128",      "-o",   out};
             all.insert(all.end(), more.begin(), more.end());
             run(all);
             return bytes_of(folder / out);
@@ -129,7 +140,8 @@ TEST_SUITE("cli") {
 } // cli
 
 TEST_SUITE("real") {
-    TEST_CASE("gltf: the samples come back bit for bit from what we write of them, and the validator finds nothing wrong") {
+    TEST_CASE(
+        "gltf: the samples come back bit for bit from what we write of them, and the validator finds nothing wrong") {
         const std::filesystem::path data = test::shared_data();
         if (data.empty()) {
             MESSAGE("left out: no ../shared/data");
@@ -147,14 +159,20 @@ TEST_SUITE("real") {
                 const Gltf back = read_gltf(folder.file(stem + ending));
                 Mesh expected = first.mesh;
                 if (done.mended_normals + done.mended_tangents > 0)
-                    MESSAGE(sample << ": " << done.mended_normals << " normals and " << done.mended_tangents << " tangents mended");
+                    MESSAGE(sample << ": " << done.mended_normals << " normals and " << done.mended_tangents
+                                   << " tangents mended");
                 else CHECK(same_mesh(back.mesh, expected));
-                CHECK(same_corners({.positions = back.mesh.positions, .face_begin = back.mesh.face_begin, .corner_position = back.mesh.corner_position},
-                                   {.positions = expected.positions, .face_begin = expected.face_begin, .corner_position = expected.corner_position}));
+                CHECK(same_corners({.positions = back.mesh.positions,
+                                    .face_begin = back.mesh.face_begin,
+                                    .corner_position = back.mesh.corner_position},
+                                   {.positions = expected.positions,
+                                    .face_begin = expected.face_begin,
+                                    .corner_position = expected.corner_position}));
                 CHECK(back.materials == first.materials);
                 CHECK(back.nodes == first.nodes);
                 REQUIRE(back.images.size() == first.images.size());
-                for (std::size_t i = 0; i < back.images.size(); ++i) CHECK(back.images[i].bytes == first.images[i].bytes);
+                for (std::size_t i = 0; i < back.images.size(); ++i)
+                    CHECK(back.images[i].bytes == first.images[i].bytes);
             }
             if (first.materials.size() != 1 || !first.materials[0].normal) continue;
             add_tangents(first.mesh); // what the format asks of a mesh with a normal texture

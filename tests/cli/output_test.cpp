@@ -26,7 +26,8 @@ std::vector<Job> jobs() {
         all.push_back({table, {"bump-table", bricks, "-o", table}});
         all.push_back({map, {"normal-map", "--height", bricks, "-o", map}});
     }
-    for (const char* out : {"moments.exr", "moments.tif"}) all.push_back({out, {"bump-table", bricks, "-o", out, "--layout", "bumpslopes"}});
+    for (const char* out : {"moments.exr", "moments.tif"})
+        all.push_back({out, {"bump-table", bricks, "-o", out, "--layout", "bumpslopes"}});
     return all;
 }
 
@@ -40,8 +41,11 @@ std::string large_height(const Folder& folder) {
 
 /// 128 KiB in memory, as long as it lives.
 struct SmallDisk {
-    explicit SmallDisk(const std::string& folder) : path(folder), mounted(mount("none", path.c_str(), "tmpfs", 0, "size=128k") == 0) {}
-    ~SmallDisk() { if (mounted) umount(path.c_str()); }
+    explicit SmallDisk(const std::string& folder)
+        : path(folder), mounted(mount("none", path.c_str(), "tmpfs", 0, "size=128k") == 0) {}
+    ~SmallDisk() {
+        if (mounted) umount(path.c_str());
+    }
     std::string path;
     bool mounted;
 };
@@ -50,99 +54,105 @@ struct SmallDisk {
 
 TEST_SUITE("cli") {
 
-TEST_CASE("output: the same bytes for 1, 2 and 7 threads, and a second run overwrites the first") {
-    const Folder folder;
-    std::vector<Job> all = jobs();
-    all.push_back({"torus.png", {"normal-map", torus, "--height", dots, "--amplitude", "1%", "-o", "torus.png", "--size", "256x128"}});
-    for (const Job& job : all) {
-        CAPTURE(job.out);
-        std::string first;
-        for (const char* threads : {"1", "2", "7"}) {
-            std::vector<std::string> arguments = job.arguments;
-            arguments.insert(arguments.end(), {"--threads", threads});
-            REQUIRE(run_bake(folder, arguments).code == 0);
-            if (first.empty()) first = contents(folder / job.out);
-            CHECK((contents(folder / job.out) == first));
-        }
-    }
-    CHECK(folder.names().size() == all.size());
-}
-
-TEST_CASE("output: a full disk is exit 5, one line; the old file stays and no other is left") {
-    for (const Job& job : jobs()) {
+    TEST_CASE("output: the same bytes for 1, 2 and 7 threads, and a second run overwrites the first") {
         const Folder folder;
-        REQUIRE(run_bake(folder, job.arguments).code == 0);
-        const auto whole = (long long)fs::file_size(folder / job.out);
-        write_file(folder / job.out, "old");
-        for (const long long most : {300LL, whole / 2, whole - 1}) {
-            CAPTURE(most);
-            check_refused(folder, job.arguments, 5, job.out, {.file_bytes = most});
-            CHECK(contents(folder / job.out) == "old");
+        std::vector<Job> all = jobs();
+        all.push_back(
+            {"torus.png",
+             {"normal-map", torus, "--height", dots, "--amplitude", "1%", "-o", "torus.png", "--size", "256x128"}});
+        for (const Job& job : all) {
+            CAPTURE(job.out);
+            std::string first;
+            for (const char* threads : {"1", "2", "7"}) {
+                std::vector<std::string> arguments = job.arguments;
+                arguments.insert(arguments.end(), {"--threads", threads});
+                REQUIRE(run_bake(folder, arguments).code == 0);
+                if (first.empty()) first = contents(folder / job.out);
+                CHECK((contents(folder / job.out) == first));
+            }
+        }
+        CHECK(folder.names().size() == all.size());
+    }
+
+    TEST_CASE("output: a full disk is exit 5, one line; the old file stays and no other is left") {
+        for (const Job& job : jobs()) {
+            const Folder folder;
+            REQUIRE(run_bake(folder, job.arguments).code == 0);
+            const auto whole = (long long)fs::file_size(folder / job.out);
+            write_file(folder / job.out, "old");
+            for (const long long most : {300LL, whole / 2, whole - 1}) {
+                CAPTURE(most);
+                check_refused(folder, job.arguments, 5, job.out, {.file_bytes = most});
+                CHECK(contents(folder / job.out) == "old");
+            }
         }
     }
-}
 
-TEST_CASE("output: a small disk that fills up") {
-    const Folder folder;
-    fs::create_directory(folder.path / "disk");
-    const SmallDisk disk(folder / "disk");
-    if (!disk.mounted) {
-        MESSAGE("may not mount: skipped");
-        return;
+    TEST_CASE("output: a small disk that fills up") {
+        const Folder folder;
+        fs::create_directory(folder.path / "disk");
+        const SmallDisk disk(folder / "disk");
+        if (!disk.mounted) {
+            MESSAGE("may not mount: skipped");
+            return;
+        }
+        for (const Job& job : jobs()) {
+            std::vector<std::string> arguments = job.arguments;
+            for (std::string& argument : arguments)
+                if (argument == job.out) argument = "disk/" + job.out;
+            write_file(folder / "disk/" + job.out, "old");
+            check_refused(folder, arguments, 5, job.out);
+            CHECK(contents(folder / "disk/" + job.out) == "old");
+        }
     }
-    for (const Job& job : jobs()) {
-        std::vector<std::string> arguments = job.arguments;
-        for (std::string& argument : arguments)
-            if (argument == job.out) argument = "disk/" + job.out;
-        write_file(folder / "disk/" + job.out, "old");
-        check_refused(folder, arguments, 5, job.out);
-        CHECK(contents(folder / "disk/" + job.out) == "old");
-    }
-}
 
-TEST_CASE("output: folders that are missing, not writable, or stand where the file should be") {
-    const Folder folder;
-    fs::create_directory(folder.path / "taken.png");
-    fs::create_directory(folder.path / "taken.exr");
-    fs::create_directory(folder.path / "closed");
-    write_file(folder / "file", "");
-    for (const std::vector<std::string>& verb : {std::vector<std::string>{"bump-table", dots, "-o"}, {"normal-map", "--height", dots, "-o"}}) {
-        const auto refused = [&](const std::string& out, const RunLimits& limits = {}) {
-            std::vector<std::string> arguments = verb;
-            arguments.push_back(out);
-            check_refused(folder, arguments, 5, out, limits);
-        };
-        refused("taken.png");
-        refused("taken.exr");
-        refused("nowhere/a.png");
-        refused("file/a.png");
-        fs::permissions(folder.path, fs::perms::all);
-        fs::permissions(folder.path / "closed", fs::perms::owner_read | fs::perms::owner_exec);
-        if (getuid() == 0) fs::permissions(folder.path / "closed", fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
-        // Another user cannot read the project where it lies in a closed home: looked at only where it can.
-        if (getuid() != 0) refused("closed/a.png");
-        fs::permissions(folder.path / "closed", fs::perms::all);
+    TEST_CASE("output: folders that are missing, not writable, or stand where the file should be") {
+        const Folder folder;
+        fs::create_directory(folder.path / "taken.png");
+        fs::create_directory(folder.path / "taken.exr");
+        fs::create_directory(folder.path / "closed");
+        write_file(folder / "file", "");
+        for (const std::vector<std::string>& verb :
+             {std::vector<std::string>{"bump-table", dots, "-o"}, {"normal-map", "--height", dots, "-o"}}) {
+            const auto refused = [&](const std::string& out, const RunLimits& limits = {}) {
+                std::vector<std::string> arguments = verb;
+                arguments.push_back(out);
+                check_refused(folder, arguments, 5, out, limits);
+            };
+            refused("taken.png");
+            refused("taken.exr");
+            refused("nowhere/a.png");
+            refused("file/a.png");
+            fs::permissions(folder.path, fs::perms::all);
+            fs::permissions(folder.path / "closed", fs::perms::owner_read | fs::perms::owner_exec);
+            if (getuid() == 0)
+                fs::permissions(folder.path / "closed",
+                                fs::perms::owner_all | fs::perms::others_exec | fs::perms::others_read);
+            // Another user cannot read the project where it lies in a closed home: looked at only where it can.
+            if (getuid() != 0) refused("closed/a.png");
+            fs::permissions(folder.path / "closed", fs::perms::all);
+        }
+        CHECK(run_bake(folder, {"check", dots}, {.stdout_path = "/dev/full"}).code == 5);
     }
-    CHECK(run_bake(folder, {"check", dots}, {.stdout_path = "/dev/full"}).code == 5);
-}
 
-TEST_CASE("output: Ctrl-C during a long bake is exit 130, one line, and leaves nothing") {
-    const Folder folder;
-    const std::string height = large_height(folder);
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"bump-table", height, "-o", "a.exr"}, {"bump-table", height, "-o", "a.png"},
-          {"normal-map", "--height", height, "-o", "a.exr"}, {"normal-map", "--height", height, "-o", "a.png"}}) {
-        write_file(folder / arguments.back(), "old");
-        const auto before = folder.names();
-        const Run run = run_bake(folder, arguments, {.seconds = 100, .interrupt_after = 0.6});
-        CAPTURE(arguments.back());
-        CAPTURE(run.err);
-        CHECK(run.code == 130);
-        CHECK(lines(run.err) == 1);
-        CHECK(run.seconds < 30);
-        CHECK(contents(folder / arguments.back()) == "old");
-        CHECK(folder.names() == before);
+    TEST_CASE("output: Ctrl-C during a long bake is exit 130, one line, and leaves nothing") {
+        const Folder folder;
+        const std::string height = large_height(folder);
+        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bump-table", height, "-o", "a.exr"},
+                                                          {"bump-table", height, "-o", "a.png"},
+                                                          {"normal-map", "--height", height, "-o", "a.exr"},
+                                                          {"normal-map", "--height", height, "-o", "a.png"}}) {
+            write_file(folder / arguments.back(), "old");
+            const auto before = folder.names();
+            const Run run = run_bake(folder, arguments, {.seconds = 100, .interrupt_after = 0.6});
+            CAPTURE(arguments.back());
+            CAPTURE(run.err);
+            CHECK(run.code == 130);
+            CHECK(lines(run.err) == 1);
+            CHECK(run.seconds < 30);
+            CHECK(contents(folder / arguments.back()) == "old");
+            CHECK(folder.names() == before);
+        }
     }
-}
 
 } // TEST_SUITE

@@ -1,6 +1,6 @@
-#include "bake/picture/image_io.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/output_file.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/picture/image_io.h"
 #include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_render_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
+    fs::path path = fs::temp_directory_path() /
+                    ("bake_render_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
     Folder() { fs::create_directories(path); }
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }
@@ -90,100 +91,100 @@ void check_refused(const Folder& folder, const std::string& arguments, int code,
 
 TEST_SUITE("cli") {
 
-TEST_CASE("render: a PNG of the scene's size, the same bytes for any number of threads") {
-    const Folder folder;
-    write_scene(folder);
-    std::string first;
-    for (const char* threads : {"1", "2", "7"}) {
-        const Run run = bake_render(folder, std::string("scene.toml -o a.png --threads ") + threads);
+    TEST_CASE("render: a PNG of the scene's size, the same bytes for any number of threads") {
+        const Folder folder;
+        write_scene(folder);
+        std::string first;
+        for (const char* threads : {"1", "2", "7"}) {
+            const Run run = bake_render(folder, std::string("scene.toml -o a.png --threads ") + threads);
+            REQUIRE_MESSAGE(run.code == 0, run.err);
+            CHECK(run.err.empty());
+            CHECK(run.out.find("a.png: 48 x 32, 3 spp, ") == 0);
+            CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 1);
+            if (first.empty()) first = contents(folder / "a.png");
+            CHECK(contents(folder / "a.png") == first);
+        }
+        const ImageInfo info = read_image_info(folder / "a.png");
+        CHECK(info.width == 48);
+        CHECK(info.height == 32);
+        CHECK(info.type == SampleType::u8);
+        CHECK(info.channels.size() == 3);
+    }
+
+    TEST_CASE("render: EXR holds the radiance, PNG the same exposed and sRGB-encoded") {
+        const Folder folder;
+        write_scene(folder);
+        REQUIRE(bake_render(folder, "scene.toml -o a.exr --depth float").code == 0);
+        REQUIRE(bake_render(folder, "scene.toml -o a.png").code == 0);
+        REQUIRE(bake_render(folder, "scene.toml -o half.exr").code == 0);
+        CHECK(read_image_info(folder / "half.exr").type == SampleType::half);
+        const Image<float> linear = read_image(folder / "a.exr"), shown = read_image(folder / "a.png");
+        REQUIRE(linear.size() == shown.size());
+        float brightest = 0;
+        for (std::size_t i = 0; i < linear.size(); ++i) {
+            const float exposed = std::min(1.0f, 2 * linear.data()[i]); // exposure 1: twice
+            CHECK(std::abs(linear_to_srgb(exposed) - shown.data()[i]) <= 0.51f / 255);
+            brightest = std::max(brightest, linear.data()[i]);
+        }
+        CHECK(brightest > 0.3f);
+    }
+
+    TEST_CASE("render: size and samples from the command line win, and --json says what was done") {
+        const Folder folder;
+        write_scene(folder);
+        const Run run = bake_render(folder, "scene.toml -o a.exr --size 20x10 --spp 2 --json");
         REQUIRE_MESSAGE(run.code == 0, run.err);
-        CHECK(run.err.empty());
-        CHECK(run.out.find("a.png: 48 x 32, 3 spp, ") == 0);
-        CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 1);
-        if (first.empty()) first = contents(folder / "a.png");
-        CHECK(contents(folder / "a.png") == first);
+        const nlohmann::json result = nlohmann::json::parse(run.out);
+        CHECK(result["width"] == 20);
+        CHECK(result["height"] == 10);
+        CHECK(result["spp"] == 2);
+        CHECK(result["triangles"] == 32 * 16 * 2 + 2);
+        CHECK(result["rays"] > 20 * 10 * 2);
+        CHECK(result["bad_samples"] == 0);
+        CHECK(read_image_info(folder / "a.exr").width == 20);
+        REQUIRE(bake_render(folder, "scene.toml -o a.png --size 16").code == 0);
+        CHECK(read_image_info(folder / "a.png").height == 16);
     }
-    const ImageInfo info = read_image_info(folder / "a.png");
-    CHECK(info.width == 48);
-    CHECK(info.height == 32);
-    CHECK(info.type == SampleType::u8);
-    CHECK(info.channels.size() == 3);
-}
 
-TEST_CASE("render: EXR holds the radiance, PNG the same exposed and sRGB-encoded") {
-    const Folder folder;
-    write_scene(folder);
-    REQUIRE(bake_render(folder, "scene.toml -o a.exr --depth float").code == 0);
-    REQUIRE(bake_render(folder, "scene.toml -o a.png").code == 0);
-    REQUIRE(bake_render(folder, "scene.toml -o half.exr").code == 0);
-    CHECK(read_image_info(folder / "half.exr").type == SampleType::half);
-    const Image<float> linear = read_image(folder / "a.exr"), shown = read_image(folder / "a.png");
-    REQUIRE(linear.size() == shown.size());
-    float brightest = 0;
-    for (std::size_t i = 0; i < linear.size(); ++i) {
-        const float exposed = std::min(1.0f, 2 * linear.data()[i]); // exposure 1: twice
-        CHECK(std::abs(linear_to_srgb(exposed) - shown.data()[i]) <= 0.51f / 255);
-        brightest = std::max(brightest, linear.data()[i]);
-    }
-    CHECK(brightest > 0.3f);
-}
-
-TEST_CASE("render: size and samples from the command line win, and --json says what was done") {
-    const Folder folder;
-    write_scene(folder);
-    const Run run = bake_render(folder, "scene.toml -o a.exr --size 20x10 --spp 2 --json");
-    REQUIRE_MESSAGE(run.code == 0, run.err);
-    const nlohmann::json result = nlohmann::json::parse(run.out);
-    CHECK(result["width"] == 20);
-    CHECK(result["height"] == 10);
-    CHECK(result["spp"] == 2);
-    CHECK(result["triangles"] == 32 * 16 * 2 + 2);
-    CHECK(result["rays"] > 20 * 10 * 2);
-    CHECK(result["bad_samples"] == 0);
-    CHECK(read_image_info(folder / "a.exr").width == 20);
-    REQUIRE(bake_render(folder, "scene.toml -o a.png --size 16").code == 0);
-    CHECK(read_image_info(folder / "a.png").height == 16);
-}
-
-TEST_CASE("render: what is too bright for half floats is their largest number, not infinite") {
-    const Folder folder;
-    write_mesh(folder / "floor.ply", test::plane_mesh());
-    write_text(folder / "bright.toml", R"(mesh = [{file = "floor.ply"}]
+    TEST_CASE("render: what is too bright for half floats is their largest number, not infinite") {
+        const Folder folder;
+        write_mesh(folder / "floor.ply", test::plane_mesh());
+        write_text(folder / "bright.toml", R"(mesh = [{file = "floor.ply"}]
                                           light = [{type = "ambient", intensity = 1e9}])");
-    REQUIRE(bake_render(folder, "bright.toml -o a.exr --size 8").code == 0);
-    const Image<float> image = read_image(folder / "a.exr");
-    CHECK(image.at(4, 4) == 65504.0f);
-}
+        REQUIRE(bake_render(folder, "bright.toml -o a.exr --size 8").code == 0);
+        const Image<float> image = read_image(folder / "a.exr");
+        CHECK(image.at(4, 4) == 65504.0f);
+    }
 
-TEST_CASE("render: refusals have their code, one line, and leave the old picture as it was") {
-    const Folder folder;
-    write_scene(folder);
-    write_text(folder / "a.png", "old");
-    write_text(folder / "bad_key.toml", "[render]\nsize = 8\nsamples = 3\n");
-    write_text(folder / "no_mesh.toml", "[[mesh]]\nfile = \"gone.obj\"\n");
-    write_text(folder / "empty.toml", "");
-    check_refused(folder, "gone.toml -o a.png", 3, "gone.toml");
-    check_refused(folder, "bad_key.toml -o a.png", 3, "bad_key.toml:3: ");
-    check_refused(folder, "no_mesh.toml -o a.png", 3, "gone.obj");
-    check_refused(folder, "empty.toml -o a.png", 4, "empty.toml");
-    check_refused(folder, "scene.toml", 2, "--out");
-    check_refused(folder, "scene.toml -o a.jpg", 2, "a.jpg");
-    check_refused(folder, "scene.toml -o a.png --depth half", 2, "a.png");
-    for (const char* size : {"0", "10x", "x10", "10x10x10", "-4", "8x0", "99999", "eight", "8x99999"})
-        check_refused(folder, std::string("scene.toml -o a.png --size ") + size, 2, "--size");
-    check_refused(folder, "scene.toml -o a.png --spp 0", 2, "--spp");
-    check_refused(folder, "scene.toml -o nowhere/a.png", 5, "nowhere/a.png");
-    CHECK(contents(folder / "a.png") == "old");
-    int files = 0;
-    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path)) ++files;
-    CHECK(files == 9); // scene, ball, floor, three bad scenes, a.png, stdout, stderr
-}
+    TEST_CASE("render: refusals have their code, one line, and leave the old picture as it was") {
+        const Folder folder;
+        write_scene(folder);
+        write_text(folder / "a.png", "old");
+        write_text(folder / "bad_key.toml", "[render]\nsize = 8\nsamples = 3\n");
+        write_text(folder / "no_mesh.toml", "[[mesh]]\nfile = \"gone.obj\"\n");
+        write_text(folder / "empty.toml", "");
+        check_refused(folder, "gone.toml -o a.png", 3, "gone.toml");
+        check_refused(folder, "bad_key.toml -o a.png", 3, "bad_key.toml:3: ");
+        check_refused(folder, "no_mesh.toml -o a.png", 3, "gone.obj");
+        check_refused(folder, "empty.toml -o a.png", 4, "empty.toml");
+        check_refused(folder, "scene.toml", 2, "--out");
+        check_refused(folder, "scene.toml -o a.jpg", 2, "a.jpg");
+        check_refused(folder, "scene.toml -o a.png --depth half", 2, "a.png");
+        for (const char* size : {"0", "10x", "x10", "10x10x10", "-4", "8x0", "99999", "eight", "8x99999"})
+            check_refused(folder, std::string("scene.toml -o a.png --size ") + size, 2, "--size");
+        check_refused(folder, "scene.toml -o a.png --spp 0", 2, "--spp");
+        check_refused(folder, "scene.toml -o nowhere/a.png", 5, "nowhere/a.png");
+        CHECK(contents(folder / "a.png") == "old");
+        int files = 0;
+        for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path)) ++files;
+        CHECK(files == 9); // scene, ball, floor, three bad scenes, a.png, stdout, stderr
+    }
 
-TEST_CASE("render: --help has examples") {
-    const Folder folder;
-    const Run run = bake_render(folder, "--help");
-    CHECK(run.code == 0);
-    CHECK(run.out.find("Examples:\n  bake render ") != std::string::npos);
-}
+    TEST_CASE("render: --help has examples") {
+        const Folder folder;
+        const Run run = bake_render(folder, "--help");
+        CHECK(run.code == 0);
+        CHECK(run.out.find("Examples:\n  bake render ") != std::string::npos);
+    }
 
 } // TEST_SUITE

@@ -14,120 +14,137 @@ const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_mesh
 
 TEST_SUITE("cli") {
 
-TEST_CASE("usage: help and version are exit 0 on stdout; every verb's help has examples and no path of this machine") {
-    const Folder folder;
-    const Run version = run_bake(folder, {"--version"});
-    CHECK(version.code == 0);
-    CHECK(version.out.starts_with("bake "));
-    CHECK(lines(version.out) == 1);
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"--help"}, {"bump-table", "--help"}, {"normal-map", "--help"}, {"surface", "--help"}, {"check", "--help"}, {"render", "--help"}, {"explain", "-h"}}) {
-        const Run help = run_bake(folder, arguments);
-        CHECK(help.code == 0);
-        CHECK(help.err == "");
-        CHECK(help.out.find("Examples:\n  bake ") != std::string::npos);
-        CHECK(help.out.find("Usage: bake ") != std::string::npos);
+    TEST_CASE(
+        "usage: help and version are exit 0 on stdout; every verb's help has examples and no path of this machine") {
+        const Folder folder;
+        const Run version = run_bake(folder, {"--version"});
+        CHECK(version.code == 0);
+        CHECK(version.out.starts_with("bake "));
+        CHECK(lines(version.out) == 1);
+        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                          {"bump-table", "--help"},
+                                                          {"normal-map", "--help"},
+                                                          {"surface", "--help"},
+                                                          {"check", "--help"},
+                                                          {"render", "--help"},
+                                                          {"explain", "-h"}}) {
+            const Run help = run_bake(folder, arguments);
+            CHECK(help.code == 0);
+            CHECK(help.err == "");
+            CHECK(help.out.find("Examples:\n  bake ") != std::string::npos);
+            CHECK(help.out.find("Usage: bake ") != std::string::npos);
+        }
+        const Run help = run_bake(folder, {"bump-table", "--help"});
+        for (const char* option : {"--filter", "--wrap", "--wrap-u", "--wrap-v", "--units", "--amplitude", "--extent",
+                                   "--channel", "--invert", "--layout", "--depth", "--dequantise", "--threads",
+                                   "--quiet", "--json", "auto|central|sobel|scharr|order4|order6|c2"})
+            CHECK_MESSAGE(help.out.find(option) != std::string::npos, std::string(option));
     }
-    const Run help = run_bake(folder, {"bump-table", "--help"});
-    for (const char* option : {"--filter", "--wrap", "--wrap-u", "--wrap-v", "--units", "--amplitude", "--extent", "--channel", "--invert",
-                               "--layout", "--depth", "--dequantise", "--threads", "--quiet", "--json", "auto|central|sobel|scharr|order4|order6|c2"})
-        CHECK_MESSAGE(help.out.find(option) != std::string::npos, std::string(option));
-}
 
-TEST_CASE("usage: wrong options are exit 2, one line that names them, and nothing is written") {
-    const Folder folder;
-    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& named) { check_refused(folder, arguments, 2, named); };
-    refused({}, "--help");
-    refused({"nosuch"}, "nosuch");
-    refused({"Normal-Map"}, "Normal-Map");
-    refused({"--nosuch"}, "--help");
-    const auto map = [&](std::vector<std::string> more, const std::string& named) {
-        more.insert(more.begin(), {"normal-map", "--height", dots});
-        refused(more, named);
-    };
-    map({"-o", "a.png", "--nosuch"}, "--nosuch");
-    map({}, "--out");
-    map({"-o"}, "--out");
-    map({"-o", ""}, "--out");
-    map({"-o", "a"}, "ending");
-    map({"-o", "a.jpg"}, "a.jpg");
-    map({"-o", "a.png", "--depth", "half"}, "half");
-    map({"-o", "a.png", "--depth", "float"}, "float");
-    map({"-o", "a.exr", "--depth", "8"}, "a.exr");
-    map({"-o", "a.exr", "--depth", "16"}, "a.exr");
-    map({"-o", "a.exr", "--depth", "12"}, "--depth");
-    map({"-o", "a.png", "--method", "best"}, "--method");
-    map({"-o", "a.png", "--filter", "SOBEL"}, "--filter");
-    map({"-o", "a.png", "--wrap", ""}, "--wrap");
-    map({"-o", "a.png", "--channel", "x"}, "--channel");
-    map({"-o", "a.png", "--padding", "-1"}, "--padding");
-    map({"-o", "a.png", "--threads", "-1"}, "--threads");
-    map({"-o", "a.png", "--space", "object"}, "--space");
-    map({"-o", "a.png", "--midlevel", "nan"}, "--midlevel");
-    map({"-o", "a.png", "--midlevel", "inf"}, "--midlevel");
-    map({"-o", "a.png", "--midlevel", "half"}, "--midlevel");
-    for (const char* size : {"0", "-4", "x", "10x", "x10", "3.5", "10x10x10", "65537", "1e9", "nan", "", "16 16"}) map({"-o", "a.png", "--size", size}, "--size");
-    for (const char* amplitude : {"nan", "inf", "1,5", "", "%", "one", "1%%", "1 %", "1e13", "1%", "0x"}) map({"-o", "a.png", "--amplitude", amplitude}, "--amplitude");
-    for (const char* extent : {"0,1", "1,0", "-1,1", "1", "1,", ",1", "1,1,1", "nan,1", "inf,1", "", "1e-300,1"}) map({"-o", "a.png", "--extent", extent}, "--extent");
-    map({"-o", "a.png", "--amplitude", "1e3", "--extent", "1e-9,1e-9"}, "--amplitude");
-    refused({"normal-map", "-o", "a.png"}, "--height");
-    refused({"normal-map", torus, "--height", dots, "-o", "a.png"}, "--amplitude");
-    refused({"normal-map", torus, "--height", dots, "-o", "a.png", "--amplitude", "1%", "--extent", "1,1"}, "--extent");
-    refused({"normal-map", torus, torus, "--height", dots, "-o", "a.png", "--amplitude", "1%"}, "torus.obj");
+    TEST_CASE("usage: wrong options are exit 2, one line that names them, and nothing is written") {
+        const Folder folder;
+        const auto refused = [&](const std::vector<std::string>& arguments, const std::string& named) {
+            check_refused(folder, arguments, 2, named);
+        };
+        refused({}, "--help");
+        refused({"nosuch"}, "nosuch");
+        refused({"Normal-Map"}, "Normal-Map");
+        refused({"--nosuch"}, "--help");
+        const auto map = [&](std::vector<std::string> more, const std::string& named) {
+            more.insert(more.begin(), {"normal-map", "--height", dots});
+            refused(more, named);
+        };
+        map({"-o", "a.png", "--nosuch"}, "--nosuch");
+        map({}, "--out");
+        map({"-o"}, "--out");
+        map({"-o", ""}, "--out");
+        map({"-o", "a"}, "ending");
+        map({"-o", "a.jpg"}, "a.jpg");
+        map({"-o", "a.png", "--depth", "half"}, "half");
+        map({"-o", "a.png", "--depth", "float"}, "float");
+        map({"-o", "a.exr", "--depth", "8"}, "a.exr");
+        map({"-o", "a.exr", "--depth", "16"}, "a.exr");
+        map({"-o", "a.exr", "--depth", "12"}, "--depth");
+        map({"-o", "a.png", "--method", "best"}, "--method");
+        map({"-o", "a.png", "--filter", "SOBEL"}, "--filter");
+        map({"-o", "a.png", "--wrap", ""}, "--wrap");
+        map({"-o", "a.png", "--channel", "x"}, "--channel");
+        map({"-o", "a.png", "--padding", "-1"}, "--padding");
+        map({"-o", "a.png", "--threads", "-1"}, "--threads");
+        map({"-o", "a.png", "--space", "object"}, "--space");
+        map({"-o", "a.png", "--midlevel", "nan"}, "--midlevel");
+        map({"-o", "a.png", "--midlevel", "inf"}, "--midlevel");
+        map({"-o", "a.png", "--midlevel", "half"}, "--midlevel");
+        for (const char* size : {"0", "-4", "x", "10x", "x10", "3.5", "10x10x10", "65537", "1e9", "nan", "", "16 16"})
+            map({"-o", "a.png", "--size", size}, "--size");
+        for (const char* amplitude : {"nan", "inf", "1,5", "", "%", "one", "1%%", "1 %", "1e13", "1%", "0x"})
+            map({"-o", "a.png", "--amplitude", amplitude}, "--amplitude");
+        for (const char* extent : {"0,1", "1,0", "-1,1", "1", "1,", ",1", "1,1,1", "nan,1", "inf,1", "", "1e-300,1"})
+            map({"-o", "a.png", "--extent", extent}, "--extent");
+        map({"-o", "a.png", "--amplitude", "1e3", "--extent", "1e-9,1e-9"}, "--amplitude");
+        refused({"normal-map", "-o", "a.png"}, "--height");
+        refused({"normal-map", torus, "--height", dots, "-o", "a.png"}, "--amplitude");
+        refused({"normal-map", torus, "--height", dots, "-o", "a.png", "--amplitude", "1%", "--extent", "1,1"},
+                "--extent");
+        refused({"normal-map", torus, torus, "--height", dots, "-o", "a.png", "--amplitude", "1%"}, "torus.obj");
 
-    const auto table = [&](std::vector<std::string> more, const std::string& named) {
-        more.insert(more.begin(), {"bump-table", dots});
-        refused(more, named);
-    };
-    refused({"bump-table"}, "grey");
-    refused({"bump-table", "", "-o", "a.png"}, "grey");
-    table({}, "--out");
-    table({"-o", "a.png", "--depth", "half"}, "half");
-    table({"-o", "a.png", "--depth", "8"}, "--depth");
-    table({"-o", "a.exr", "--depth", "16"}, "a.exr");
-    table({"-o", "a.png", "--layout", "bumpslopes"}, "bumpslopes");
-    table({"-o", "a.tif", "--depth", "16", "--layout", "bumpslopes"}, "bumpslopes");
-    table({"-o", "a.exr", "--units", "metres"}, "--units");
-    table({"-o", "a.exr", "--amplitude", "1%"}, "--amplitude");
-    table({"-o", "a.exr", "--wrap-u", "tile"}, "--wrap-u");
+        const auto table = [&](std::vector<std::string> more, const std::string& named) {
+            more.insert(more.begin(), {"bump-table", dots});
+            refused(more, named);
+        };
+        refused({"bump-table"}, "grey");
+        refused({"bump-table", "", "-o", "a.png"}, "grey");
+        table({}, "--out");
+        table({"-o", "a.png", "--depth", "half"}, "half");
+        table({"-o", "a.png", "--depth", "8"}, "--depth");
+        table({"-o", "a.exr", "--depth", "16"}, "a.exr");
+        table({"-o", "a.png", "--layout", "bumpslopes"}, "bumpslopes");
+        table({"-o", "a.tif", "--depth", "16", "--layout", "bumpslopes"}, "bumpslopes");
+        table({"-o", "a.exr", "--units", "metres"}, "--units");
+        table({"-o", "a.exr", "--amplitude", "1%"}, "--amplitude");
+        table({"-o", "a.exr", "--wrap-u", "tile"}, "--wrap-u");
 
-    const auto explain = [&](std::vector<std::string> more, const std::string& named) {
-        more.insert(more.begin(), {"explain", torus, "--height", dots});
-        refused(more, named);
-    };
-    explain({"--uv", "0.1,0.2"}, "--amplitude");
-    explain({"--amplitude", "1%"}, "--uv");
-    for (const char* uv : {"2,1", "-0.1,0", "nan,0", "0.5", "", "1,1,1"}) explain({"--amplitude", "1%", "--uv", uv}, "--uv");
-}
-
-TEST_CASE("usage: an output that is its own input is refused, by whatever name") {
-    const Folder folder;
-    fs::copy_file(dots, folder / "h.png");
-    fs::create_symlink("h.png", folder / "link.png");
-    const std::string before = contents(folder / "h.png");
-    for (const char* out : {"h.png", "./h.png", "link.png"}) {
-        check_refused(folder, {"normal-map", "--height", "h.png", "-o", out}, 2, "--out");
-        check_refused(folder, {"bump-table", "h.png", "-o", out}, 2, "--out");
+        const auto explain = [&](std::vector<std::string> more, const std::string& named) {
+            more.insert(more.begin(), {"explain", torus, "--height", dots});
+            refused(more, named);
+        };
+        explain({"--uv", "0.1,0.2"}, "--amplitude");
+        explain({"--amplitude", "1%"}, "--uv");
+        for (const char* uv : {"2,1", "-0.1,0", "nan,0", "0.5", "", "1,1,1"})
+            explain({"--amplitude", "1%", "--uv", uv}, "--uv");
     }
-    CHECK((contents(folder / "h.png") == before));
-}
 
-TEST_CASE("usage: --json prints one object and nothing else, --quiet keeps notes away, endings in capitals work") {
-    const Folder folder;
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bump-table", dots, "-o", "a.EXR", "--json", "--quiet"},
-                                                      {"normal-map", "--height", dots, "-o", "A.PNG", "--amplitude", "0.1", "--json"},
-                                                      {"normal-map", torus, "--height", dots, "--amplitude", "200%", "-o", "b.TIFF", "--size", "64", "--json", "--quiet"}}) {
-        const Run run = run_bake(folder, arguments);
-        CHECK(run.code == 0);
-        CHECK(run.err == "");
-        const auto object = nlohmann::json::parse(run.out);
-        CHECK(object["error_budget"]["total_deg"].is_number());
-        CHECK(object["step_tilt_deg"].get<double>() > 0);
+    TEST_CASE("usage: an output that is its own input is refused, by whatever name") {
+        const Folder folder;
+        fs::copy_file(dots, folder / "h.png");
+        fs::create_symlink("h.png", folder / "link.png");
+        const std::string before = contents(folder / "h.png");
+        for (const char* out : {"h.png", "./h.png", "link.png"}) {
+            check_refused(folder, {"normal-map", "--height", "h.png", "-o", out}, 2, "--out");
+            check_refused(folder, {"bump-table", "h.png", "-o", out}, 2, "--out");
+        }
+        CHECK((contents(folder / "h.png") == before));
     }
-    // Amplitudes beyond the radius of curvature are noted on stderr unless --quiet.
-    const Run loud = run_bake(folder, {"normal-map", torus, "--height", dots, "--amplitude", "200%", "-o", "b.tif", "--size", "64"});
-    CHECK(loud.code == 0);
-    CHECK(loud.err.find("turn inside out") != std::string::npos);
-}
+
+    TEST_CASE("usage: --json prints one object and nothing else, --quiet keeps notes away, endings in capitals work") {
+        const Folder folder;
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"bump-table", dots, "-o", "a.EXR", "--json", "--quiet"},
+              {"normal-map", "--height", dots, "-o", "A.PNG", "--amplitude", "0.1", "--json"},
+              {"normal-map", torus, "--height", dots, "--amplitude", "200%", "-o", "b.TIFF", "--size", "64", "--json",
+               "--quiet"}}) {
+            const Run run = run_bake(folder, arguments);
+            CHECK(run.code == 0);
+            CHECK(run.err == "");
+            const auto object = nlohmann::json::parse(run.out);
+            CHECK(object["error_budget"]["total_deg"].is_number());
+            CHECK(object["step_tilt_deg"].get<double>() > 0);
+        }
+        // Amplitudes beyond the radius of curvature are noted on stderr unless --quiet.
+        const Run loud = run_bake(
+            folder, {"normal-map", torus, "--height", dots, "--amplitude", "200%", "-o", "b.tif", "--size", "64"});
+        CHECK(loud.code == 0);
+        CHECK(loud.err.find("turn inside out") != std::string::npos);
+    }
 
 } // TEST_SUITE

@@ -18,8 +18,8 @@ inline double smooth_sky(const Vec3d& direction) {
         }
         return a;
     };
-    return 1 + 0.3 * d.x + 0.2 * d.y - 0.25 * d.z + 0.075 * (3 * d.z * d.z - 1) + 0.2 * d.x * d.y + 0.1 * (d.x * d.x - d.y * d.y) +
-           0.05 * (ripple(d.x, d.z) + ripple(d.y, d.z) + ripple(d.x, d.y));
+    return 1 + 0.3 * d.x + 0.2 * d.y - 0.25 * d.z + 0.075 * (3 * d.z * d.z - 1) + 0.2 * d.x * d.y +
+           0.1 * (d.x * d.x - d.y * d.y) + 0.05 * (ripple(d.x, d.z) + ripple(d.y, d.z) + ripple(d.x, d.y));
 }
 
 /// One channel of it, at the texels' centres.
@@ -28,13 +28,15 @@ inline Environment smooth_picture(Projection projection, int width, int height) 
     sky.projection = projection;
     sky.picture = Image<float>(width, height, 1);
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) sky.picture.at(x, y) = float(smooth_sky(picture_direction(projection, width, height, x + 0.5, y + 0.5)));
+        for (int x = 0; x < width; ++x)
+            sky.picture.at(x, y) = float(smooth_sky(picture_direction(projection, width, height, x + 0.5, y + 0.5)));
     return sky;
 }
 
 /// The direction of a texel, or of a point beside its centre by (dx, dy) texels.
 inline Vec3d texel_direction(CubeFace face, int n, bool edges, double x, double y) {
-    return cube_direction(edges ? CubePoint<double>{face, x / (n - 1), y / (n - 1)} : CubePoint<double>{face, (x + 0.5) / n, (y + 0.5) / n});
+    return cube_direction(edges ? CubePoint<double>{face, x / (n - 1), y / (n - 1)}
+                                : CubePoint<double>{face, (x + 0.5) / n, (y + 0.5) / n});
 }
 
 inline Environment smooth_cube(int n, bool edges = false) {
@@ -43,7 +45,8 @@ inline Environment smooth_cube(int n, bool edges = false) {
     sky.cube = make_cube(n, 1);
     for (const CubeFace face : all_cube_faces)
         for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) sky.cube[face].at(x, y) = float(smooth_sky(texel_direction(face, n, edges, x, y)));
+            for (int x = 0; x < n; ++x)
+                sky.cube[face].at(x, y) = float(smooth_sky(texel_direction(face, n, edges, x, y)));
     return sky;
 }
 
@@ -53,14 +56,18 @@ inline std::vector<float> smooth_errors(const Cube& cube, bool edges) {
     const int n = cube.size();
     for (const CubeFace face : all_cube_faces)
         for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) errors.push_back(float(std::abs(cube[face].at(x, y) - smooth_sky(texel_direction(face, n, edges, x, y)))));
+            for (int x = 0; x < n; ++x)
+                errors.push_back(
+                    float(std::abs(cube[face].at(x, y) - smooth_sky(texel_direction(face, n, edges, x, y)))));
     return errors;
 }
 inline std::vector<float> smooth_errors(const Image<float>& picture, Projection projection) {
     std::vector<float> errors;
     const int w = picture.width(), h = picture.height();
     for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) errors.push_back(float(std::abs(picture.at(x, y) - smooth_sky(picture_direction(projection, w, h, x + 0.5, y + 0.5)))));
+        for (int x = 0; x < w; ++x)
+            errors.push_back(
+                float(std::abs(picture.at(x, y) - smooth_sky(picture_direction(projection, w, h, x + 0.5, y + 0.5)))));
     return errors;
 }
 inline double rms(const std::vector<float>& errors) {

@@ -30,7 +30,8 @@ TEST_SUITE("oracle") {
         std::mt19937 random(2);
         const auto unit = [&] { return double(random()) / 4294967295.0; };
         for (std::uint32_t t = 0; t < tree.size(); ++t) {
-            const Vec3d p0(tree.corners(t)[0]), e1 = Vec3d(tree.corners(t)[1]) - p0, e2 = Vec3d(tree.corners(t)[2]) - p0;
+            const Vec3d p0(tree.corners(t)[0]), e1 = Vec3d(tree.corners(t)[1]) - p0,
+                                                e2 = Vec3d(tree.corners(t)[2]) - p0;
             for (int i = 0; i < 20; ++i) {
                 const Vec3d p = 3.0 * Vec3d(unit(), unit(), unit()) - 1.0;
                 const NearestPoint found = tree.nearest_of(t, p);
@@ -65,7 +66,8 @@ TEST_SUITE("oracle") {
             for (std::uint32_t t = first; t < tree.size(); ++t) {
                 bool meets = true;
                 for (int k = 0; k < 3; ++k) {
-                    const auto [a, b] = std::minmax({tree.corners(t)[0][k], tree.corners(t)[1][k], tree.corners(t)[2][k]});
+                    const auto [a, b] =
+                        std::minmax({tree.corners(t)[0][k], tree.corners(t)[1][k], tree.corners(t)[2][k]});
                     meets = meets && a <= high[k] && b >= low[k];
                 }
                 if (meets) expected.push_back(t);

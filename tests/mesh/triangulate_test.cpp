@@ -1,6 +1,6 @@
-#include "mesh/file/mesh_files.h"
-#include "bake/mesh/triangulate.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/triangulate.h"
+#include "mesh/file/mesh_files.h"
 #include <cmath>
 #include <random>
 
@@ -19,10 +19,10 @@ Corners corners_of(const Mesh& mesh) {
 Mesh polygon(const std::vector<Vec2d>& points, double turn = 0) {
     Mesh mesh;
     for (const Vec2d& p : points) {
-        mesh.corner_position.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.corner_position.push_back(std::uint32_t(mesh.positions.size()));
         mesh.positions.emplace_back(p.x * std::cos(turn), p.y, p.x * std::sin(turn));
     }
-    mesh.face_begin.push_back(static_cast<std::uint32_t>(points.size()));
+    mesh.face_begin.push_back(std::uint32_t(points.size()));
     return mesh;
 }
 
@@ -92,10 +92,9 @@ TEST_SUITE("unit") {
         std::mt19937 random(5);
         for (int repeat = 0; repeat < 200; ++repeat) {
             std::vector<Vec2d> points;
-            const int n = 5 + static_cast<int>(random() % 60);
+            const int n = 5 + int(random() % 60);
             for (int i = 0; i < n; ++i) {
-                const double angle = 6.283185307179586 * i / n,
-                             radius = 0.2 + static_cast<double>(random() % 1000) / 1000;
+                const double angle = 6.283185307179586 * i / n, radius = 0.2 + double(random() % 1000) / 1000;
                 points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
             }
             CHECK(cover(polygon(points, 0.1 * repeat)) == doctest::Approx(1).epsilon(1e-5));
@@ -152,7 +151,7 @@ TEST_SUITE("unit") {
             mesh.positions.emplace_back(random() % 99, random() % 99, random() % 99);
         for (int f = 0; f < 40000; ++f) {
             for (std::uint32_t n = 3 + random() % 6; n > 0; --n) mesh.corner_position.push_back(random() % 1000);
-            mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners()));
+            mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
         }
         Corners expected;
         for (const int threads : {1, 2, 7}) {

@@ -43,7 +43,8 @@ Vec3d centroid(const Cage& cage, Index face) {
 // The faces' share of a smooth edge point: their centroids under Catmull-Clark, their opposite points under Loop.
 Vec3d smooth_edge_point(const Cage& cage, const Edge& edge, const EdgeFaces& of) {
     const Vec3d ends = cage.points[edge.first] + cage.points[edge.second];
-    if (cage.scheme == bake::Scheme::catmark) return (ends + centroid(cage, of.faces[0]) + centroid(cage, of.faces[1])) / 4.0;
+    if (cage.scheme == bake::Scheme::catmark)
+        return (ends + centroid(cage, of.faces[0]) + centroid(cage, of.faces[1])) / 4.0;
     Vec3d opposite(0);
     for (const Index f : of.faces) opposite += 3.0 * centroid(cage, f) - ends;
     return 3.0 / 8 * ends + 1.0 / 8 * opposite;
@@ -161,7 +162,8 @@ Cage subdivide(const Cage& cage) {
         }
         if (cage.scheme == bake::Scheme::loop) {
             for (std::size_t k = 0; k < 3; ++k)
-                fine.faces.push_back({{face.vertex[k], middle[k], middle[(k + 2) % 3]}, face.patch,
+                fine.faces.push_back({{face.vertex[k], middle[k], middle[(k + 2) % 3]},
+                                      face.patch,
                                       {face.st[k], middle_st[k], middle_st[(k + 2) % 3]}});
             fine.faces.push_back({middle, face.patch, middle_st});
             continue;
@@ -285,7 +287,8 @@ Vec3d across_crease(const Vec3d& v, const std::vector<Vec3d>& e, const std::vect
         if (!loop) across += diagonal(i) * f[std::size_t(i)];
         diagonals += diagonal(i);
     }
-    const double at_end = loop ? sine(1) / 8 : sine(1) / 16 + diagonal(0) / 4, at_vertex = 3.0 / 8 * sines + diagonals / 4;
+    const double at_end = loop ? sine(1) / 8 : sine(1) / 16 + diagonal(0) / 4,
+                 at_vertex = 3.0 / 8 * sines + diagonals / 4;
     const double det = (lambda - 1) * (lambda - 0.25);
     const double a = ((lambda - 0.5) * at_vertex + at_end) / det, b = ((lambda - 0.75) * at_end + at_vertex / 8) / det;
     return across + a * v + b * (e.front() + e.back());
@@ -316,7 +319,8 @@ Limit LimitMasks::at(Index face, Index corner) const {
     const Index vertex = cage_.faces[face].vertex[corner];
     const Vec3d& v = cage_.points[vertex];
     const bool loop = cage_.scheme == bake::Scheme::loop;
-    if (cage_.corners[vertex] > 0 && cage_.corners[vertex] < infinite) throw std::logic_error("a corner is still semi-sharp");
+    if (cage_.corners[vertex] > 0 && cage_.corners[vertex] < infinite)
+        throw std::logic_error("a corner is still semi-sharp");
     const bool is_corner = cage_.corners[vertex] > 0 || sharp_edges_[vertex] > 2;
     const bool is_crease = !is_corner && sharp_edges_[vertex] == 2;
     if (!is_corner && sharp_edges_[vertex] == 1) return dart(vertex);

@@ -31,7 +31,7 @@ struct Cage {
     std::vector<Vec3d> points;
     std::vector<Face> faces;
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> creases; ///< lower end first
-    std::vector<double> corners;                                      ///< sharpness of each point
+    std::vector<double> corners;                                       ///< sharpness of each point
 };
 Cage cage_of(const bake::Mesh& mesh, bake::Scheme scheme);
 

@@ -43,7 +43,8 @@ template <class F> double integral_towards(double a, double b, int parts, F&& f)
     double sum = 0, left = a;
     for (int part = 0; part < parts; ++part) {
         const double right = part + 1 == parts ? b : (left + b) / 2;
-        for (std::size_t i = 0; i < g.x.size(); ++i) sum += g.w[i] * (right - left) / 2 * f(left + (g.x[i] + 1) / 2 * (right - left));
+        for (std::size_t i = 0; i < g.x.size(); ++i)
+            sum += g.w[i] * (right - left) / 2 * f(left + (g.x[i] + 1) / 2 * (right - left));
         left = right;
     }
     return sum;
@@ -81,7 +82,8 @@ public:
             // Enough points for P_l, which has l zeros in angle.
             const int slices = 1 + int(count * (std::acos(left) - std::acos(right)) / 30);
             for (int slice = 0; slice < slices; ++slice) {
-                const double a = left + (right - left) * slice / slices, b = left + (right - left) * (slice + 1) / slices;
+                const double a = left + (right - left) * slice / slices,
+                             b = left + (right - left) * (slice + 1) / slices;
                 for (std::size_t i = 0; i < g.x.size(); ++i) {
                     const double c = a + (g.x[i] + 1) / 2 * (b - a), weight = g.w[i] * (b - a) / 2 * kernel(c);
                     double p0 = 1, p1 = c;

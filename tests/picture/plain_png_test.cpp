@@ -1,7 +1,7 @@
-#include "bake/picture/plain_png.h"
-#include "picture/png_bytes.h"
 #include "bake/picture/image_io.h"
+#include "bake/picture/plain_png.h"
 #include "cli/command.h"
+#include "picture/png_bytes.h"
 #include <doctest/doctest.h>
 #include <random>
 
@@ -67,14 +67,15 @@ TEST_SUITE("unit") {
         const std::string good = png_bytes(2, 1, 8, 0, {rows});
         CHECK(given(good));
         CHECK(given(good + "what follows the end"));
-        CHECK_FALSE(given(png_bytes(8, 1, 4, 0, {std::string(4, '\1')})));                              // 4 bits
-        CHECK_FALSE(given(png_bytes(2, 1, 8, 3, {rows}, png_chunk("PLTE", std::string(9, '\1')))));      // palette
-        CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("tRNS", std::string(2, '\1')))));      // transparency
+        CHECK_FALSE(given(png_bytes(8, 1, 4, 0, {std::string(4, '\1')})));                          // 4 bits
+        CHECK_FALSE(given(png_bytes(2, 1, 8, 3, {rows}, png_chunk("PLTE", std::string(9, '\1'))))); // palette
+        CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("tRNS", std::string(2, '\1'))))); // transparency
         CHECK(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("oFFs", std::string(9, '\0')))));
-        CHECK_FALSE(given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("oFFs", std::string(7, '\0') + std::string("\1\0", 2)))));
-        CHECK_FALSE(given(good.substr(0, good.size() - 12)));  // no end
+        CHECK_FALSE(
+            given(png_bytes(2, 1, 8, 0, {rows}, png_chunk("oFFs", std::string(7, '\0') + std::string("\1\0", 2)))));
+        CHECK_FALSE(given(good.substr(0, good.size() - 12))); // no end
         CHECK_FALSE(given(good.substr(0, 40)));
-        CHECK_FALSE(given(png_bytes(2, 2, 8, 0, {rows})));           // too few rows
+        CHECK_FALSE(given(png_bytes(2, 2, 8, 0, {rows}))); // too few rows
         CHECK_FALSE(given(png_bytes(0, 1, 8, 0, {rows})));
         CHECK_FALSE(given(png_bytes(1 << 19, 1 << 19, 8, 0, {rows}))); // more than its bytes can hold
         std::string interlaced = png_bytes(2, 1, 8, 0, {rows});
@@ -101,7 +102,8 @@ TEST_SUITE("oracle") {
                 Image<float> image(61, 47, channels);
                 for (int y = 0; y < image.height(); ++y)
                     for (int x = 0; x < image.width() * channels; ++x)
-                        image.row(y)[x] = 0.5f + 0.3f * std::sin(0.1f * float(x)) * std::cos(0.07f * float(y * y)) + float(random() % 100) * 0.001f;
+                        image.row(y)[x] = 0.5f + 0.3f * std::sin(0.1f * float(x)) * std::cos(0.07f * float(y * y)) +
+                                          float(random() % 100) * 0.001f;
                 const std::string path = folder / "a.png";
                 write_image(path, image, {.depth = depth});
                 const auto plain = read_plain_png(path, {});

@@ -7,9 +7,7 @@
 
 namespace bake::test {
 
-inline std::string big_endian(std::uint32_t n) {
-    return {char(n >> 24), char(n >> 16), char(n >> 8), char(n)};
-}
+inline std::string big_endian(std::uint32_t n) { return {char(n >> 24), char(n >> 16), char(n >> 8), char(n)}; }
 
 inline std::string png_chunk(const std::string& type, const std::string& data) {
     const std::string body = type + data;
@@ -28,14 +26,17 @@ inline std::string zlib_stored(const std::vector<std::string>& rows) {
     std::uint32_t a = 1, b = 0;
     for (const unsigned char byte : raw) a = (a + byte) % 65521, b = (b + a) % 65521;
     const auto size = std::uint16_t(raw.size());
-    return std::string("\x78\x01\x01", 3) + char(size) + char(size >> 8) + char(~size) + char(~size >> 8) + raw + big_endian(b << 16 | a);
+    return std::string("\x78\x01\x01", 3) + char(size) + char(size >> 8) + char(~size) + char(~size >> 8) + raw +
+           big_endian(b << 16 | a);
 }
 
 /// colour_type 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. `more` are chunks between header and data.
 inline std::string png_bytes(std::uint32_t width, std::uint32_t height, int bits, int colour_type,
                              const std::vector<std::string>& rows, const std::string& more = "") {
-    const std::string header = big_endian(width) + big_endian(height) + char(bits) + char(colour_type) + std::string(3, '\0');
-    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + more + png_chunk("IDAT", zlib_stored(rows)) + png_chunk("IEND", "");
+    const std::string header =
+        big_endian(width) + big_endian(height) + char(bits) + char(colour_type) + std::string(3, '\0');
+    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + more + png_chunk("IDAT", zlib_stored(rows)) +
+           png_chunk("IEND", "");
 }
 
 inline std::string srgb_tag() { return png_chunk("sRGB", std::string(1, '\0')) + png_chunk("gAMA", big_endian(45455)); }

@@ -1,5 +1,6 @@
 // Small meshes and scenes for the preview's tests.
 #pragma once
+#include "bake/base/vec.h"
 #include "bake/preview/tracer.h"
 #include <cmath>
 #include <functional>
@@ -92,7 +93,7 @@ inline Vec3f seen_at(const Scene& scene, double x, double y, int n = 64) {
 
 inline double angle_deg(const Vec3f& a, const Vec3f& b) {
     const Vec3d p(a), q(b);
-    return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)) * 180 / 3.14159265358979323846;
+    return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)) * 180 / pi;
 }
 
 } // namespace bake::test

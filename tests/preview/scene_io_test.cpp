@@ -1,7 +1,7 @@
-#include "bake/preview/scene_io.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/preview/scene_io.h"
 #include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Folder {
-    fs::path path = fs::temp_directory_path() / ("bake_scene_io_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
+    fs::path path = fs::temp_directory_path() /
+                    ("bake_scene_io_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
     Folder() { fs::create_directories(path); }
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }
@@ -126,164 +127,165 @@ scale = [1, 2, 3]
 
 TEST_SUITE("unit") {
 
-TEST_CASE("scene_io: every key arrives") {
-    const Folder folder;
-    const SceneEntries s = read_scene(folder.write("scene.toml", every_key));
-    CHECK(s.settings.width == 320);
-    CHECK(s.settings.height == 200);
-    CHECK(s.settings.spp == 9);
-    CHECK(s.settings.bounces == 2);
-    CHECK(!s.settings.shadows);
-    CHECK(s.settings.exposure == -1.5f);
-    CHECK(s.background == Vec3f(0.1f, 0.2f, 0.3f));
-    CHECK(s.camera_position.value() == Vec3f(1, 2, 3));
-    CHECK(s.camera_target.value() == Vec3f(0, 1, 0));
-    CHECK(s.camera_up == Vec3f(0, 0, 1));
-    CHECK(s.fov_deg == 25);
-    CHECK(s.sky.faces[0] == folder / "sky/px.png");
-    CHECK(s.sky.faces[5] == folder / "sky/nz.png");
-    CHECK(s.sky.scale == 2);
-    CHECK(s.sky.space == ColourSpace::linear);
+    TEST_CASE("scene_io: every key arrives") {
+        const Folder folder;
+        const SceneEntries s = read_scene(folder.write("scene.toml", every_key));
+        CHECK(s.settings.width == 320);
+        CHECK(s.settings.height == 200);
+        CHECK(s.settings.spp == 9);
+        CHECK(s.settings.bounces == 2);
+        CHECK(!s.settings.shadows);
+        CHECK(s.settings.exposure == -1.5f);
+        CHECK(s.background == Vec3f(0.1f, 0.2f, 0.3f));
+        CHECK(s.camera_position.value() == Vec3f(1, 2, 3));
+        CHECK(s.camera_target.value() == Vec3f(0, 1, 0));
+        CHECK(s.camera_up == Vec3f(0, 0, 1));
+        CHECK(s.fov_deg == 25);
+        CHECK(s.sky.faces[0] == folder / "sky/px.png");
+        CHECK(s.sky.faces[5] == folder / "sky/nz.png");
+        CHECK(s.sky.scale == 2);
+        CHECK(s.sky.space == ColourSpace::linear);
 
-    REQUIRE(s.lights.size() == 2);
-    CHECK(s.lights[0].kind == LightKind::directional);
-    CHECK(glm::length(s.lights[0].from - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
-    CHECK(s.lights[0].colour == Vec3f(2, 1, 0.5f));
-    CHECK(s.lights[1].kind == LightKind::point);
-    CHECK(s.lights[1].position == Vec3f(5, 6, 7));
-    CHECK(s.lights[1].falloff.constant == 1);
-    CHECK(s.lights[1].falloff.linear == 0.5f);
-    CHECK(s.lights[1].falloff.quadratic == 0.25f);
-    CHECK(s.ambient == Vec3f(0.25f));
+        REQUIRE(s.lights.size() == 2);
+        CHECK(s.lights[0].kind == LightKind::directional);
+        CHECK(glm::length(s.lights[0].from - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
+        CHECK(s.lights[0].colour == Vec3f(2, 1, 0.5f));
+        CHECK(s.lights[1].kind == LightKind::point);
+        CHECK(s.lights[1].position == Vec3f(5, 6, 7));
+        CHECK(s.lights[1].falloff.constant == 1);
+        CHECK(s.lights[1].falloff.linear == 0.5f);
+        CHECK(s.lights[1].falloff.quadratic == 0.25f);
+        CHECK(s.ambient == Vec3f(0.25f));
 
-    REQUIRE(s.materials.size() == 2);
-    const MaterialEntry &brick = s.materials[0], &mapped = s.materials[1];
-    CHECK(brick.name == "brick");
-    CHECK(brick.bsdf.ambient == Vec3f(0.1f));
-    CHECK(brick.bsdf.diffuse == Vec3f(0.5f, 0.4f, 0.3f));
-    CHECK(brick.bsdf.specular == Vec3f(0.2f));
-    CHECK(brick.bsdf.shininess == 50);
-    CHECK(brick.bsdf.emission == Vec3f(0.01f));
-    CHECK(brick.reflect == Vec3f(0.3f));
-    CHECK(brick.albedo == folder / "brick.png");
-    CHECK(brick.albedo_space == ColourSpace::srgb);
-    CHECK(brick.bump_table == "/abs/brick_slopes.exr");
-    CHECK(brick.bump_scale == 0.5f);
-    CHECK(mapped.bsdf.ambient == mapped.bsdf.diffuse);
-    CHECK(mapped.normal_map == (folder.path.parent_path() / "maps/n.png").string());
-    CHECK(mapped.encoding == NormalEncoding::signed_);
-    CHECK(mapped.directx);
+        REQUIRE(s.materials.size() == 2);
+        const MaterialEntry &brick = s.materials[0], &mapped = s.materials[1];
+        CHECK(brick.name == "brick");
+        CHECK(brick.bsdf.ambient == Vec3f(0.1f));
+        CHECK(brick.bsdf.diffuse == Vec3f(0.5f, 0.4f, 0.3f));
+        CHECK(brick.bsdf.specular == Vec3f(0.2f));
+        CHECK(brick.bsdf.shininess == 50);
+        CHECK(brick.bsdf.emission == Vec3f(0.01f));
+        CHECK(brick.reflect == Vec3f(0.3f));
+        CHECK(brick.albedo == folder / "brick.png");
+        CHECK(brick.albedo_space == ColourSpace::srgb);
+        CHECK(brick.bump_table == "/abs/brick_slopes.exr");
+        CHECK(brick.bump_scale == 0.5f);
+        CHECK(mapped.bsdf.ambient == mapped.bsdf.diffuse);
+        CHECK(mapped.normal_map == (folder.path.parent_path() / "maps/n.png").string());
+        CHECK(mapped.encoding == NormalEncoding::signed_);
+        CHECK(mapped.directx);
 
-    REQUIRE(s.meshes.size() == 2);
-    CHECK(s.meshes[0].file == folder / "a.obj");
-    CHECK(s.meshes[0].material == 1);
-    CHECK(s.meshes[0].placement.translate == Vec3f(1, 0, 0));
-    CHECK(s.meshes[0].placement.rotate_deg == Vec3f(0, 90, 0));
-    CHECK(s.meshes[0].placement.scale == Vec3f(2));
-    CHECK(s.meshes[0].flat);
-    CHECK(s.meshes[1].material == -1);
-    CHECK(s.meshes[1].placement.scale == Vec3f(1, 2, 3));
-}
+        REQUIRE(s.meshes.size() == 2);
+        CHECK(s.meshes[0].file == folder / "a.obj");
+        CHECK(s.meshes[0].material == 1);
+        CHECK(s.meshes[0].placement.translate == Vec3f(1, 0, 0));
+        CHECK(s.meshes[0].placement.rotate_deg == Vec3f(0, 90, 0));
+        CHECK(s.meshes[0].placement.scale == Vec3f(2));
+        CHECK(s.meshes[0].flat);
+        CHECK(s.meshes[1].material == -1);
+        CHECK(s.meshes[1].placement.scale == Vec3f(1, 2, 3));
+    }
 
-TEST_CASE("scene_io: a scene of one line is framed and lit, meshes of one file are read once") {
-    const Folder folder;
-    write_mesh(folder / "ball.obj", sphere_mesh(16, 8));
-    const Scene one = load(read_scene(folder.write("one.toml", "mesh = [{file = \"ball.obj\"}]")));
-    CHECK(one.lights.size() == 1);
-    CHECK(one.settings.width == 512);
-    CHECK(seen_at(one, 32, 32) != Vec3f(0));
-    const std::string text = "mesh = [{file = \"ball.obj\"}, {file = \"ball.obj\", translate = [3, 0, 0]}]";
-    const Scene two = load(read_scene(folder.write("two.toml", text)));
-    CHECK(two.shapes.size() == 1);
-    CHECK(two.instances.size() == 2);
-    CHECK(two.bvh->triangle_count() == 2 * one.bvh->triangle_count());
-}
+    TEST_CASE("scene_io: a scene of one line is framed and lit, meshes of one file are read once") {
+        const Folder folder;
+        write_mesh(folder / "ball.obj", sphere_mesh(16, 8));
+        const Scene one = load(read_scene(folder.write("one.toml", "mesh = [{file = \"ball.obj\"}]")));
+        CHECK(one.lights.size() == 1);
+        CHECK(one.settings.width == 512);
+        CHECK(seen_at(one, 32, 32) != Vec3f(0));
+        const std::string text = "mesh = [{file = \"ball.obj\"}, {file = \"ball.obj\", translate = [3, 0, 0]}]";
+        const Scene two = load(read_scene(folder.write("two.toml", text)));
+        CHECK(two.shapes.size() == 1);
+        CHECK(two.instances.size() == 2);
+        CHECK(two.bvh->triangle_count() == 2 * one.bvh->triangle_count());
+    }
 
-TEST_CASE("scene_io: materials that name one file share its texture") {
-    const Folder folder;
-    write_image(folder / "a.png", grey_texels(), {.depth = Depth::u8});
-    write_mesh(folder / "ball.obj", sphere_mesh(8, 4));
-    const std::string text = R"(
+    TEST_CASE("scene_io: materials that name one file share its texture") {
+        const Folder folder;
+        write_image(folder / "a.png", grey_texels(), {.depth = Depth::u8});
+        write_mesh(folder / "ball.obj", sphere_mesh(8, 4));
+        const std::string text = R"(
         mesh = [{file = "ball.obj"}]
         material = [{name = "a", albedo = "a.png"}, {name = "b", albedo = "a.png"},
                     {name = "c", albedo = "a.png", albedo-space = "linear"}])";
-    const Scene scene = load(read_scene(folder.write("scene.toml", text)));
-    REQUIRE(scene.materials.size() == 4);
-    CHECK(scene.materials[1]->albedo == scene.materials[2]->albedo);
-    CHECK(scene.materials[1]->albedo != scene.materials[3]->albedo);
-}
+        const Scene scene = load(read_scene(folder.write("scene.toml", text)));
+        REQUIRE(scene.materials.size() == 4);
+        CHECK(scene.materials[1]->albedo == scene.materials[2]->albedo);
+        CHECK(scene.materials[1]->albedo != scene.materials[3]->albedo);
+    }
 
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-TEST_CASE("scene_io: an unknown key or table is refused by its name and line") {
-    check_refused_at(2, "\"fov\"", "[camera]\nfov = 30\n");
-    check_refused_at(4, "\"colour\"", "[[mesh]]\nfile = \"a.obj\"\n\ncolour = 1\n");
-    check_refused_at(1, "\"lights\"", "[lights]\n");
-    check_refused_at(3, "\"falloff\"", "[[light]]\ntype = \"directional\"\nfalloff = [1, 0, 0]\nfrom = [0, 1, 0]\n");
-    check_refused_at(2, "\"Spp\"", "[render]\nSpp = 3\n");
-}
+    TEST_CASE("scene_io: an unknown key or table is refused by its name and line") {
+        check_refused_at(2, "\"fov\"", "[camera]\nfov = 30\n");
+        check_refused_at(4, "\"colour\"", "[[mesh]]\nfile = \"a.obj\"\n\ncolour = 1\n");
+        check_refused_at(1, "\"lights\"", "[lights]\n");
+        check_refused_at(3, "\"falloff\"",
+                         "[[light]]\ntype = \"directional\"\nfalloff = [1, 0, 0]\nfrom = [0, 1, 0]\n");
+        check_refused_at(2, "\"Spp\"", "[render]\nSpp = 3\n");
+    }
 
-TEST_CASE("scene_io: a value of the wrong type or out of range is refused by its name and line") {
-    check_refused_at(2, "\"spp\"", "[render]\nspp = 2.5\n");
-    check_refused_at(2, "\"spp\"", "[render]\nspp = 0\n");
-    check_refused_at(2, "\"size\"", "[render]\nsize = [10, 20, 30]\n");
-    check_refused_at(2, "\"size\"", "[render]\nsize = [0, 10]\n");
-    check_refused_at(2, "\"size\"", "[render]\nsize = 10000000000\n");
-    check_refused_at(2, "\"exposure\"", "[render]\nexposure = nan\n");
-    check_refused_at(2, "\"background\"", "[render]\nbackground = [0.1, -0.1, 0]\n");
-    check_refused_at(2, "\"shadows\"", "[render]\nshadows = 1\n");
-    check_refused_at(3, "\"position\"", "[camera]\n\nposition = [0, inf, 0]\n");
-    check_refused_at(2, "\"position\"", "[camera]\nposition = [0, \"1\", 0]\n");
-    check_refused_at(2, "\"up\"", "[camera]\nup = [0, 0, 0]\n");
-    check_refused_at(2, "\"fov-deg\"", "[camera]\nfov-deg = 180\n");
-    check_refused_at(1, "\"target\"", "[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]\n");
-    check_refused_at(2, "\"type\"", "[[light]]\ntype = \"spot\"\n");
-    check_refused_at(1, "\"from\"", "[[light]]\ntype = \"directional\"\n");
-    check_refused_at(3, "\"from\"", "[[light]]\ntype = \"directional\"\nfrom = [0, 0, 0]\n");
-    check_refused_at(4, "\"falloff\"", "[[light]]\ntype = \"point\"\nposition = [0, 0, 0]\nfalloff = [0, 0, 0]\n");
-    check_refused_at(2, "\"file\"", "[[mesh]]\nfile = 3\n");
-    check_refused_at(1, "\"file\"", "[[mesh]]\nflat = true\n");
-    check_refused_at(3, "\"scale\"", "[[mesh]]\nfile = \"a.obj\"\nscale = [1, 0, 1]\n");
-    check_refused_at(3, "\"material\"", "[[mesh]]\nfile = \"a.obj\"\nmaterial = \"gold\"\n");
-    check_refused_at(4, "\"name\"", "[[material]]\nname = \"a\"\n[[material]]\nname = \"a\"\n");
-    check_refused_at(4, "\"normal\"", "[[material]]\nname = \"a\"\nbump = \"b.exr\"\nnormal = \"n.png\"\n");
-    check_refused_at(1, "\"faces\"", "[sky]\n");
-    check_refused_at(2, "%s", "[sky]\nfaces = \"sky.png\"\n");
-    check_refused_at(2, "\"faces\"", "[sky]\nfaces = [\"a\", \"b\"]\n");
-    check_refused_at(1, "\"mesh\"", "mesh = 3\n");
-    check_refused_at(1, "\"camera\"", "camera = [1, 2]\n");
-}
+    TEST_CASE("scene_io: a value of the wrong type or out of range is refused by its name and line") {
+        check_refused_at(2, "\"spp\"", "[render]\nspp = 2.5\n");
+        check_refused_at(2, "\"spp\"", "[render]\nspp = 0\n");
+        check_refused_at(2, "\"size\"", "[render]\nsize = [10, 20, 30]\n");
+        check_refused_at(2, "\"size\"", "[render]\nsize = [0, 10]\n");
+        check_refused_at(2, "\"size\"", "[render]\nsize = 10000000000\n");
+        check_refused_at(2, "\"exposure\"", "[render]\nexposure = nan\n");
+        check_refused_at(2, "\"background\"", "[render]\nbackground = [0.1, -0.1, 0]\n");
+        check_refused_at(2, "\"shadows\"", "[render]\nshadows = 1\n");
+        check_refused_at(3, "\"position\"", "[camera]\n\nposition = [0, inf, 0]\n");
+        check_refused_at(2, "\"position\"", "[camera]\nposition = [0, \"1\", 0]\n");
+        check_refused_at(2, "\"up\"", "[camera]\nup = [0, 0, 0]\n");
+        check_refused_at(2, "\"fov-deg\"", "[camera]\nfov-deg = 180\n");
+        check_refused_at(1, "\"target\"", "[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]\n");
+        check_refused_at(2, "\"type\"", "[[light]]\ntype = \"spot\"\n");
+        check_refused_at(1, "\"from\"", "[[light]]\ntype = \"directional\"\n");
+        check_refused_at(3, "\"from\"", "[[light]]\ntype = \"directional\"\nfrom = [0, 0, 0]\n");
+        check_refused_at(4, "\"falloff\"", "[[light]]\ntype = \"point\"\nposition = [0, 0, 0]\nfalloff = [0, 0, 0]\n");
+        check_refused_at(2, "\"file\"", "[[mesh]]\nfile = 3\n");
+        check_refused_at(1, "\"file\"", "[[mesh]]\nflat = true\n");
+        check_refused_at(3, "\"scale\"", "[[mesh]]\nfile = \"a.obj\"\nscale = [1, 0, 1]\n");
+        check_refused_at(3, "\"material\"", "[[mesh]]\nfile = \"a.obj\"\nmaterial = \"gold\"\n");
+        check_refused_at(4, "\"name\"", "[[material]]\nname = \"a\"\n[[material]]\nname = \"a\"\n");
+        check_refused_at(4, "\"normal\"", "[[material]]\nname = \"a\"\nbump = \"b.exr\"\nnormal = \"n.png\"\n");
+        check_refused_at(1, "\"faces\"", "[sky]\n");
+        check_refused_at(2, "%s", "[sky]\nfaces = \"sky.png\"\n");
+        check_refused_at(2, "\"faces\"", "[sky]\nfaces = [\"a\", \"b\"]\n");
+        check_refused_at(1, "\"mesh\"", "mesh = 3\n");
+        check_refused_at(1, "\"camera\"", "camera = [1, 2]\n");
+    }
 
-TEST_CASE("scene_io: what is not TOML is refused with the line") {
-    check_refused_at(3, "", "[render]\nspp = 3\nsize = = 4\n");
-    check_refused_at(2, "", "[render]\n[render]\n");
-    check_refused_at(1, "", std::string("\x00\xff\xfe", 3));
-    const std::string missing = "/nowhere/scene.toml";
-    refusal(missing, Refusal::unreadable, [&] { read_scene(missing); });
-    refusal("/tmp", Refusal::unreadable, [] { read_scene("/tmp"); });
-}
+    TEST_CASE("scene_io: what is not TOML is refused with the line") {
+        check_refused_at(3, "", "[render]\nspp = 3\nsize = = 4\n");
+        check_refused_at(2, "", "[render]\n[render]\n");
+        check_refused_at(1, "", std::string("\x00\xff\xfe", 3));
+        const std::string missing = "/nowhere/scene.toml";
+        refusal(missing, Refusal::unreadable, [&] { read_scene(missing); });
+        refusal("/tmp", Refusal::unreadable, [] { read_scene("/tmp"); });
+    }
 
-TEST_CASE("scene_io: what a scene names and cannot have is refused with the scene's line") {
-    const Folder folder;
-    const auto check = [&](const std::string& text, Refusal why, const std::string& after) {
-        const std::string file = folder.write("scene.toml", text);
-        const std::string message = refusal(file, why, [&] { load(read_scene(file)); });
-        CHECK_MESSAGE(message.rfind(after, 0) == 0, message);
-    };
-    check("", Refusal::unsuitable, ": ");
-    check("\n[[mesh]]\nfile = \"gone.obj\"\n", Refusal::unreadable, ":3: " + (folder / "gone.obj"));
-    check("[sky]\nfaces = \"gone_%s.png\"\n", Refusal::unreadable, ":2: " + (folder / "gone_px.png"));
-    write_mesh(folder / "ball.obj", sphere_mesh(8, 4));
-    check("[[mesh]]\nfile = \"ball.obj\"\nmaterial = \"m\"\n[[material]]\nname = \"m\"\nnormal = \"gone.png\"\n",
-          Refusal::unreadable, ":4: " + (folder / "gone.png"));
-    Mesh bare = sphere_mesh(8, 4);
-    bare.uvs.clear();
-    bare.corner_uv.clear();
-    write_mesh(folder / "bare.obj", bare);
-    write_image(folder / "a.png", grey_texels(), {.depth = Depth::u8});
-    check("[[mesh]]\nfile = \"bare.obj\"\nmaterial = \"m\"\n[[material]]\nname = \"m\"\nalbedo = \"a.png\"\n",
-          Refusal::unsuitable, ":2: " + (folder / "bare.obj"));
-}
+    TEST_CASE("scene_io: what a scene names and cannot have is refused with the scene's line") {
+        const Folder folder;
+        const auto check = [&](const std::string& text, Refusal why, const std::string& after) {
+            const std::string file = folder.write("scene.toml", text);
+            const std::string message = refusal(file, why, [&] { load(read_scene(file)); });
+            CHECK_MESSAGE(message.rfind(after, 0) == 0, message);
+        };
+        check("", Refusal::unsuitable, ": ");
+        check("\n[[mesh]]\nfile = \"gone.obj\"\n", Refusal::unreadable, ":3: " + (folder / "gone.obj"));
+        check("[sky]\nfaces = \"gone_%s.png\"\n", Refusal::unreadable, ":2: " + (folder / "gone_px.png"));
+        write_mesh(folder / "ball.obj", sphere_mesh(8, 4));
+        check("[[mesh]]\nfile = \"ball.obj\"\nmaterial = \"m\"\n[[material]]\nname = \"m\"\nnormal = \"gone.png\"\n",
+              Refusal::unreadable, ":4: " + (folder / "gone.png"));
+        Mesh bare = sphere_mesh(8, 4);
+        bare.uvs.clear();
+        bare.corner_uv.clear();
+        write_mesh(folder / "bare.obj", bare);
+        write_image(folder / "a.png", grey_texels(), {.depth = Depth::u8});
+        check("[[mesh]]\nfile = \"bare.obj\"\nmaterial = \"m\"\n[[material]]\nname = \"m\"\nalbedo = \"a.png\"\n",
+              Refusal::unsuitable, ":2: " + (folder / "bare.obj"));
+    }
 
 } // TEST_SUITE

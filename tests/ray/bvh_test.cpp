@@ -1,5 +1,5 @@
-#include "bake/ray/bvh.h"
 #include "bake/base/parallel.h"
+#include "bake/ray/bvh.h"
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -57,123 +57,123 @@ double distance(const Soup& soup, std::size_t i, const Ray& ray) {
 
 TEST_SUITE("unit") {
 
-TEST_CASE("bvh: the nearest triangle is met, with its mesh and barycentrics") {
-    const Bvh bvh = make_bvh({triangle(0), triangle(-1)});
-    const Hit hit = bvh.intersect({{0.5f, 0.25f, 2}, {0, 0, -1}});
-    REQUIRE(hit);
-    CHECK(hit.mesh == 0);
-    CHECK(hit.triangle == 0);
-    CHECK(hit.t == doctest::Approx(2));
-    CHECK(hit.b1 == doctest::Approx(0.5));
-    CHECK(hit.b2 == doctest::Approx(0.25));
-    CHECK(bvh.intersect({{0.5f, 0.25f, -0.5f}, {0, 0, -1}}).mesh == 1);
-    CHECK_MESSAGE(bvh.intersect({{0.5f, 0.25f, -2}, {0, 0, 1}}).mesh == 1, "back faces are met too");
-    CHECK(!bvh.intersect({{0.75f, 0.75f, 2}, {0, 0, -1}}));
-    CHECK(bvh.triangle_count() == 2);
-}
-
-TEST_CASE("bvh: t_min and t_max bound what is met, t counts in lengths of the direction") {
-    const Bvh bvh = make_bvh({triangle(0)});
-    CHECK(bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -4}}).t == doctest::Approx(0.5));
-    CHECK(!bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 1.9f}));
-    CHECK(!bvh.occluded({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 1.9f}));
-    CHECK(!bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -1}, 2.1f}));
-    CHECK(bvh.occluded({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 2.1f}));
-}
-
-TEST_CASE("bvh: every triangle of a mesh is found where a search through all of them finds it") {
-    const Soup soup = sheet(12);
-    const Bvh bvh = make_bvh({soup});
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> uniform(-0.3f, 1.3f);
-    int hits = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const Ray ray{{uniform(random), uniform(random), 1}, {uniform(random) - 0.5f, uniform(random) - 0.5f, -1}};
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < soup.triangles.size(); ++k) nearest = std::min(nearest, distance(soup, k, ray));
-        const Hit hit = bvh.intersect(ray);
-        REQUIRE(bool(hit) == std::isfinite(nearest));
-        CHECK(bvh.occluded(ray) == bool(hit));
-        if (!hit) continue;
-        ++hits;
-        CHECK(hit.t == doctest::Approx(nearest).epsilon(1e-5));
+    TEST_CASE("bvh: the nearest triangle is met, with its mesh and barycentrics") {
+        const Bvh bvh = make_bvh({triangle(0), triangle(-1)});
+        const Hit hit = bvh.intersect({{0.5f, 0.25f, 2}, {0, 0, -1}});
+        REQUIRE(hit);
+        CHECK(hit.mesh == 0);
+        CHECK(hit.triangle == 0);
+        CHECK(hit.t == doctest::Approx(2));
+        CHECK(hit.b1 == doctest::Approx(0.5));
+        CHECK(hit.b2 == doctest::Approx(0.25));
+        CHECK(bvh.intersect({{0.5f, 0.25f, -0.5f}, {0, 0, -1}}).mesh == 1);
+        CHECK_MESSAGE(bvh.intersect({{0.5f, 0.25f, -2}, {0, 0, 1}}).mesh == 1, "back faces are met too");
+        CHECK(!bvh.intersect({{0.75f, 0.75f, 2}, {0, 0, -1}}));
+        CHECK(bvh.triangle_count() == 2);
     }
-    CHECK(hits > 500);
-}
 
-TEST_CASE("bvh: a ray that leaves a surface does not meet it again, however far from the origin the mesh lies") {
-    for (const float far : {0.0f, 1.0f, 1000.0f, 1e6f}) {
-        Soup soup = sheet(24);
-        // A scale that keeps the cells well above the spacing of floats there.
-        for (Vec3f& p : soup.positions) p = p * std::max(1.0f, far * 0.01f) + Vec3f(far, -far, 0.5f * far);
+    TEST_CASE("bvh: t_min and t_max bound what is met, t counts in lengths of the direction") {
+        const Bvh bvh = make_bvh({triangle(0)});
+        CHECK(bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -4}}).t == doctest::Approx(0.5));
+        CHECK(!bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 1.9f}));
+        CHECK(!bvh.occluded({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 1.9f}));
+        CHECK(!bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -1}, 2.1f}));
+        CHECK(bvh.occluded({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 2.1f}));
+    }
+
+    TEST_CASE("bvh: every triangle of a mesh is found where a search through all of them finds it") {
+        const Soup soup = sheet(12);
         const Bvh bvh = make_bvh({soup});
-        std::mt19937 random(2);
-        std::uniform_real_distribution<float> uniform(0, 1);
+        std::mt19937 random(1);
+        std::uniform_real_distribution<float> uniform(-0.3f, 1.3f);
+        int hits = 0;
         for (int i = 0; i < 2000; ++i) {
-            const auto triangle = std::uint32_t(uniform(random) * float(soup.triangles.size()));
-            const Hit hit{0, 0, triangle, 0.5f * uniform(random), 0.5f * uniform(random)};
-            const HitPoint at = bvh.point(hit);
-            const float side = i % 2 ? 1.0f : -1.0f;
-            const Ray ray{leave(at, side * at.normal), side * at.normal};
-            const Hit again = bvh.intersect(ray);
-            CHECK((!again || again.triangle != hit.triangle));
-            // Straight through, the facet itself is met.
-            CHECK(bvh.occluded({leave(at, side * at.normal), -side * at.normal}));
+            const Ray ray{{uniform(random), uniform(random), 1}, {uniform(random) - 0.5f, uniform(random) - 0.5f, -1}};
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < soup.triangles.size(); ++k) nearest = std::min(nearest, distance(soup, k, ray));
+            const Hit hit = bvh.intersect(ray);
+            REQUIRE(bool(hit) == std::isfinite(nearest));
+            CHECK(bvh.occluded(ray) == bool(hit));
+            if (!hit) continue;
+            ++hits;
+            CHECK(hit.t == doctest::Approx(nearest).epsilon(1e-5));
+        }
+        CHECK(hits > 500);
+    }
+
+    TEST_CASE("bvh: a ray that leaves a surface does not meet it again, however far from the origin the mesh lies") {
+        for (const float far : {0.0f, 1.0f, 1000.0f, 1e6f}) {
+            Soup soup = sheet(24);
+            // A scale that keeps the cells well above the spacing of floats there.
+            for (Vec3f& p : soup.positions) p = p * std::max(1.0f, far * 0.01f) + Vec3f(far, -far, 0.5f * far);
+            const Bvh bvh = make_bvh({soup});
+            std::mt19937 random(2);
+            std::uniform_real_distribution<float> uniform(0, 1);
+            for (int i = 0; i < 2000; ++i) {
+                const auto triangle = std::uint32_t(uniform(random) * float(soup.triangles.size()));
+                const Hit hit{0, 0, triangle, 0.5f * uniform(random), 0.5f * uniform(random)};
+                const HitPoint at = bvh.point(hit);
+                const float side = i % 2 ? 1.0f : -1.0f;
+                const Ray ray{leave(at, side * at.normal), side * at.normal};
+                const Hit again = bvh.intersect(ray);
+                CHECK((!again || again.triangle != hit.triangle));
+                // Straight through, the facet itself is met.
+                CHECK(bvh.occluded({leave(at, side * at.normal), -side * at.normal}));
+            }
         }
     }
-}
 
-TEST_CASE("bvh: the same hits whatever the number of threads it was built with, on edges and corners too") {
-    const Soup soup = sheet(64);
-    std::vector<Hit> first;
-    for (const int threads : {1, 2, 7}) {
-        const ThreadLimit limit(threads);
-        const Bvh bvh = make_bvh({soup, soup});
-        std::vector<Hit> hits;
-        for (const Vec3f& p : soup.positions) hits.push_back(bvh.intersect({p + Vec3f(0, 0, 1), {0, 0, -1}}));
-        if (first.empty()) first = hits;
-        for (std::size_t i = 0; i < hits.size(); ++i)
-            REQUIRE((hits[i].mesh == first[i].mesh && hits[i].triangle == first[i].triangle));
+    TEST_CASE("bvh: the same hits whatever the number of threads it was built with, on edges and corners too") {
+        const Soup soup = sheet(64);
+        std::vector<Hit> first;
+        for (const int threads : {1, 2, 7}) {
+            const ThreadLimit limit(threads);
+            const Bvh bvh = make_bvh({soup, soup});
+            std::vector<Hit> hits;
+            for (const Vec3f& p : soup.positions) hits.push_back(bvh.intersect({p + Vec3f(0, 0, 1), {0, 0, -1}}));
+            if (first.empty()) first = hits;
+            for (std::size_t i = 0; i < hits.size(); ++i)
+                REQUIRE((hits[i].mesh == first[i].mesh && hits[i].triangle == first[i].triangle));
+        }
     }
-}
 
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-TEST_CASE("bvh: rays that are not finite, have no direction or an empty range are misses") {
-    const Bvh bvh = make_bvh({triangle(0)});
-    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    const Ray good{{0.2f, 0.2f, 1}, {0, 0, -1}};
-    REQUIRE(bvh.intersect(good));
-    std::vector<Ray> rays;
-    for (const float bad : {nan, inf, -inf, 1e30f})
-        for (int axis = 0; axis < 3; ++axis) {
-            rays.push_back(good);
-            rays.back().origin[axis] = bad;
-            rays.push_back(good);
-            rays.back().direction[axis] = bad;
+    TEST_CASE("bvh: rays that are not finite, have no direction or an empty range are misses") {
+        const Bvh bvh = make_bvh({triangle(0)});
+        const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+        const Ray good{{0.2f, 0.2f, 1}, {0, 0, -1}};
+        REQUIRE(bvh.intersect(good));
+        std::vector<Ray> rays;
+        for (const float bad : {nan, inf, -inf, 1e30f})
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.push_back(good);
+                rays.back().origin[axis] = bad;
+                rays.push_back(good);
+                rays.back().direction[axis] = bad;
+            }
+        for (const Vec3f& direction : {Vec3f(0), Vec3f(-0.0f), Vec3f(1e-40f)}) rays.push_back({good.origin, direction});
+        for (const auto& [low, high] : {std::pair(0.0f, nan), {2.0f, 1.0f}, {0.0f, -1.0f}, {inf, 1.0f}})
+            rays.push_back({good.origin, good.direction, low, high});
+        for (const Ray& ray : rays) {
+            CHECK(!bvh.intersect(ray));
+            CHECK(!bvh.occluded(ray));
         }
-    for (const Vec3f& direction : {Vec3f(0), Vec3f(-0.0f), Vec3f(1e-40f)}) rays.push_back({good.origin, direction});
-    for (const auto& [low, high] : {std::pair(0.0f, nan), {2.0f, 1.0f}, {0.0f, -1.0f}, {inf, 1.0f}})
-        rays.push_back({good.origin, good.direction, low, high});
-    for (const Ray& ray : rays) {
-        CHECK(!bvh.intersect(ray));
-        CHECK(!bvh.occluded(ray));
+        for (const float t_min : {-1.0f, -inf, nan}) // counts as 0
+            CHECK(bvh.intersect({good.origin, good.direction, t_min}));
     }
-    for (const float t_min : {-1.0f, -inf, nan}) // counts as 0
-        CHECK(bvh.intersect({good.origin, good.direction, t_min}));
-}
 
-TEST_CASE("bvh: nothing, empty meshes, zero-area and non-finite triangles are never met") {
-    CHECK(!Bvh({}).intersect({{0, 0, 1}, {0, 0, -1}}));
-    CHECK(Bvh({}).triangle_count() == 0);
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Soup empty;
-    const Soup flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 0, 1}, {1, 1, 1}}};
-    const Soup broken{{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-    const Bvh bvh = make_bvh({empty, flat, broken, triangle(-1)});
-    for (const float y : {0.0f, 0.01f, 0.2f}) CHECK(bvh.intersect({{0.3f, y, 1}, {0, 0, -1}}).mesh == 3);
-    CHECK(!bvh.intersect({{0.3f, -0.1f, 1}, {0, 0, -1}}));
-}
+    TEST_CASE("bvh: nothing, empty meshes, zero-area and non-finite triangles are never met") {
+        CHECK(!Bvh({}).intersect({{0, 0, 1}, {0, 0, -1}}));
+        CHECK(Bvh({}).triangle_count() == 0);
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        const Soup empty;
+        const Soup flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 0, 1}, {1, 1, 1}}};
+        const Soup broken{{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+        const Bvh bvh = make_bvh({empty, flat, broken, triangle(-1)});
+        for (const float y : {0.0f, 0.01f, 0.2f}) CHECK(bvh.intersect({{0.3f, y, 1}, {0, 0, -1}}).mesh == 3);
+        CHECK(!bvh.intersect({{0.3f, -0.1f, 1}, {0, 0, -1}}));
+    }
 
 } // TEST_SUITE

@@ -1,3 +1,4 @@
+#include "bake/base/vec.h"
 #include "bake/verdict/image_check.h"
 #include <cmath>
 #include <doctest/doctest.h>
@@ -26,7 +27,6 @@ template <class Value> Image<float> picture(int width, int height, int channels,
 }
 
 const std::vector<std::string> grey1 = {"Y"}, rgb = {"R", "G", "B"};
-constexpr double pi = 3.14159265358979;
 
 } // namespace
 

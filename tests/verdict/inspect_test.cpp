@@ -1,5 +1,5 @@
-#include "bake/verdict/inspect.h"
 #include "bake/base/error.h"
+#include "bake/verdict/inspect.h"
 #include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>

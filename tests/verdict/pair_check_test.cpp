@@ -1,3 +1,4 @@
+#include "bake/base/vec.h"
 #include "bake/verdict/pair_check.h"
 #include <cmath>
 #include <doctest/doctest.h>
@@ -5,8 +6,6 @@
 using namespace bake;
 
 namespace {
-
-constexpr double pi = 3.14159265358979;
 
 struct Wave {
     double at(double u, double v) const {

@@ -27,11 +27,11 @@ struct Bias {
 };
 
 WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png) {
-    WriteOptions options{.depth = depth, .compression = args.compression, .mips = args.layout == TableLayout::bumpslopes};
+    WriteOptions options{
+        .depth = depth, .compression = args.compression, .mips = args.layout == TableLayout::bumpslopes};
     if (args.layout == TableLayout::bumpslopes)
         options.channels.assign(std::begin(bumpslopes_channels), std::end(bumpslopes_channels));
-    else
-        options.channels = {"b_u", "b_v"};
+    else options.channels = {"b_u", "b_v"};
     if (png) options.channels = {"R", "G", "B"};
     return options;
 }
@@ -47,7 +47,9 @@ public:
         if (limit_ > 0)
             for (std::size_t i = 0; i < count; ++i)
                 if (!(std::abs(pairs[i]) <= limit_))
-                    throw Error(Refusal::unsuitable, path_ + format(": a slope of %g does not fit half floats; use --depth float", pairs[i]));
+                    throw Error(Refusal::unsuitable,
+                                path_ +
+                                    format(": a slope of %g does not fit half floats; use --depth float", pairs[i]));
         if (bias_.range == 0) return writer_.write(pairs, rows);
         const int channels = third_ ? 3 : 2;
         room_.resize(count / 2 * channels);
@@ -73,7 +75,8 @@ bool is_png(const std::string& path) { return CLI::detail::to_lower(path).ends_w
 
 constexpr float largest_half = 65504;
 
-void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Bias& bias, Progress& progress) {
+void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Bias& bias,
+                  Progress& progress) {
     const bool png = bias.range > 0 && is_png(args.out);
     ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png));
     TableSink sink(writer, table.width(), bias, png, depth == Depth::half ? largest_half : 0, args.out);
@@ -88,10 +91,14 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
         const float most = depth == Depth::half ? largest_half : std::numeric_limits<float>::max();
         for (std::size_t i = 0; i < count; ++i)
             if (!(std::abs(values[i]) <= most))
-                throw Error(Refusal::unsuitable, args.out + format(": a moment of %g does not fit its file; use --depth float, --units texel or a smaller --amplitude", values[i]));
+                throw Error(Refusal::unsuitable,
+                            args.out + format(": a moment of %g does not fit its file; use --depth float, --units "
+                                              "texel or a smaller --amplitude",
+                                              values[i]));
         writer.write(values, rows);
     };
-    for_bands(table, [&](const float* values, int rows) { write(values, rows, table.width()); }, &progress);
+    for_bands(
+        table, [&](const float* values, int rows) { write(values, rows, table.width()); }, &progress);
     if (table.width() > 1 || table.height() > 1) {
         Image<float> level = halve(table);
         for (;;) {
@@ -117,20 +124,25 @@ std::string_view name(SlopeUnits units) {
 int run(BumpTableArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_depth(args.out, args.depth);
     const Amplitude amplitude = parse_amplitude(args.amplitude);
-    if (amplitude.percent) throw Error(Refusal::usage, "--amplitude " + args.amplitude + ": a table has no bounding box; give object units");
+    if (amplitude.percent)
+        throw Error(Refusal::usage,
+                    "--amplitude " + args.amplitude + ": a table has no bounding box; give object units");
     args.options.amplitude = amplitude.value;
     if (!args.extent.empty()) {
         const Vec2d extent = parse_pair("--extent", args.extent);
         args.options.extent_u = extent.x, args.options.extent_v = extent.y;
         check_steepness(args.amplitude, amplitude.value, std::min(extent.x, extent.y));
     }
-    args.options.units = args.units.value_or(args.layout == TableLayout::bumpslopes ? SlopeUnits::texel : SlopeUnits::uv);
+    args.options.units =
+        args.units.value_or(args.layout == TableLayout::bumpslopes ? SlopeUnits::texel : SlopeUnits::uv);
     args.options.filter = args.height.filter;
     args.options.wrap_u = args.height.wrap_u(), args.options.wrap_v = args.height.wrap_v();
 
-    if (depth == Depth::u8) throw Error(Refusal::usage, args.out + ": 8 bits are too few for slopes; use --depth 16, half or float");
+    if (depth == Depth::u8)
+        throw Error(Refusal::usage, args.out + ": 8 bits are too few for slopes; use --depth 16, half or float");
     if (depth == Depth::u16 && args.layout == TableLayout::bumpslopes)
-        throw Error(Refusal::usage, args.out + ": bumpslopes are signed; write .exr or .tif with --depth half or float");
+        throw Error(Refusal::usage,
+                    args.out + ": bumpslopes are signed; write .exr or .tif with --depth half or float");
     check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
@@ -144,10 +156,8 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
         if (bias.range == 0) bias.range = 1; // a flat table
     }
     progress.start("bake", rows);
-    if (args.layout == TableLayout::slopes)
-        write_slopes(args, table, depth, bias, progress);
-    else
-        write_moments(args, table, depth, progress);
+    if (args.layout == TableLayout::slopes) write_slopes(args, table, depth, bias, progress);
+    else write_moments(args, table, depth, progress);
     progress.finish();
     watch.lap("bake and write");
 
@@ -159,19 +169,30 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("budget");
     const double tilt = step_tilt_deg(height.step, args.options.amplitude, extent.x, width);
     if (common.json) {
-        nlohmann::json result = {{"out", args.out}, {"width", width}, {"height", rows}, {"channels", table.channels()},
-                                 {"filter", name(table.filter())}, {"units", name(args.options.units)},
-                                 {"levels", height.levels}, {"step", height.step}, {"step_tilt_deg", tilt},
-                                 {"error_budget", to_json(budget)}, {"seconds", watch.to_json()}};
+        nlohmann::json result = {{"out", args.out},
+                                 {"width", width},
+                                 {"height", rows},
+                                 {"channels", table.channels()},
+                                 {"filter", name(table.filter())},
+                                 {"units", name(args.options.units)},
+                                 {"levels", height.levels},
+                                 {"step", height.step},
+                                 {"step_tilt_deg", tilt},
+                                 {"error_budget", to_json(budget)},
+                                 {"seconds", watch.to_json()}};
         if (advice) result["better_filter"] = to_json(*advice);
-        if (bias.range > 0) result["bias"] = {{"range", bias.range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
+        if (bias.range > 0)
+            result["bias"] = {{"range", bias.range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
         std::printf("%s\n", result.dump(2).c_str());
         return 0;
     }
-    std::printf("%s: %d x %d, slopes %s, filter %s (%s)\n", args.out.c_str(), width, rows, std::string(name(args.options.units)).c_str(),
-                std::string(name(table.filter())).c_str(), describe_levels(height).c_str());
+    std::printf("%s: %d x %d, slopes %s, filter %s (%s)\n", args.out.c_str(), width, rows,
+                std::string(name(args.options.units)).c_str(), std::string(name(table.filter())).c_str(),
+                describe_levels(height).c_str());
     if (bias.range > 0) std::printf("stored biased: slope = (level - 32768) / 32767 * %.9g\n", double(bias.range));
-    if (height.step > 0) std::printf("one level of the height tilts the normal by %.3f deg at extent %g x %g\n", tilt, extent.x, extent.y);
+    if (height.step > 0)
+        std::printf("one level of the height tilts the normal by %.3f deg at extent %g x %g\n", tilt, extent.x,
+                    extent.y);
     std::printf("%s\n%s\n", to_text(budget).c_str(), watch.to_text().c_str());
     return 0;
 }
@@ -180,20 +201,40 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
 
 std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<BumpTableArgs>();
-    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
-    sub.add_option("-o,--out", args->out, "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")->required()->check(not_empty());
+    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
+        ->required()
+        ->check(not_empty());
+    sub.add_option("-o,--out", args->out,
+                   "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")
+        ->required()
+        ->check(not_empty());
     add_height_options(sub, args->height);
-    sub.add_option_function<std::string>("--units", [args](const std::string& given) {
-           args->units = given == "lecture" ? SlopeUnits::lecture : given == "texel" ? SlopeUnits::texel
-                         : given == "uv"    ? SlopeUnits::uv : SlopeUnits::world;
-       }, "Slopes: lecture h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object unit (needs --extent to differ from 1 wide)")
-        ->check(one_of({"lecture", "texel", "uv", "world"}))->type_name("lecture|texel|uv|world");
-    sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")->check(not_empty())->capture_default_str();
-    sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")->check(not_empty())->type_name("W,H");
-    add_choice<TableLayout>(sub, "--layout", args->layout, {{"slopes", TableLayout::slopes}, {"bumpslopes", TableLayout::bumpslopes}},
-                            "slopes: (b_u, b_v); bumpslopes: OpenImageIO's h, s, t, s2, t2, st with mips, t down, per texel unless --units");
-    add_choice<Depth>(sub, "--depth", args->depth, {{"auto", Depth::automatic}, {"half", Depth::half}, {"float", Depth::float32}, {"16", Depth::u16}},
-                      "auto: half for .exr, float for .tif, 16 for .png; 16 is biased and says by how much");
+    sub.add_option_function<std::string>(
+           "--units",
+           [args](const std::string& given) {
+               args->units = given == "lecture" ? SlopeUnits::lecture
+                             : given == "texel" ? SlopeUnits::texel
+                             : given == "uv"    ? SlopeUnits::uv
+                                                : SlopeUnits::world;
+           },
+           "Slopes: lecture h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object unit "
+           "(needs --extent to differ from 1 wide)")
+        ->check(one_of({"lecture", "texel", "uv", "world"}))
+        ->type_name("lecture|texel|uv|world");
+    sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")
+        ->check(not_empty())
+        ->capture_default_str();
+    sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")
+        ->check(not_empty())
+        ->type_name("W,H");
+    add_choice<TableLayout>(sub, "--layout", args->layout,
+                            {{"slopes", TableLayout::slopes}, {"bumpslopes", TableLayout::bumpslopes}},
+                            "slopes: (b_u, b_v); bumpslopes: OpenImageIO's h, s, t, s2, t2, st with mips, t down, per "
+                            "texel unless --units");
+    add_choice<Depth>(
+        sub, "--depth", args->depth,
+        {{"auto", Depth::automatic}, {"half", Depth::half}, {"float", Depth::float32}, {"16", Depth::u16}},
+        "auto: half for .exr, float for .tif, 16 for .png; 16 is biased and says by how much");
     add_choice<Compression>(sub, "--compression", args->compression,
                             {{"auto", Compression::automatic}, {"none", Compression::none}, {"zip", Compression::zip}},
                             "Lossless; auto: zip for .exr, none for .tif");

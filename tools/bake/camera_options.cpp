@@ -10,7 +10,8 @@ namespace {
 
 NamedCamera scene_camera(const std::string& path) {
     const SceneEntries entries = read_scene(path);
-    if (!entries.camera_position || !entries.camera_target) return {camera_frame(load(entries).camera), entries.settings.height};
+    if (!entries.camera_position || !entries.camera_target)
+        return {camera_frame(load(entries).camera), entries.settings.height};
     const Camera camera{*entries.camera_position, *entries.camera_target, entries.camera_up, entries.fov_deg};
     return {camera_frame(camera), entries.settings.height};
 }
@@ -20,7 +21,9 @@ NamedCamera scene_camera(const std::string& path) {
 NamedCamera parse_camera(const std::string& flag, const std::string& text) {
     if (text.ends_with(".toml")) return scene_camera(text);
     const auto refuse = [&](const std::string& why) {
-        return Error(Refusal::usage, flag + " " + text + ": " + why + "; give a scene file, or such as position=0,1,5:target=0,0,0:fov-deg=40:height=1080");
+        return Error(Refusal::usage,
+                     flag + " " + text + ": " + why +
+                         "; give a scene file, or such as position=0,1,5:target=0,0,0:fov-deg=40:height=1080");
     };
     Camera camera;
     camera.target = Vec3f(0);
@@ -39,7 +42,8 @@ NamedCamera parse_camera(const std::string& flag, const std::string& text) {
         }
         const bool point = key == "position" || key == "target";
         if (!point && key != "fov-deg" && key != "height") throw refuse("'" + key + "' is not a key of a camera");
-        if (values.size() != (point ? 3 : 1)) throw refuse(key + (point ? " takes three numbers" : " takes one number"));
+        if (values.size() != (point ? 3 : 1))
+            throw refuse(key + (point ? " takes three numbers" : " takes one number"));
         if (key == "position") camera.position = Vec3f(values[0], values[1], values[2]), placed = true;
         if (key == "target") camera.target = Vec3f(values[0], values[1], values[2]);
         if (key == "fov-deg") camera.fov_deg = float(values[0]);

@@ -1,7 +1,7 @@
 // bake check: what is in each file given, and what is wrong with it.
+#include "bake/verdict/inspect.h"
 #include "options.h"
 #include "verb.h"
-#include "bake/verdict/inspect.h"
 #include <cstdio>
 #include <map>
 #include <new>
@@ -32,8 +32,8 @@ template <class Report> bool over_limit(const Report&) { return false; }
 template <class Inspect> void add_result(Results& results, const std::string& file, bool json, const Inspect& inspect) {
     const auto refuse = [&](const std::string& message, Refusal why) {
         std::fprintf(stderr, "bake: %s\n", message.c_str());
-        if (results.code == 0) results.code = static_cast<int>(why);
-        results.files.push_back({{"file", file}, {"error", message}, {"code", static_cast<int>(why)}});
+        if (results.code == 0) results.code = int(why);
+        results.files.push_back({{"file", file}, {"error", message}, {"code", int(why)}});
     };
     try {
         const auto report = inspect();
@@ -60,8 +60,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
             add_result(results, file, common.json, [&] { return inspect_distance(file, args.against, args.options); });
         else if (named_like_a_mesh(file))
             add_result(results, file, common.json, [&] { return inspect_mesh(file, args.options); });
-        else
-            add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
+        else add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
     }
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common.json,
@@ -71,7 +70,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
         std::printf("%s\n", all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
     }
     if (results.code != 0) return results.code;
-    return results.over || (args.strict && results.wrong) ? static_cast<int>(Refusal::over_limit) : 0;
+    return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
 }
 
 } // namespace
@@ -96,11 +95,11 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
         ->capture_default_str();
     sub.add_flag("--audit", args->options.audit,
                  "Meshes: self intersections, orientation and volume too, exactly (slow)");
-    const auto against =
-        sub.add_option("--against", args->against,
-                       "A mesh: how far those given lie from it, in place of the reports on them")
-            ->type_name("MESH");
-    sub.add_option("--limit", args->options.limit, "With --against: exit with 1 if they may lie farther apart, object units")
+    const auto against = sub.add_option("--against", args->against,
+                                        "A mesh: how far those given lie from it, in place of the reports on them")
+                             ->type_name("MESH");
+    sub.add_option("--limit", args->options.limit,
+                   "With --against: exit with 1 if they may lie farther apart, object units")
         ->needs(against)
         ->check(CLI::PositiveNumber);
     sub.add_option("--samples", args->options.distance.samples,
@@ -119,7 +118,8 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
         if (files->empty() && pair->empty())
             throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
         if (!args->against.empty() && (files->empty() || !pair->empty() || args->options.audit))
-            throw Error(Refusal::usage, "check: --against takes meshes alone; give --audit and --pair in a run of their own");
+            throw Error(Refusal::usage,
+                        "check: --against takes meshes alone; give --audit and --pair in a run of their own");
         return run(*args, common);
     };
 }

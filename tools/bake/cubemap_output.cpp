@@ -4,8 +4,8 @@
 #include "bake/base/progress.h"
 #include "bake/environment/filter/mips.h"
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <memory>
 
 namespace bake {
@@ -17,7 +17,8 @@ bool is_integer(Depth depth) noexcept { return depth == Depth::u8 || depth == De
 
 /// Rows of a picture, from row `top` on, as its samples can hold them; what these cannot is mended, or counted in `over`
 /// to be refused.
-void fit(Image<float>& image, int top, const CubemapTarget& target, const std::string& file, BadTexels& over, CubemapWritten& written) {
+void fit(Image<float>& image, int top, const CubemapTarget& target, const std::string& file, BadTexels& over,
+         CubemapWritten& written) {
     if (is_integer(target.depth)) {
         const int channels = image.channels(), alpha = channels == 2 || channels == 4 ? channels - 1 : -1;
         std::vector<std::int64_t> clipped(image.height(), 0);
@@ -46,8 +47,8 @@ void fit(Image<float>& image, int top, const CubemapTarget& target, const std::s
 void settle(const BadTexels& over, const CubemapTarget& target, const std::string& file, CubemapWritten& written) {
     if (over.over == 0) return;
     if (target.bad == BadPolicy::refuse)
-        throw Error(Refusal::unsuitable, file + ": half floats cannot hold its radiance: " + to_text(over, half_largest) +
-                                             "; write --depth float, or say --bad clamp");
+        throw Error(Refusal::unsuitable, file + ": half floats cannot hold its radiance: " +
+                                             to_text(over, half_largest) + "; write --depth float, or say --bad clamp");
     if (written.over.x < 0) written.over = over;
     else written.over.over += over.over, written.over.texels += over.texels;
 }
@@ -87,12 +88,15 @@ private:
     std::vector<std::string> names_;
 };
 
-FaceOrder order_of(const CubemapTarget& target) noexcept { return target.to == SkyFormat::openexr_cube ? FaceOrder::openexr : target.order; }
+FaceOrder order_of(const CubemapTarget& target) noexcept {
+    return target.to == SkyFormat::openexr_cube ? FaceOrder::openexr : target.order;
+}
 
 void write_whole(ImageWriter& writer, const Image<float>& image) { writer.write(image.data(), image.height()); }
 
 /// Six faces, or a strip of them, made and written band by band.
-CubemapWritten write_by_band(const Environment& sky, const CubemapTarget& target, const ResampleOptions& resampling, Progress* progress) {
+CubemapWritten write_by_band(const Environment& sky, const CubemapTarget& target, const ResampleOptions& resampling,
+                             Progress* progress) {
     CubemapWritten written;
     Files files;
     const int n = target.size;
@@ -105,13 +109,16 @@ CubemapWritten write_by_band(const Environment& sky, const CubemapTarget& target
     std::array<TurnedFace, 6> places;
     for (int k = 0; k < 6; ++k) places[k] = face_at(order_of(target), k);
     BadTexels over;
-    each_band(sky, {n, target.to == SkyFormat::openexr_cube}, resampling, places, [&](int k, int y, Image<float>& band) {
-        fit(band, six ? y : k * n + y, target, names[k], over, written);
-        write_whole(files[six ? k : 0], band);
-        if (y + band.height() < n || (!six && k < 5)) return;
-        settle(over, target, names[k], written);
-        over = {};
-    }, progress);
+    each_band(
+        sky, {n, target.to == SkyFormat::openexr_cube}, resampling, places,
+        [&](int k, int y, Image<float>& band) {
+            fit(band, six ? y : k * n + y, target, names[k], over, written);
+            write_whole(files[six ? k : 0], band);
+            if (y + band.height() < n || (!six && k < 5)) return;
+            settle(over, target, names[k], written);
+            over = {};
+        },
+        progress);
     files.finish(written);
     written.width = n;
     written.height = six ? n : 6 * n;
@@ -133,7 +140,9 @@ CubemapWritten write_picture(const CubemapTarget& target, Image<float> picture) 
 }
 
 Projection projection_of(SkyFormat to) noexcept {
-    return to == SkyFormat::octahedral ? Projection::octahedral : to == SkyFormat::openexr_latlong ? Projection::latlong_edges : Projection::latlong;
+    return to == SkyFormat::octahedral        ? Projection::octahedral
+           : to == SkyFormat::openexr_latlong ? Projection::latlong_edges
+                                              : Projection::latlong;
 }
 
 int picture_height(const CubemapTarget& target) noexcept {
@@ -156,16 +165,19 @@ Image<float> halved(const Image<float>& image) {
         for (int x = 0; x < w; ++x)
             for (int c = 0; c < image.channels(); ++c) {
                 const int x1 = std::min(2 * x + 1, image.width() - 1), y1 = std::min(2 * y + 1, image.height() - 1);
-                half.at(x, y, c) = 0.25f * (image.at(2 * x < image.width() ? 2 * x : 0, 2 * y < image.height() ? 2 * y : 0, c) +
-                                            image.at(x1, 2 * y < image.height() ? 2 * y : 0, c) +
-                                            image.at(2 * x < image.width() ? 2 * x : 0, y1, c) + image.at(x1, y1, c));
+                half.at(x, y, c) =
+                    0.25f * (image.at(2 * x < image.width() ? 2 * x : 0, 2 * y < image.height() ? 2 * y : 0, c) +
+                             image.at(x1, 2 * y < image.height() ? 2 * y : 0, c) +
+                             image.at(2 * x < image.width() ? 2 * x : 0, y1, c) + image.at(x1, y1, c));
             }
     return half;
 }
 
 /// Levels of one file, and halves of the last down to one texel, which file formats with mips ask for.
-void write_chain(ImageWriter& writer, std::vector<Image<float>> levels, const CubemapTarget& target, const std::string& file, CubemapWritten& written) {
-    while (levels.size() > 1 && (levels.back().width() > 1 || levels.back().height() > 1)) levels.push_back(halved(levels.back()));
+void write_chain(ImageWriter& writer, std::vector<Image<float>> levels, const CubemapTarget& target,
+                 const std::string& file, CubemapWritten& written) {
+    while (levels.size() > 1 && (levels.back().width() > 1 || levels.back().height() > 1))
+        levels.push_back(halved(levels.back()));
     for (std::size_t k = 0; k < levels.size(); ++k) {
         if (k) writer.next_level();
         fit(levels[k], target, file, written);
@@ -188,27 +200,38 @@ bool is_cube_format(SkyFormat format) noexcept {
 }
 
 Depth cubemap_depth(const std::string& out, const std::string& name, SampleType source) {
-    const std::pair<const char*, Depth> names[] = {{"8", Depth::u8}, {"16", Depth::u16}, {"half", Depth::half}, {"float", Depth::float32}};
+    const std::pair<const char*, Depth> names[] = {
+        {"8", Depth::u8}, {"16", Depth::u16}, {"half", Depth::half}, {"float", Depth::float32}};
     for (const auto& [known, depth] : names)
         if (name == known) return resolve_depth(out, depth);
     const Depth automatic = resolve_depth(out, Depth::automatic);
     return automatic == Depth::u16 && source == SampleType::u8 ? Depth::u8 : automatic;
 }
 
-CubemapWritten write_converted(const Environment& sky, const CubemapTarget& target, const ResampleOptions& options, Progress* progress) {
-    if (!is_cube_format(target.to)) return write_picture(target, to_picture(sky, projection_of(target.to), target.size, picture_height(target), options, progress));
+CubemapWritten write_converted(const Environment& sky, const CubemapTarget& target, const ResampleOptions& options,
+                               Progress* progress) {
+    if (!is_cube_format(target.to))
+        return write_picture(
+            target, to_picture(sky, projection_of(target.to), target.size, picture_height(target), options, progress));
     // A cross interleaves the faces.
-    if (target.to == SkyFormat::hcross || target.to == SkyFormat::vcross) return write_picture(target, laid_out(to_cube(sky, {target.size, false}, options, progress), target));
+    if (target.to == SkyFormat::hcross || target.to == SkyFormat::vcross)
+        return write_picture(target, laid_out(to_cube(sky, {target.size, false}, options, progress), target));
     return write_by_band(sky, target, options, progress);
 }
 
 CubemapWritten write_levels(const std::vector<Cube>& cubes, const CubemapTarget& target, Progress* progress) {
     const bool mips = cubes.size() > 1;
-    if (mips && (target.to == SkyFormat::hcross || target.to == SkyFormat::vcross || target.to == SkyFormat::octahedral))
-        throw Error(Refusal::usage, target.out + ": crosses and octahedral maps have no mips here; write faces, a strip, openexr-cube or a lat-long");
+    if (mips &&
+        (target.to == SkyFormat::hcross || target.to == SkyFormat::vcross || target.to == SkyFormat::octahedral))
+        throw Error(
+            Refusal::usage,
+            target.out +
+                ": crosses and octahedral maps have no mips here; write faces, a strip, openexr-cube or a lat-long");
     const int n = cubes[0].size();
     if (mips && target.to != SkyFormat::faces && (n & (n - 1)) != 0)
-        throw Error(Refusal::usage, target.out + ": mips of six faces of " + std::to_string(n) + " texels in one picture do not halve evenly; give a --size that is a power of two");
+        throw Error(Refusal::usage,
+                    target.out + ": mips of six faces of " + std::to_string(n) +
+                        " texels in one picture do not halve evenly; give a --size that is a power of two");
     CubemapWritten written;
     Files files;
     const WriteOptions options = write_options(target, mips);

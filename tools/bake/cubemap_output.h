@@ -1,8 +1,8 @@
 // What bake cubemap writes: an environment in a layout, levels of it, six files that appear together.
 #pragma once
-#include "bake/picture/image_io.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
+#include "bake/picture/image_io.h"
 #include <string>
 #include <vector>
 
@@ -32,7 +32,8 @@ bool is_cube_format(SkyFormat format) noexcept;
 Depth cubemap_depth(const std::string& out, const std::string& name, SampleType source);
 
 /// Converts and writes, face by face where the layout allows it.
-CubemapWritten write_converted(const Environment& sky, const CubemapTarget& target, const ResampleOptions& options, Progress* progress);
+CubemapWritten write_converted(const Environment& sky, const CubemapTarget& target, const ResampleOptions& options,
+                               Progress* progress);
 /// Writes cubes, texel-centred, level 0 first, as they are; each half as large as the one before, rounded down. More
 /// than one level gives files with mips, whose chain is completed to one texel. Throws Error{Refusal::usage} for levels
 /// in PNG, in crosses, and of strips whose size is no power of two.

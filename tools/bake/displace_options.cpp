@@ -1,7 +1,7 @@
 #include "displace_options.h"
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/relief/height/vector_height.h"
 #include "bake/mesh/weld.h"
+#include "bake/relief/height/vector_height.h"
 #include "camera_options.h"
 #include <cctype>
 #include <filesystem>
@@ -32,7 +32,8 @@ int resolve_levels(const DisplaceArgs& args) {
 /// A height or a vector at every texel.
 Image<float> read_vectors(const DisplaceArgs& args, ImageInfo& info, std::string& described) {
     Image<float> vectors = read_vector_height(args.height.path, &info);
-    described = std::string(name(info.type)) + " vectors, " + (*args.vector == VectorSpace::tangent ? "tangent" : "object") + " space";
+    described = std::string(name(info.type)) + " vectors, " +
+                (*args.vector == VectorSpace::tangent ? "tangent" : "object") + " space";
     return vectors;
 }
 
@@ -40,42 +41,73 @@ Image<float> read_vectors(const DisplaceArgs& args, ImageInfo& info, std::string
 
 void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
     sub.add_option("mesh", args.mesh, "UV-mapped mesh or cage (.obj, .ply, .glb, .gltf)");
-    sub.add_option("--shape", args.shape, "Analytic shape instead of a mesh, such as torus:R=2,r=0.7")->check(not_empty())->type_name("NAME[:key=value,...]");
-    sub.add_option("--height", args.height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
+    sub.add_option("--shape", args.shape, "Analytic shape instead of a mesh, such as torus:R=2,r=0.7")
+        ->check(not_empty())
+        ->type_name("NAME[:key=value,...]");
+    sub.add_option("--height", args.height.path,
+                   "Height picture; values are taken as they are stored, never sRGB-decoded")
+        ->required()
+        ->check(not_empty());
     sub.add_option("-o,--out", args.out, "Mesh to write: .obj, .ply, .glb or .gltf")->required()->check(not_empty());
-    sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal [1%; 1 for float files]")->check(not_empty());
+    sub.add_option(
+           "--amplitude", args.amplitude,
+           "Height of white above black: object units, or 1% of the bounding box's diagonal [1%; 1 for float files]")
+        ->check(not_empty());
     sub.add_option("--midlevel", args.midlevel, "Value that lies on the surface [0.5; 0 for float files of vectors]");
     add_choice<BaseKind>(sub, "--subdivide", args.kind,
-                         {{"auto", BaseKind::automatic}, {"none", BaseKind::none}, {"linear", BaseKind::linear},
-                          {"catmark", BaseKind::catmark}, {"loop", BaseKind::loop}},
-                         "What is displaced: the mesh as it is, its faces cut finer, or the limit of Catmull-Clark or Loop; auto: none, or linear once a rate is given");
-    sub.add_option("--levels", args.levels, "Every edge is cut into 2^N [3; 0 for the mesh as it is]")->check(CLI::Range(0, 10))->type_name("N");
-    sub.add_option("--edge-px", args.edge_px, "Edges no longer than P pixels in the picture of --camera")->check(not_empty())->type_name("P");
-    sub.add_option("--camera", args.camera, "Scene file, or position=0,1,5:target=0,0,0:fov-deg=40:height=1080")->check(not_empty());
-    sub.add_option("--max-error", args.max_error, "Cut where it needs to be, to stay within E of the displaced surface: object units or 0.1%")->check(not_empty())->type_name("E");
-    add_choice<UvSmoothing>(sub, "--uv-smoothing", args.uv_smoothing,
-                            {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
-                            "Of catmark and loop: which uvs are smoothed with the surface; inside: all but the charts' borders");
-    add_choice<Seam>(sub, "--seam", args.seam, {{"average", Seam::average}, {"owner", Seam::owner}, {"blend", Seam::blend}},
-                     "Height of a point on a uv seam: the mean of its sides, that of the first face, or the mean with both sides led to it");
+                         {{"auto", BaseKind::automatic},
+                          {"none", BaseKind::none},
+                          {"linear", BaseKind::linear},
+                          {"catmark", BaseKind::catmark},
+                          {"loop", BaseKind::loop}},
+                         "What is displaced: the mesh as it is, its faces cut finer, or the limit of Catmull-Clark or "
+                         "Loop; auto: none, or linear once a rate is given");
+    sub.add_option("--levels", args.levels, "Every edge is cut into 2^N [3; 0 for the mesh as it is]")
+        ->check(CLI::Range(0, 10))
+        ->type_name("N");
+    sub.add_option("--edge-px", args.edge_px, "Edges no longer than P pixels in the picture of --camera")
+        ->check(not_empty())
+        ->type_name("P");
+    sub.add_option("--camera", args.camera, "Scene file, or position=0,1,5:target=0,0,0:fov-deg=40:height=1080")
+        ->check(not_empty());
+    sub.add_option("--max-error", args.max_error,
+                   "Cut where it needs to be, to stay within E of the displaced surface: object units or 0.1%")
+        ->check(not_empty())
+        ->type_name("E");
+    add_choice<UvSmoothing>(
+        sub, "--uv-smoothing", args.uv_smoothing,
+        {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
+        "Of catmark and loop: which uvs are smoothed with the surface; inside: all but the charts' borders");
+    add_choice<Seam>(sub, "--seam", args.seam,
+                     {{"average", Seam::average}, {"owner", Seam::owner}, {"blend", Seam::blend}},
+                     "Height of a point on a uv seam: the mean of its sides, that of the first face, or the mean with "
+                     "both sides led to it");
     sub.add_option_function<std::string>(
-           "--vector", [&args](const std::string& space) { args.vector = space == "tangent" ? VectorSpace::tangent : VectorSpace::object; },
+           "--vector",
+           [&args](const std::string& space) {
+               args.vector = space == "tangent" ? VectorSpace::tangent : VectorSpace::object;
+           },
            "Displace by three channels instead of one: along T, B, n or along x, y, z")
         ->check(one_of({"tangent", "object"}))
         ->type_name("tangent|object");
     add_height_reading_options(sub, args.height);
-    add_choice<Interpolation>(sub, "--interpolation", args.interpolation,
-                              {{"bilinear", Interpolation::bilinear}, {"catmull-rom", Interpolation::catmull_rom}, {"c2", Interpolation::c2}},
-                              "Between texels; c2: cubic spline, smooth to the second derivative");
+    add_choice<Interpolation>(
+        sub, "--interpolation", args.interpolation,
+        {{"bilinear", Interpolation::bilinear}, {"catmull-rom", Interpolation::catmull_rom}, {"c2", Interpolation::c2}},
+        "Between texels; c2: cubic spline, smooth to the second derivative");
     sub.add_flag("--measure", args.measure, "Measure the distance of the result from the displaced surface");
     sub.add_flag("--margin", args.margin, "Write the fold margin, smallest 1 + b a, as an attribute (fold_margin)");
     sub.add_flag("--audit", args.audit, "Test the result for self-intersections and orientation, exactly (slow)");
-    sub.add_option("--max-memory", args.max_memory, "Refuse what needs more, such as 2G; unless given, what the machine has")->check(not_empty())->type_name("SIZE");
+    sub.add_option("--max-memory", args.max_memory,
+                   "Refuse what needs more, such as 2G; unless given, what the machine has")
+        ->check(not_empty())
+        ->type_name("SIZE");
 }
 
 void check_usage(const DisplaceArgs& args) {
     if (args.mesh.empty() == args.shape.empty())
-        throw usage(args.mesh.empty() ? "displace: nothing to displace; name a mesh or a --shape" : "--shape: stands instead of a mesh; leave one of them out");
+        throw usage(args.mesh.empty() ? "displace: nothing to displace; name a mesh or a --shape"
+                                      : "--shape: stands instead of a mesh; leave one of them out");
     const std::string format = ending(args.out);
     if (format != ".obj" && format != ".ply" && format != ".glb" && format != ".gltf")
         throw usage("--out " + args.out + ": is not a mesh format known here; use .obj, .ply, .glb or .gltf");
@@ -84,18 +116,23 @@ void check_usage(const DisplaceArgs& args) {
         throw usage("--subdivide: a shape is smooth by itself; leave it out");
     if (args.levels.has_value() + !args.edge_px.empty() + !args.max_error.empty() > 1)
         throw usage("--levels, --edge-px, --max-error: are three ways to say how fine; give one");
-    if (args.kind == BaseKind::none && (args.levels.value_or(0) > 0 || !args.edge_px.empty() || !args.max_error.empty()))
-        throw usage("--subdivide none: leaves the faces as they are; take linear to cut them finer, catmark or loop for the limit surface");
+    if (args.kind == BaseKind::none &&
+        (args.levels.value_or(0) > 0 || !args.edge_px.empty() || !args.max_error.empty()))
+        throw usage("--subdivide none: leaves the faces as they are; take linear to cut them finer, catmark or loop "
+                    "for the limit surface");
     if (args.edge_px.empty() != args.camera.empty())
-        throw usage(args.camera.empty() ? "--edge-px: needs the --camera whose pixels they are" : "--camera: is for --edge-px; give both or none");
+        throw usage(args.camera.empty() ? "--edge-px: needs the --camera whose pixels they are"
+                                        : "--camera: is for --edge-px; give both or none");
     if (!args.edge_px.empty()) {
         const auto pixels = parse_number(args.edge_px);
-        if (!pixels || !(*pixels >= 0.01) || *pixels > 1e6) throw usage("--edge-px " + args.edge_px + ": is not a length in pixels; write 0.01 to 1e6, such as 2");
+        if (!pixels || !(*pixels >= 0.01) || *pixels > 1e6)
+            throw usage("--edge-px " + args.edge_px + ": is not a length in pixels; write 0.01 to 1e6, such as 2");
     }
     if (args.vector && (args.height.grey != Grey::mean || args.height.invert || args.height.dequantise))
         throw usage("--vector: takes three channels as they are; leave out --channel, --invert and --dequantise");
     const bool limit = args.kind == BaseKind::catmark || args.kind == BaseKind::loop;
-    if (!limit && args.uv_smoothing != UvSmoothing::inside) throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
+    if (!limit && args.uv_smoothing != UvSmoothing::inside)
+        throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
     if (args.midlevel && !(*args.midlevel * 0 == 0)) throw usage("--midlevel: is not a finite number; write 0.5");
     if (!args.amplitude.empty()) parse_amplitude(args.amplitude);
     if (!args.max_error.empty()) parse_length("--max-error", args.max_error);
@@ -110,11 +147,13 @@ BaseSurface make_base(const DisplaceArgs& args) {
     }
     Mesh mesh = read_mesh(args.mesh);
     if (mesh.corner_uv.empty())
-        throw Error(Refusal::unsuitable, args.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");
+        throw Error(Refusal::unsuitable,
+                    args.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");
     const BaseKind kind = resolve_kind(args);
     if (kind == BaseKind::none || kind == BaseKind::linear) return BaseSurface(std::move(mesh));
     if (ending(args.mesh) != ".obj") weld_positions(mesh); // formats of vertices split them at seams of uvs
-    const SubdivisionOptions options{.scheme = kind == BaseKind::loop ? Scheme::loop : Scheme::catmark, .uv = args.uv_smoothing};
+    const SubdivisionOptions options{.scheme = kind == BaseKind::loop ? Scheme::loop : Scheme::catmark,
+                                     .uv = args.uv_smoothing};
     check_cage(mesh, options.scheme, args.mesh);
     return BaseSurface(std::move(mesh), options);
 }
@@ -132,10 +171,12 @@ ReliefFile load_relief(const DisplaceArgs& args, double size) {
     }
     const bool floats = info.type == SampleType::half || info.type == SampleType::float32;
     file.default_amplitude = args.amplitude.empty();
-    const Amplitude amplitude = file.default_amplitude ? (floats ? Amplitude{1, false} : Amplitude{0.01, true}) : parse_amplitude(args.amplitude);
+    const Amplitude amplitude = file.default_amplitude ? (floats ? Amplitude{1, false} : Amplitude{0.01, true})
+                                                       : parse_amplitude(args.amplitude);
     file.relief.height = {.amplitude = amplitude.value * (amplitude.percent ? size : 1),
                           .midlevel = args.midlevel.value_or(args.vector && floats ? 0 : 0.5),
-                          .wrap_u = args.height.wrap_u(), .wrap_v = args.height.wrap_v()};
+                          .wrap_u = args.height.wrap_u(),
+                          .wrap_v = args.height.wrap_v()};
     check_steepness(file.default_amplitude ? "1" : args.amplitude, file.relief.height.amplitude, size);
     file.relief.interpolation = args.interpolation;
     file.relief.vector = args.vector;
@@ -174,7 +215,8 @@ std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
     const std::string rest = unit.empty() || power == std::string::npos ? unit : unit.substr(1);
     const bool known = rest.empty() || rest == "B" || (rest == "IB" && power != std::string::npos);
     const double bytes = known ? value * std::exp2(power == std::string::npos ? 0 : 10.0 * double(power + 1)) : -1;
-    if (!(bytes >= 1) || bytes > 1e18) throw usage(flag + " " + text + ": is not a size; write bytes, or such as 500M or 2G");
+    if (!(bytes >= 1) || bytes > 1e18)
+        throw usage(flag + " " + text + ": is not a size; write bytes, or such as 500M or 2G");
     return std::uint64_t(bytes);
 }
 

@@ -10,7 +10,8 @@ enum class BaseKind {
     automatic, ///< none without rates, linear with them
     none,      ///< the mesh as it is
     linear,    ///< the mesh, its faces cut finer
-    catmark, loop,
+    catmark,
+    loop,
 };
 
 struct DisplaceArgs {

@@ -1,7 +1,7 @@
 // bake <verb>: parses the command line, runs one verb, turns every refusal into one line and its exit code.
-#include "verb.h"
 #include "bake/base/parallel.h"
 #include "bake/base/version.h"
+#include "verb.h"
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -27,7 +27,8 @@ constexpr VerbEntry verbs[] = {
     {"bump-table", "Bump lookup table (slopes along u and v) from a grayscale height texture", bump_table_verb},
     {"displace", "A mesh really displaced by a height: welded, crack-free, with exact normals", displace_verb},
     {"normal-map", "Normal map from a height texture, on a plane or on a mesh", normal_map_verb},
-    {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface", surface_verb},
+    {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface",
+     surface_verb},
     {"check", "What is in a mesh or an image, and what will go wrong with it", check_verb},
     {"cubemap", "Environment from six faces or one picture: assembled, converted, filtered, captured", cubemap_verb},
     {"render", "Preview render of a scene", render_verb},
@@ -36,7 +37,7 @@ constexpr VerbEntry verbs[] = {
 
 int fail(const std::string& message, Refusal why) {
     std::fprintf(stderr, "bake: %s\n", message.c_str());
-    return static_cast<int>(why);
+    return int(why);
 }
 
 std::string one_line(std::string text) {
@@ -92,13 +93,15 @@ int main(int argc, char** argv) {
     bake::catch_interrupts();
     try {
         const int code = bake::run(argc, argv);
-        if (std::fflush(stdout) != 0) return bake::fail("standard output: cannot be written; is the disk full?", bake::Refusal::unwritable);
+        if (std::fflush(stdout) != 0)
+            return bake::fail("standard output: cannot be written; is the disk full?", bake::Refusal::unwritable);
         return code;
     } catch (const bake::Error& error) {
         return bake::fail(error.what(), error.refusal);
     } catch (const std::bad_alloc&) {
         return bake::fail("out of memory; use smaller inputs or outputs", bake::Refusal::unsuitable);
     } catch (const std::exception& error) {
-        return bake::fail(std::string("stopped by ") + error.what() + "; please report this", bake::Refusal::unsuitable);
+        return bake::fail(std::string("stopped by ") + error.what() + "; please report this",
+                          bake::Refusal::unsuitable);
     }
 }

@@ -3,19 +3,32 @@
 namespace bake {
 
 void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
-    sub.add_option("--height", args.height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")->required()->check(not_empty());
-    sub.add_option("--size", args.size, "Texels of the map [those of the height]")->check(not_empty())->type_name("N|WxH");
+    sub.add_option("--height", args.height.path,
+                   "Height picture; values are taken as they are stored, never sRGB-decoded")
+        ->required()
+        ->check(not_empty());
+    sub.add_option("--size", args.size, "Texels of the map [those of the height]")
+        ->check(not_empty())
+        ->type_name("N|WxH");
     std::vector<std::pair<std::string, NormalMethod>> methods;
     for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
     add_choice(sub, "--method", args.method, methods, "Terms of the displaced normal that are kept");
-    sub.add_option("--amplitude", args.amplitude, "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]")->check(not_empty());
+    sub.add_option(
+           "--amplitude", args.amplitude,
+           "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]")
+        ->check(not_empty());
     sub.add_option("--midlevel", args.midlevel, "Value that lies on the surface")->capture_default_str();
-    sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")->check(not_empty())->type_name("W,H");
+    sub.add_option("--extent", args.extent, "Object units the picture is wide and high, without a mesh [1,H/W]")
+        ->check(not_empty())
+        ->type_name("W,H");
     add_mesh_options(sub, args.read);
     add_height_options(sub, args.height);
-    add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}}, "tangent: MikkTSpace");
+    add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}},
+                      "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
-    sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")->check(CLI::Range(0, 4096))->capture_default_str();
+    sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
 }
 
 void check_usage(const NormalMapArgs& args) {
@@ -47,7 +60,9 @@ NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture&
     options.padding = args.padding;
     const Amplitude amplitude = args.amplitude.empty() ? Amplitude{} : parse_amplitude(args.amplitude);
     options.height_options = {.amplitude = amplitude.value * (amplitude.percent ? diagonal(bounds(mesh)) : 1),
-                              .midlevel = args.midlevel, .wrap_u = args.height.wrap_u(), .wrap_v = args.height.wrap_v()};
+                              .midlevel = args.midlevel,
+                              .wrap_u = args.height.wrap_u(),
+                              .wrap_v = args.height.wrap_v()};
     return options;
 }
 

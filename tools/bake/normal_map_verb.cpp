@@ -1,6 +1,6 @@
-#include "normal_map_options.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/map/bake_budget.h"
+#include "normal_map_options.h"
 #include <cstdio>
 
 namespace bake {
@@ -15,7 +15,8 @@ struct Result {
     Filter filter = Filter::central;
 };
 
-Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, const Vec2d& extent, Depth depth, Progress& progress) {
+Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, const Vec2d& extent, Depth depth,
+                  Progress& progress) {
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
     Result result;
     progress.start("bake", options.height);
@@ -27,7 +28,8 @@ Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, 
     return result;
 }
 
-Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const NormalMapOptions& options, Depth depth, Progress& progress) {
+Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const NormalMapOptions& options, Depth depth,
+                 Progress& progress) {
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
     Result result;
     progress.start("bake", options.height);
@@ -35,19 +37,23 @@ Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const No
     const BudgetInput input = mesh_budget(height, field, options, target, depth);
     result.budget = error_budget(input);
     result.advice = better_filter(input, result.budget);
-    result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, target.lecture.u, height.values.width());
+    result.tilt_deg =
+        step_tilt_deg(height.step, options.height_options.amplitude, target.lecture.u, height.values.width());
     return result;
 }
 
-void print(const NormalMapArgs& args, const HeightTexture& height, const Result& result, const NormalMapOptions& options) {
-    std::printf("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\n", args.out.c_str(), options.width, options.height,
-                options.space == Space::tangent ? "tangent" : "object", options.directx ? "down (DirectX)" : "up (OpenGL)",
-                std::string(name(options.method)).c_str(), std::string(name(result.filter)).c_str(), describe_levels(height).c_str());
+void print(const NormalMapArgs& args, const HeightTexture& height, const Result& result,
+           const NormalMapOptions& options) {
+    std::printf("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\n", args.out.c_str(), options.width,
+                options.height, options.space == Space::tangent ? "tangent" : "object",
+                options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
+                std::string(name(result.filter)).c_str(), describe_levels(height).c_str());
     const NormalMapReport& r = result.report;
     const double share = 100.0 / (double(options.width) * options.height);
     if (!args.mesh.empty())
-        std::printf("charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat\n", share * double(r.covered),
-                    share * double(r.border), share * double(r.padded), share * double(r.empty));
+        std::printf("charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat\n",
+                    share * double(r.covered), share * double(r.border), share * double(r.padded),
+                    share * double(r.empty));
     if (height.step > 0) std::printf("one level of the height tilts the normal by %.3f deg along u\n", result.tilt_deg);
     std::printf("%s\n", to_text(result.budget).c_str());
 }
@@ -62,23 +68,38 @@ void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapRe
     say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
     say(r.flat_triangles, "triangles have no area in uv and were not baked");
     say(r.triangles_without_uv, "triangles have no uvs and were not baked");
-    say(r.folded, "texels turn inside out, the amplitude being beyond the radius of curvature; blinn's normal stands in for exact there");
+    say(r.folded, "texels turn inside out, the amplitude being beyond the radius of curvature; blinn's normal stands "
+                  "in for exact there");
 }
 
-nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const Result& result, const NormalMapOptions& options) {
+nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const Result& result,
+                       const NormalMapOptions& options) {
     const NormalMapReport& r = result.report;
-    nlohmann::json object = {{"out", args.out}, {"width", options.width}, {"height", options.height},
+    nlohmann::json object = {{"out", args.out},
+                             {"width", options.width},
+                             {"height", options.height},
                              {"space", options.space == Space::tangent ? "tangent" : "object"},
-                             {"green", options.directx ? "down" : "up"}, {"method", name(options.method)},
-                             {"filter", name(result.filter)}, {"amplitude", options.height_options.amplitude},
-                             {"levels", height.levels}, {"step", height.step}, {"step_tilt_deg", result.tilt_deg},
+                             {"green", options.directx ? "down" : "up"},
+                             {"method", name(options.method)},
+                             {"filter", name(result.filter)},
+                             {"amplitude", options.height_options.amplitude},
+                             {"levels", height.levels},
+                             {"step", height.step},
+                             {"step_tilt_deg", result.tilt_deg},
                              {"error_budget", bake::to_json(result.budget)}};
     if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
     if (!args.mesh.empty())
-        object["texels"] = {{"covered", r.covered}, {"border", r.border}, {"overlapped", r.overlapped}, {"padded", r.padded},
-                            {"empty", r.empty}, {"degenerate", r.degenerate}, {"folded", r.folded},
-                            {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces},
-                            {"flat_triangles", r.flat_triangles}, {"triangles_without_uv", r.triangles_without_uv}};
+        object["texels"] = {{"covered", r.covered},
+                            {"border", r.border},
+                            {"overlapped", r.overlapped},
+                            {"padded", r.padded},
+                            {"empty", r.empty},
+                            {"degenerate", r.degenerate},
+                            {"folded", r.folded},
+                            {"outside_faces", r.outside_faces},
+                            {"crossing_faces", r.crossing_faces},
+                            {"flat_triangles", r.flat_triangles},
+                            {"triangles_without_uv", r.triangles_without_uv}};
     return object;
 }
 
@@ -131,15 +152,24 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
 
 std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
-    sub.add_option("mesh", args->mesh, "UV-mapped mesh (.obj, .ply, .gltf, .glb); without it the map is that of a flat rectangle");
-    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")->required()->check(not_empty());
+    sub.add_option("mesh", args->mesh,
+                   "UV-mapped mesh (.obj, .ply, .gltf, .glb); without it the map is that of a flat rectangle");
+    sub.add_option("-o,--out", args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2")
+        ->required()
+        ->check(not_empty());
     add_normal_map_options(sub, *args);
     add_choice<Depth>(sub, "--depth", args->depth,
-                      {{"auto", Depth::automatic}, {"8", Depth::u8}, {"16", Depth::u16}, {"half", Depth::half}, {"float", Depth::float32}},
+                      {{"auto", Depth::automatic},
+                       {"8", Depth::u8},
+                       {"16", Depth::u16},
+                       {"half", Depth::half},
+                       {"float", Depth::float32}},
                       "auto: 16 for .png, half for .exr, float for .tif");
-    add_examples(sub, "  bake normal-map --height bricks.png -o bricks_normal.png --amplitude 0.02\n"
-                      "  bake normal-map --height bricks.png -o bricks_normal.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
-                      "  bake normal-map torus.obj --height bricks.png --amplitude 1% -o torus_normal.exr --size 2048\n");
+    add_examples(
+        sub,
+        "  bake normal-map --height bricks.png -o bricks_normal.png --amplitude 0.02\n"
+        "  bake normal-map --height bricks.png -o bricks_normal.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
+        "  bake normal-map torus.obj --height bricks.png --amplitude 1% -o torus_normal.exr --size 2048\n");
     return [args, &common] { return run(*args, common); };
 }
 

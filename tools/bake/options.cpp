@@ -15,7 +15,8 @@ CLI::Validator not_empty() {
 }
 
 void add_mesh_options(CLI::App& sub, MeshOptions& options) {
-    sub.add_flag("--flip-v", options.flip_v, "Turn the mesh's v over: for files whose v does not run as their format says");
+    sub.add_flag("--flip-v", options.flip_v,
+                 "Turn the mesh's v over: for files whose v does not run as their format says");
 }
 
 void add_height_options(CLI::App& sub, HeightArgs& args) {
@@ -33,20 +34,25 @@ void add_height_reading_options(CLI::App& sub, HeightArgs& args) {
     // Per axis: unset until given.
     const auto per_axis = [&](const char* flag, std::optional<Wrap>& wrap, const char* help) {
         sub.add_option_function<std::string>(
-               flag, [&wrap, wraps](const std::string& given) {
+               flag,
+               [&wrap, wraps](const std::string& given) {
                    for (const auto& [known, value] : wraps)
                        if (known == given) wrap = value;
-               }, help)
+               },
+               help)
             ->check(one_of({"repeat", "clamp", "mirror"}))
             ->type_name("repeat|clamp|mirror");
     };
     per_axis("--wrap-u", args.along_u, "The same along u alone");
     per_axis("--wrap-v", args.along_v, "The same along v alone");
-    add_choice<Grey>(sub, "--channel", args.grey,
-                     {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}},
-                     "Which grey of the picture is the height; mean: of the colour channels");
+    add_choice<Grey>(
+        sub, "--channel", args.grey,
+        {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g}, {"b", Grey::b}, {"a", Grey::a}, {"luma", Grey::luma}},
+        "Which grey of the picture is the height; mean: of the colour channels");
     sub.add_flag("--invert", args.invert, "Black is high");
-    sub.add_flag("--dequantise", args.dequantise, "Smooth the terraces of heights of 256 levels or fewer, within a level; for gentle heights without grain");
+    sub.add_flag(
+        "--dequantise", args.dequantise,
+        "Smooth the terraces of heights of 256 levels or fewer, within a level; for gentle heights without grain");
 }
 
 HeightTexture load_height(const HeightArgs& args) {
@@ -78,7 +84,8 @@ Amplitude parse_amplitude(const std::string& text) {
     Amplitude amplitude;
     amplitude.percent = !text.empty() && text.back() == '%';
     const auto value = parse_number(amplitude.percent ? text.substr(0, text.size() - 1) : text);
-    if (!value) throw usage("--amplitude " + text + ": is not a number; write 0.02, or 1% of the bounding box's diagonal");
+    if (!value)
+        throw usage("--amplitude " + text + ": is not a number; write 0.02, or 1% of the bounding box's diagonal");
     if (std::abs(*value) > 1e12) throw usage("--amplitude " + text + ": is out of range; write at most 1e12");
     amplitude.value = amplitude.percent ? *value / 100 : *value;
     return amplitude;
@@ -96,7 +103,8 @@ Amplitude parse_length(const std::string& flag, const std::string& text) {
 
 void check_steepness(const std::string& amplitude, double value, double length) {
     if (std::abs(value) > 1e9 * length)
-        throw usage("--amplitude " + amplitude + format(": is more than 1e9 times the %g it is spread over; write less", length));
+        throw usage("--amplitude " + amplitude +
+                    format(": is more than 1e9 times the %g it is spread over; write less", length));
 }
 
 void check_not_input(const std::string& out, const std::string& input) {
@@ -111,7 +119,8 @@ Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive
     const auto second = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
     const auto in_range = [](double value) { return value >= 1e-12 && value <= 1e12; };
     if (!first || !second || (positive && !(in_range(*first) && in_range(*second))))
-        throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") + "numbers, such as 2,1");
+        throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") +
+                    "numbers, such as 2,1");
     return {*first, *second};
 }
 
@@ -120,7 +129,8 @@ std::pair<int, int> parse_size(const std::string& text) {
     const auto width = parse_number(text.substr(0, cross));
     const auto height = cross == std::string::npos ? width : parse_number(text.substr(cross + 1));
     const auto fits = [](const std::optional<double>& n) { return n && *n >= 1 && *n <= 65536 && *n == int(*n); };
-    if (!fits(width) || !fits(height)) throw usage("--size " + text + ": is not a size; write 1024 or 2048x1024, up to 65536");
+    if (!fits(width) || !fits(height))
+        throw usage("--size " + text + ": is not a size; write 1024 or 2048x1024, up to 65536");
     return {int(*width), int(*height)};
 }
 
@@ -135,25 +145,26 @@ double step_tilt_deg(double step, double amplitude, double extent, int texels) n
 
 std::string to_text(const ErrorBudget& budget) {
     return format("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
-                budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
+                  budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
 }
 
 nlohmann::json to_json(const ErrorBudget& budget) {
-    return {{"filter_deg", budget.filter_deg}, {"quantisation_deg", budget.quantisation_deg},
+    return {{"filter_deg", budget.filter_deg},     {"quantisation_deg", budget.quantisation_deg},
             {"encoding_deg", budget.encoding_deg}, {"method_deg", budget.method_deg},
-            {"total_deg", budget.total_deg}, {"samples", budget.samples}};
+            {"total_deg", budget.total_deg},       {"samples", budget.samples}};
 }
 
 std::string to_text(const FilterAdvice& advice) {
-    return format("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(), advice.total_deg);
+    return format("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(),
+                  advice.total_deg);
 }
 
-nlohmann::json to_json(const FilterAdvice& advice) { return {{"filter", name(advice.filter)}, {"total_deg", advice.total_deg}}; }
+nlohmann::json to_json(const FilterAdvice& advice) {
+    return {{"filter", name(advice.filter)}, {"total_deg", advice.total_deg}};
+}
 
 namespace {
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 } // namespace
 
 Stopwatch::Stopwatch() : last_(now()) {}
@@ -166,7 +177,8 @@ void Stopwatch::lap(const std::string& step) {
 
 std::string Stopwatch::to_text() const {
     std::string line;
-    for (const auto& [step, seconds] : laps_) line += (line.empty() ? "" : ", ") + format("%s %.3f s", step.c_str(), seconds);
+    for (const auto& [step, seconds] : laps_)
+        line += (line.empty() ? "" : ", ") + format("%s %.3f s", step.c_str(), seconds);
     return line;
 }
 

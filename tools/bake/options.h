@@ -1,8 +1,8 @@
 // Options that several verbs share, and how their values are written.
 #pragma once
-#include "bake/picture/image_io.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/text.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/picture/image_io.h"
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/error_budget.h"
 #include "verb.h"
@@ -32,7 +32,10 @@ CLI::Option* add_choice(CLI::App& sub, const std::string& flag, Value& value,
         for (const auto& [known, choice] : choices)
             if (known == name) value = choice;
     };
-    return sub.add_option_function<std::string>(flag, set, help)->check(one_of(names))->type_name(joined)->default_str(current);
+    return sub.add_option_function<std::string>(flag, set, help)
+        ->check(one_of(names))
+        ->type_name(joined)
+        ->default_str(current);
 }
 
 /// How a mesh is read, given the same way by every verb that reads one.

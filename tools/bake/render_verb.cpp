@@ -1,9 +1,9 @@
 // bake render: a picture of a scene.
-#include "verb.h"
-#include "bake/picture/image_io.h"
 #include "bake/base/output_file.h"
+#include "bake/picture/image_io.h"
 #include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"
+#include "verb.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

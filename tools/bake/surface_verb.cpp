@@ -1,6 +1,6 @@
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/surface/patch/surface_map.h"
 #include "bake/surface/patch/surface_summary.h"
 #include "options.h"
@@ -35,8 +35,10 @@ std::vector<MapQuantity> parse_maps(const std::string& text) {
         from = to + 1;
         const auto found = std::find_if(std::begin(all_map_quantities), std::end(all_map_quantities),
                                         [&](MapQuantity q) { return word == name(q); });
-        if (found == std::end(all_map_quantities)) throw usage("--maps " + text + ": '" + word + "' is no map; choose from " + known);
-        if (std::find(out.begin(), out.end(), *found) != out.end()) throw usage("--maps " + text + ": '" + word + "' twice; name each map once");
+        if (found == std::end(all_map_quantities))
+            throw usage("--maps " + text + ": '" + word + "' is no map; choose from " + known);
+        if (std::find(out.begin(), out.end(), *found) != out.end())
+            throw usage("--maps " + text + ": '" + word + "' twice; name each map once");
         out.push_back(*found);
     }
     return out;
@@ -54,12 +56,16 @@ std::pair<int, int> parse_resolution(const std::string& text) {
 /// Everything that can be refused before a file is read.
 void check_usage(const SurfaceArgs& args) {
     if (args.mesh.empty() && args.shape.empty()) throw usage("surface: neither a mesh nor a --shape; give one of them");
-    if (!args.mesh.empty() && !args.shape.empty()) throw usage("--shape " + args.shape + ": and a mesh; give one of them");
+    if (!args.mesh.empty() && !args.shape.empty())
+        throw usage("--shape " + args.shape + ": and a mesh; give one of them");
     if (args.out.empty() && args.maps_out.empty())
         throw usage("surface: nothing to write; give -o for a mesh, --maps-out for maps, or both");
-    if (!args.shape.empty() && args.scheme) throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
-    if (!args.scheme && args.uv_smoothing != UvSmoothing::inside) throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
-    if (args.maps_out.empty() && !args.maps.empty()) throw usage("--maps: needs --maps-out, what the maps' names begin with");
+    if (!args.shape.empty() && args.scheme)
+        throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
+    if (!args.scheme && args.uv_smoothing != UvSmoothing::inside)
+        throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
+    if (args.maps_out.empty() && !args.maps.empty())
+        throw usage("--maps: needs --maps-out, what the maps' names begin with");
     if (!args.maps.empty()) parse_maps(args.maps);
     parse_size(args.size);
     if (!args.resolution.empty()) {
@@ -68,7 +74,8 @@ void check_usage(const SurfaceArgs& args) {
             throw usage("--resolution " + args.resolution +
                         ": a mesh is taken as it is, with its own faces; --subdivide makes a smooth surface of it");
         if (args.scheme && (n != m || n > 1024))
-            throw usage("--resolution " + args.resolution + ": cells along every edge of the cage's patches; write one number up to 1024");
+            throw usage("--resolution " + args.resolution +
+                        ": cells along every edge of the cage's patches; write one number up to 1024");
     }
     if (!args.out.empty()) {
         const std::string ending = std::filesystem::path(args.out).extension().string();
@@ -77,7 +84,9 @@ void check_usage(const SurfaceArgs& args) {
     }
 }
 
-std::string map_file(const SurfaceArgs& args, MapQuantity quantity) { return args.maps_out + "_" + name(quantity) + ".exr"; }
+std::string map_file(const SurfaceArgs& args, MapQuantity quantity) {
+    return args.maps_out + "_" + name(quantity) + ".exr";
+}
 
 void check_not_the_mesh(const std::string& out, const std::string& mesh) {
     std::error_code absent;
@@ -134,8 +143,10 @@ std::vector<std::pair<const char*, ValueRange>> ranges(const SurfaceSummary& s, 
 
 void print(const std::string& title, const Loaded& loaded, const SurfaceMesh& mesh, const SurfaceSummary& s) {
     const bool has_uv = !mesh.mesh.corner_uv.empty();
-    std::printf("%s%s\n%-16s %14s %14s %14s\n", loaded.kind == SurfaceKind::shape ? "" : (title + ": ").c_str(), loaded.what.c_str(), "", "min", "max", "mean");
-    for (const auto& [label, range] : ranges(s, has_uv)) std::printf("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
+    std::printf("%s%s\n%-16s %14s %14s %14s\n", loaded.kind == SurfaceKind::shape ? "" : (title + ": ").c_str(),
+                loaded.what.c_str(), "", "min", "max", "mean");
+    for (const auto& [label, range] : ranges(s, has_uv))
+        std::printf("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
     std::printf("area %.7g, %zu faces, %zu vertices\n", s.area, mesh.mesh.faces(), mesh.mesh.positions.size());
     std::printf("degenerate points: %zu\n", s.degenerate.size());
     for (std::size_t i = 0; i < std::min(places_shown, s.degenerate.size()); ++i) {
@@ -144,29 +155,42 @@ void print(const std::string& title, const Loaded& loaded, const SurfaceMesh& me
         const auto p = Vec3d(d.p) + 0.0; // no -0
         std::printf("  (%.5g, %.5g, %.5g)%s, face %zu: %s\n", p.x, p.y, p.z, uv.c_str(), d.face, describe(d.what));
     }
-    if (s.degenerate.size() > places_shown) std::printf("  and %zu more; --json lists them\n", s.degenerate.size() - places_shown);
+    if (s.degenerate.size() > places_shown)
+        std::printf("  and %zu more; --json lists them\n", s.degenerate.size() - places_shown);
 }
 
 nlohmann::json to_json(const SurfaceSummary& s, bool has_uv) {
-    nlohmann::json object = {{"area", s.area}, {"degenerate_count", s.degenerate.size()}, {"degenerate", nlohmann::json::array()}};
+    nlohmann::json object = {
+        {"area", s.area}, {"degenerate_count", s.degenerate.size()}, {"degenerate", nlohmann::json::array()}};
     for (const auto& [label, r] : ranges(s, has_uv)) object[label] = {{"min", r.min}, {"max", r.max}, {"mean", r.mean}};
     for (std::size_t i = 0; i < std::min(places_listed, s.degenerate.size()); ++i) {
         const DegeneratePoint& d = s.degenerate[i];
-        object["degenerate"].push_back({{"what", describe(d.what)}, {"position", {d.p.x, d.p.y, d.p.z}}, {"uv", {d.uv.x, d.uv.y}}, {"face", d.face}});
+        object["degenerate"].push_back({{"what", describe(d.what)},
+                                        {"position", {d.p.x, d.p.y, d.p.z}},
+                                        {"uv", {d.uv.x, d.uv.y}},
+                                        {"face", d.face}});
     }
     return object;
 }
 
 nlohmann::json to_json(const SurfaceMapReport& r) {
-    return {{"covered", r.covered}, {"border", r.border}, {"overlapped", r.overlapped}, {"degenerate", r.degenerate},
-            {"padded", r.padded}, {"empty", r.empty}, {"outside_faces", r.outside_faces}, {"crossing_faces", r.crossing_faces},
+    return {{"covered", r.covered},
+            {"border", r.border},
+            {"overlapped", r.overlapped},
+            {"degenerate", r.degenerate},
+            {"padded", r.padded},
+            {"empty", r.empty},
+            {"outside_faces", r.outside_faces},
+            {"crossing_faces", r.crossing_faces},
             {"largest_uv_distance", r.residual}};
 }
 
 void print(const SurfaceMapReport& r, const SurfaceMapOptions& options) {
     const double share = 100.0 / (double(options.width) * options.height);
-    std::printf("maps %d x %d: charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left at zero\n", options.width,
-                options.height, share * double(r.covered), share * double(r.border), share * double(r.padded), share * double(r.empty));
+    std::printf(
+        "maps %d x %d: charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left at zero\n",
+        options.width, options.height, share * double(r.covered), share * double(r.border), share * double(r.padded),
+        share * double(r.empty));
 }
 
 void warn(const CommonArgs& common, const std::string& title, const SurfaceMapReport& r) {
@@ -197,15 +221,16 @@ MapFiles open_maps(const SurfaceArgs& args) {
         const std::vector<std::string> names = channels(q) == 1   ? std::vector<std::string>{"Y"}
                                                : channels(q) == 3 ? std::vector<std::string>{"R", "G", "B"}
                                                                   : std::vector<std::string>{"R", "G", "B", "sign"};
-        files.writers.push_back(std::make_unique<ImageWriter>(map_file(args, q), files.options.width, files.options.height, channels(q),
-                                                              WriteOptions{.depth = Depth::float32, .channels = names}));
+        files.writers.push_back(
+            std::make_unique<ImageWriter>(map_file(args, q), files.options.width, files.options.height, channels(q),
+                                          WriteOptions{.depth = Depth::float32, .channels = names}));
     }
     return files;
 }
 
 void write_maps(MapFiles& files, const std::vector<Image<float>>& maps) {
-    for_rows(static_cast<std::int64_t>(maps.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-        for (auto q = static_cast<std::size_t>(begin); q < static_cast<std::size_t>(end); ++q) {
+    for_rows(std::int64_t(maps.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (auto q = std::size_t(begin); q < std::size_t(end); ++q) {
             files.writers[q]->write(maps[q].data(), maps[q].height());
             files.writers[q]->finish();
         }
@@ -223,7 +248,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
 
     if (!args.out.empty()) const OutputFile writable(args.out);
     MapFiles files = open_maps(args);
-    progress.start("surface", static_cast<std::int64_t>(loaded.surface.complex().patches.size()));
+    progress.start("surface", std::int64_t(loaded.surface.complex().patches.size()));
     const SurfaceMesh mesh = surface_mesh(loaded.surface, loaded.kind, loaded.rate, &progress);
     const SurfaceSummary summary = summarise(mesh);
     watch.lap("surface");
@@ -240,7 +265,8 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     watch.lap("write");
 
     if (common.json) {
-        nlohmann::json object = {{"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
+        nlohmann::json object = {
+            {"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
         object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
         if (!args.out.empty()) object["out"] = args.out;
         for (const MapQuantity q : files.quantities) object["maps"][name(q)] = map_file(args, q);
@@ -268,25 +294,41 @@ std::string shapes_text() {
 std::function<int()> surface_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<SurfaceArgs>();
     sub.add_option("mesh", args->mesh, "Mesh, or cage of a subdivision surface (.obj, .ply, .glb, .gltf)");
-    sub.add_option("--shape", args->shape, "Analytic surface instead of a mesh: see below")->check(not_empty())->type_name("NAME[:KEY=VALUE,...]");
+    sub.add_option("--shape", args->shape, "Analytic surface instead of a mesh: see below")
+        ->check(not_empty())
+        ->type_name("NAME[:KEY=VALUE,...]");
     sub.add_option_function<std::string>(
-           "--subdivide", [args](const std::string& scheme) { args->scheme = scheme == "loop" ? Scheme::loop : Scheme::catmark; },
+           "--subdivide",
+           [args](const std::string& scheme) { args->scheme = scheme == "loop" ? Scheme::loop : Scheme::catmark; },
            "The mesh is a cage: take its limit surface")
         ->check(one_of({"catmark", "loop"}))
         ->type_name("catmark|loop");
-    add_choice<UvSmoothing>(sub, "--uv-smoothing", args->uv_smoothing,
-                            {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
-                            "Of --subdivide: which uvs are smoothed with the surface; inside: all but the charts' borders");
-    sub.add_option("--resolution", args->resolution, "Cells of a shape along u and v, or along every edge of a cage's patches [4]")
+    add_choice<UvSmoothing>(
+        sub, "--uv-smoothing", args->uv_smoothing,
+        {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
+        "Of --subdivide: which uvs are smoothed with the surface; inside: all but the charts' borders");
+    sub.add_option("--resolution", args->resolution,
+                   "Cells of a shape along u and v, or along every edge of a cage's patches [4]")
         ->check(not_empty())
         ->type_name("NxM|N");
-    sub.add_option("-o,--out", args->out, "Mesh to write (.ply, .glb, .gltf): normals, tangents, mean_curvature, gauss_curvature")->check(not_empty());
-    sub.add_option("--maps", args->maps, "Maps to write, apart by commas [all]: position, normal, pu, pv, tangent, mean-curvature, gauss-curvature")
+    sub.add_option("-o,--out", args->out,
+                   "Mesh to write (.ply, .glb, .gltf): normals, tangents, mean_curvature, gauss_curvature")
+        ->check(not_empty());
+    sub.add_option(
+           "--maps", args->maps,
+           "Maps to write, apart by commas [all]: position, normal, pu, pv, tangent, mean-curvature, gauss-curvature")
         ->check(not_empty())
         ->type_name("NAMES");
-    sub.add_option("--maps-out", args->maps_out, "What the maps' names begin with: PREFIX_normal.exr and so on")->check(not_empty())->type_name("PREFIX");
-    sub.add_option("--size", args->size, "Texels of the maps")->check(not_empty())->type_name("N|WxH")->capture_default_str();
-    sub.add_option("--padding", args->padding, "Texels filled beyond the charts' borders")->check(CLI::Range(0, 4096))->capture_default_str();
+    sub.add_option("--maps-out", args->maps_out, "What the maps' names begin with: PREFIX_normal.exr and so on")
+        ->check(not_empty())
+        ->type_name("PREFIX");
+    sub.add_option("--size", args->size, "Texels of the maps")
+        ->check(not_empty())
+        ->type_name("N|WxH")
+        ->capture_default_str();
+    sub.add_option("--padding", args->padding, "Texels filled beyond the charts' borders")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
     add_mesh_options(sub, args->reading);
     sub.footer(shapes_text() + "Examples:\n"
                                "  bake surface --shape torus:R=2,r=0.7 --resolution 128x64 -o torus.ply\n"

@@ -35,43 +35,45 @@ private:
 /// Puts the four bytes of a float or an integer, low byte first on any machine, and moves `to` behind them.
 template <class T> void put_bytes(char*& to, T value) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int i = 0; i < 4; ++i) *to++ = static_cast<char>(bits >> (8 * i));
+    for (int i = 0; i < 4; ++i) *to++ = char(bits >> (8 * i));
 }
 
 /// Writes rows [0, rows) in order; append_row(block, row) appends the text of one to a block. The bytes do not depend
 /// on the number of threads; memory is that of some tens of thousand rows.
 template <class AppendRow> void write_rows(BlockWriter& out, std::size_t rows, AppendRow&& append_row) {
     const std::size_t grain = 8192;
-    std::vector<std::string> blocks(static_cast<std::size_t>(slot_count()));
+    auto blocks = std::vector<std::string>(std::size_t(slot_count()));
     in_order(
-        static_cast<std::int64_t>((rows + grain - 1) / grain),
+        std::int64_t((rows + grain - 1) / grain),
         [&](std::int64_t band, int slot) {
-            std::string& block = blocks[static_cast<std::size_t>(slot)];
+            std::string& block = blocks[std::size_t(slot)];
             block.clear();
-            const std::size_t first = static_cast<std::size_t>(band) * grain;
+            const std::size_t first = std::size_t(band) * grain;
             for (std::size_t row = first; row < std::min(rows, first + grain); ++row) append_row(block, row);
         },
-        [&](std::int64_t, int slot) { out.write(blocks[static_cast<std::size_t>(slot)]); });
+        [&](std::int64_t, int slot) { out.write(blocks[std::size_t(slot)]); });
 }
 
 /// The same for rows whose bytes are counted beforehand: rows [first, end) take bytes(first, end), and
 /// fill(first, end, to) writes them all.
 template <class Bytes, class Fill> void write_blocks(BlockWriter& out, std::size_t rows, Bytes&& bytes, Fill&& fill) {
     const std::size_t grain = 1 << 15;
-    std::vector<std::vector<char>> blocks(static_cast<std::size_t>(slot_count()));
+    auto blocks = std::vector<std::vector<char>>(std::size_t(slot_count()));
     const auto size = [&](std::int64_t band) {
-        const std::size_t first = static_cast<std::size_t>(band) * grain;
+        const std::size_t first = std::size_t(band) * grain;
         return bytes(first, std::min(rows, first + grain));
     };
     in_order(
-        static_cast<std::int64_t>((rows + grain - 1) / grain),
+        std::int64_t((rows + grain - 1) / grain),
         [&](std::int64_t band, int slot) {
-            std::vector<char>& block = blocks[static_cast<std::size_t>(slot)];
+            std::vector<char>& block = blocks[std::size_t(slot)];
             if (block.size() < size(band)) block.resize(size(band));
-            const std::size_t first = static_cast<std::size_t>(band) * grain;
+            const std::size_t first = std::size_t(band) * grain;
             fill(first, std::min(rows, first + grain), block.data());
         },
-        [&](std::int64_t band, int slot) { out.write({blocks[static_cast<std::size_t>(slot)].data(), size(band)}); });
+        [&](std::int64_t band, int slot) {
+            out.write({blocks[std::size_t(slot)].data(), size(band)});
+        });
 }
 
 /// The same for rows of `row_bytes` each; fill_row(to, row) writes one.

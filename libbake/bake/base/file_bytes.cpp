@@ -38,9 +38,8 @@ FileBytes read_file(const std::string& path) {
         throw Error(Refusal::unreadable, path + ": is not a regular file; copy its contents into one");
 
     FileBytes bytes;
-    bytes.size = static_cast<std::size_t>(status.st_size);
-    const auto memory =
-        static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    bytes.size = std::size_t(status.st_size);
+    const auto memory = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
     if (bytes.size > memory)
         throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) +
                                              " bytes are more than this machine's memory; split the file");
@@ -53,10 +52,9 @@ FileBytes read_file(const std::string& path) {
     bytes.data[bytes.size] = '\n';
 
     const std::int64_t grain = std::int64_t(1) << 20;
-    for_rows(static_cast<std::int64_t>(bytes.size), grain, [&](std::int64_t begin, std::int64_t end) {
+    for_rows(std::int64_t(bytes.size), grain, [&](std::int64_t begin, std::int64_t end) {
         while (begin < end) {
-            const ssize_t got =
-                pread(file.number, bytes.data.get() + begin, static_cast<std::size_t>(end - begin), begin);
+            const ssize_t got = pread(file.number, bytes.data.get() + begin, std::size_t(end - begin), begin);
             if (got < 0 && errno == EINTR) continue;
             if (got < 0) refuse(path, errno);
             if (got == 0) throw Error(Refusal::unreadable, path + ": shrank while it was read; try again");

@@ -1,7 +1,7 @@
 #include "bake/base/number_lines.h"
+#include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
 #include "bake/base/text_line.h"
-#include "bake/base/error.h"
 #include <charconv>
 #include <cmath>
 
@@ -28,7 +28,7 @@ std::vector<NumberLine> read_number_lines(const std::string& path) {
                 const char* stop = at;
                 while (stop < end && *stop != ' ' && *stop != ',') ++stop;
                 throw Error{Refusal::unreadable, path + ": line " + std::to_string(number) + ": " +
-                                                     shown({at, static_cast<std::size_t>(stop - at)}) +
+                                                     shown({at, std::size_t(stop - at)}) +
                                                      " is not a number; only numbers and # comments belong here"};
             }
             line.values.push_back(value);

@@ -35,7 +35,8 @@ OutputFile::~OutputFile() {
 
 void OutputFile::commit() {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-        throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) + "); choose another name");
+        throw Error(Refusal::unwritable,
+                    path_ + ": cannot be written (" + std::strerror(errno) + "); choose another name");
     committed_ = true;
     remove_on_second_signal("");
 }
@@ -46,7 +47,8 @@ void write_text(const std::string& path, const std::string& text) {
     const bool written = out && std::fwrite(text.data(), 1, text.size(), out) == text.size();
     const bool closed = out && std::fclose(out) == 0;
     if (!written || !closed)
-        throw Error(Refusal::unwritable, path + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
+        throw Error(Refusal::unwritable,
+                    path + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
     file.commit();
 }
 

@@ -12,15 +12,14 @@ struct ThreadLimit::Control {
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-    if (threads > 0)
-        control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+    if (threads > 0) control_.reset(new Control{{tbb::global_control::max_allowed_parallelism, std::size_t(threads)}});
 }
 
 ThreadLimit::~ThreadLimit() = default;
 
 int thread_count() noexcept {
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return std::max(1, static_cast<int>(allowed));
+    return std::max(1, int(allowed));
 }
 
 void detail::for_rows(std::int64_t rows, std::int64_t grain, void (*work)(void*, std::int64_t, std::int64_t),

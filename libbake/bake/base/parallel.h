@@ -30,14 +30,15 @@ void for_rows(std::int64_t rows, std::int64_t grain, void (*work)(void*, std::in
 void in_order(std::int64_t bands, void (*compute)(void*, std::int64_t, int), void (*consume)(void*, std::int64_t, int),
               void* compute_context, void* consume_context);
 
-template <class Work> void* context_of(Work& work) { return const_cast<void*>(static_cast<const void*>(std::addressof(work))); }
+template <class Work> void* context_of(Work& work) {
+    return const_cast<void*>(static_cast<const void*>(std::addressof(work)));
 }
+} // namespace detail
 
 /// Calls work(begin, end) on chunks of at most `grain` rows that together cover [0, rows) once, on all threads, in any
 /// order. The chunks do not depend on the number of threads. An exception from a chunk comes out here; Ctrl-C comes
 /// out as Error{Refusal::interrupted}. `progress`, when given, advances by one unit per row.
-template <class Work>
-void for_rows(std::int64_t rows, std::int64_t grain, Work&& work, Progress* progress = nullptr) {
+template <class Work> void for_rows(std::int64_t rows, std::int64_t grain, Work&& work, Progress* progress = nullptr) {
     const auto call = [](void* context, std::int64_t begin, std::int64_t end) {
         (*static_cast<std::remove_reference_t<Work>*>(context))(begin, end);
     };

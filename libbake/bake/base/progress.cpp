@@ -14,7 +14,7 @@ char unfinished_path[4096] = "";
 void on_signal(int) {
     if (stop_requested) {
         if (unfinished_path[0]) unlink(unfinished_path);
-        _exit(static_cast<int>(Refusal::interrupted));
+        _exit(int(Refusal::interrupted));
     }
     stop_requested = 1;
 }
@@ -63,7 +63,7 @@ void Progress::add(std::int64_t units) noexcept {
 }
 
 void Progress::draw(std::int64_t done) noexcept {
-    const int percent = static_cast<int>(100 * done / total_);
+    const int percent = int(100 * done / total_);
     int shown = percent_.load(std::memory_order_relaxed);
     if (percent <= shown || !percent_.compare_exchange_strong(shown, percent)) return;
     const int width = 32;

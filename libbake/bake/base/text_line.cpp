@@ -13,7 +13,7 @@ const char* final_backslash(const char* begin, const char* newline) noexcept {
 }
 
 const char* find_newline(const char* from, const char* end) noexcept {
-    return static_cast<const char*>(std::memchr(from, '\n', static_cast<std::size_t>(end - from)));
+    return static_cast<const char*>(std::memchr(from, '\n', std::size_t(end - from)));
 }
 
 } // namespace
@@ -26,11 +26,11 @@ std::string shown(std::string_view text) {
 }
 
 std::size_t line_number(const char* begin, const char* at) noexcept {
-    return 1 + static_cast<std::size_t>(std::count(begin, at, '\n'));
+    return 1 + std::size_t(std::count(begin, at, '\n'));
 }
 
 std::vector<const char*> split_lines(const char* begin, const char* end, std::size_t grain) {
-    const auto size = static_cast<std::size_t>(end - begin);
+    const auto size = std::size_t(end - begin);
     const std::size_t pieces = std::max<std::size_t>(1, (size + grain - 1) / grain);
     std::vector<const char*> bounds(pieces + 1, end);
     bounds[0] = begin;

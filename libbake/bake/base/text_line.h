@@ -36,7 +36,7 @@ void join_lines(LineCursor& cursor);
 /// Moves to the next line; false at the end.
 inline bool next_line(LineCursor& cursor) {
     if (cursor.next == cursor.stop) return false;
-    const auto length = static_cast<std::size_t>(cursor.stop - cursor.next);
+    const auto length = std::size_t(cursor.stop - cursor.next);
     const char* const newline = static_cast<const char*>(std::memchr(cursor.next, '\n', length));
     cursor.at = cursor.begin = cursor.next;
     cursor.end = newline;

@@ -43,7 +43,7 @@ bool detail::parse_any_float(const char*& p, float& value) noexcept {
         double wide = 0;
         if (std::from_chars(s, end, wide).ec != std::errc())
             wide = overflows(s, read.ptr) ? std::numeric_limits<double>::infinity() : 0.0;
-        magnitude = static_cast<float>(wide);
+        magnitude = float(wide);
     }
     value = negative ? -magnitude : magnitude;
     p = read.ptr;

@@ -36,11 +36,11 @@ inline bool parse_float(const char*& p, float& value) noexcept {
     s += negative || *s == '+';
     std::uint64_t digits = 0;
     const char* const whole = s;
-    for (unsigned d; (d = static_cast<unsigned>(*s) - '0') < 10; ++s) digits = 10 * digits + d;
+    for (unsigned d; (d = unsigned(*s) - '0') < 10; ++s) digits = 10 * digits + d;
     std::int64_t count = s - whole, exponent = 0;
     if (*s == '.') {
         const char* const fraction = ++s;
-        for (unsigned d; (d = static_cast<unsigned>(*s) - '0') < 10; ++s) digits = 10 * digits + d;
+        for (unsigned d; (d = unsigned(*s) - '0') < 10; ++s) digits = 10 * digits + d;
         exponent = fraction - s;
         count -= exponent;
     }
@@ -50,8 +50,7 @@ inline bool parse_float(const char*& p, float& value) noexcept {
         e += down || *e == '+';
         const char* const first = e;
         std::int64_t power = 0;
-        for (unsigned d; (d = static_cast<unsigned>(*e) - '0') < 10; ++e)
-            power = power < 10000 ? 10 * power + d : power;
+        for (unsigned d; (d = unsigned(*e) - '0') < 10; ++e) power = power < 10000 ? 10 * power + d : power;
         if (e == first) return detail::parse_any_float(p, value);
         exponent += down ? -power : power;
         s = e;
@@ -59,12 +58,12 @@ inline bool parse_float(const char*& p, float& value) noexcept {
     const bool exact =
         count >= 1 && count <= 19 && digits <= (std::uint64_t(1) << 53) && exponent >= -22 && exponent <= 22;
     if (!exact) return detail::parse_any_float(p, value);
-    const double whole_value = static_cast<double>(digits);
+    const double whole_value = double(digits);
     const double d =
         exponent < 0 ? whole_value / detail::powers_of_ten[-exponent] : whole_value * detail::powers_of_ten[exponent];
     const bool between = (std::bit_cast<std::uint64_t>(d) & 0x1fffffffu) == 0x10000000u;
     if (between || (!(d >= FLT_MIN && d <= FLT_MAX) && digits != 0)) return detail::parse_any_float(p, value);
-    value = static_cast<float>(negative ? -d : d);
+    value = float(negative ? -d : d);
     p = s;
     return true;
 }
@@ -77,14 +76,14 @@ inline bool parse_integer(const char*& p, std::int64_t& value) noexcept {
     s += negative || *s == '+';
     const char* const first = s;
     std::uint64_t v = 0;
-    for (unsigned d; (d = static_cast<unsigned>(*s) - '0') < 10; ++s) v = 10 * v + d;
+    for (unsigned d; (d = unsigned(*s) - '0') < 10; ++s) v = 10 * v + d;
     if (s == first) return false;
     if (s - first > 18) {
         const char* digit = first;
         while (*digit == '0') ++digit;
         if (s - digit > 18) v = 1000000000000000000u;
     }
-    value = negative ? -static_cast<std::int64_t>(v) : static_cast<std::int64_t>(v);
+    value = negative ? -std::int64_t(v) : std::int64_t(v);
     p = s;
     return true;
 }

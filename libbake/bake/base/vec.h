@@ -6,12 +6,15 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <numbers>
 
 namespace bake {
 
 template <class T> using Vec2 = glm::vec<2, T>;
 template <class T> using Vec3 = glm::vec<3, T>;
 template <class T> using Vec4 = glm::vec<4, T>;
+
+inline constexpr double pi = std::numbers::pi;
 
 using Vec2f = Vec2<float>;
 using Vec3f = Vec3<float>;

@@ -11,11 +11,11 @@ namespace bake {
 
 /// Colours are linear RGB factors.
 template <class T> struct BlinnPhong {
-    Vec3<T> ambient{T(0.8)};   ///< of the light that comes from everywhere
-    Vec3<T> diffuse{T(0.8)};   ///< of a light straight above
-    Vec3<T> specular{T(0)};    ///< of a light in the mirror direction
-    Vec3<T> emission{T(0)};    ///< sent out without any light
-    T shininess = T(32);       ///< 0: the specular term is the same for every direction above the surface
+    Vec3<T> ambient{T(0.8)}; ///< of the light that comes from everywhere
+    Vec3<T> diffuse{T(0.8)}; ///< of a light straight above
+    Vec3<T> specular{T(0)};  ///< of a light in the mirror direction
+    Vec3<T> emission{T(0)};  ///< sent out without any light
+    T shininess = T(32);     ///< 0: the specular term is the same for every direction above the surface
 };
 
 /// The part of a light's radiance that goes to the viewer: diffuse (n.l)+ + specular (n.h)+^shininess, h halfway

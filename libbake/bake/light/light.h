@@ -5,9 +5,7 @@
 namespace bake {
 
 /// The lecture's attenuation d = 1 / (s_c + s_l r + s_q r^2), r the distance to a point light.
-template <class T> struct Attenuation {
-    T constant = 1, linear = 0, quadratic = 0;
-};
+template <class T> struct Attenuation { T constant = 1, linear = 0, quadratic = 0; };
 
 /// d at distance r; 0 where the denominator is not above 0 or d would not be finite.
 template <class T> T attenuation(const Attenuation<T>& s, T r) noexcept;

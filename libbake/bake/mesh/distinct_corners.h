@@ -22,7 +22,7 @@ namespace detail {
 /// `number` has one entry per corner of `group`, which ascends. Returns how many are first.
 template <class Key, class Same>
 std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* number, Key&& key, Same&& same) {
-    constexpr std::size_t few = 32; // beyond, comparing all with all takes longer than sorting
+    constexpr std::size_t few = 32;     // beyond, comparing all with all takes longer than sorting
     std::vector<std::uint32_t> leaders; // places in the group
     if (group.size() <= few) {
         for (std::uint32_t i = 0; i < group.size(); ++i) {
@@ -31,7 +31,7 @@ std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* 
             if (k == leaders.size()) leaders.push_back(i);
             number[i] = k;
         }
-        return static_cast<std::uint32_t>(leaders.size());
+        return std::uint32_t(leaders.size());
     }
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order(group.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = {key(group[i]), i};
@@ -48,8 +48,8 @@ std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* 
     }
     std::sort(leaders.begin(), leaders.end());
     for (std::uint32_t i = 0; i < group.size(); ++i)
-        number[i] = static_cast<std::uint32_t>(std::lower_bound(leaders.begin(), leaders.end(), number[i]) - leaders.begin());
-    return static_cast<std::uint32_t>(leaders.size());
+        number[i] = std::uint32_t(std::lower_bound(leaders.begin(), leaders.end(), number[i]) - leaders.begin());
+    return std::uint32_t(leaders.size());
 }
 
 } // namespace detail
@@ -59,24 +59,26 @@ std::uint32_t number_group(std::span<const std::uint32_t> group, std::uint32_t* 
 /// that are the same, so that many at one position need not be compared all with all. Most positions being of one kind
 /// of corner, the others alone are sorted.
 template <class Position, class Key, class Same>
-DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Position&& position, Key&& key, Same&& same) {
+DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Position&& position, Key&& key,
+                                 Same&& same) {
     constexpr std::uint32_t none = 0xffffffffu;
     constexpr std::int64_t grain = 1 << 15;
-    const auto rows = static_cast<std::int64_t>(corners);
+    const auto rows = std::int64_t(corners);
     std::vector<std::uint32_t> leader(positions, none); // per position, its first corner
     for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+        for (auto c = std::uint32_t(begin); c < end; ++c) {
             const std::atomic_ref<std::uint32_t> first(leader[position(c)]);
             std::uint32_t known = first.load(std::memory_order_relaxed);
-            while (c < known && !first.compare_exchange_weak(known, c, std::memory_order_relaxed)) {}
+            while (c < known && !first.compare_exchange_weak(known, c, std::memory_order_relaxed)) {
+            }
         }
     });
 
     // Corners that differ from the first of their position, in order.
-    std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>((rows + grain - 1) / grain));
+    std::vector<std::vector<std::uint32_t>> found(std::size_t((rows + grain - 1) / grain));
     for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
-        auto& here = found[static_cast<std::size_t>(begin / grain)];
-        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) {
+        auto& here = found[std::size_t(begin / grain)];
+        for (auto c = std::uint32_t(begin); c < end; ++c) {
             const std::uint32_t l = leader[position(c)];
             if (l != c && !same(l, c)) here.push_back(c);
         }
@@ -96,8 +98,8 @@ DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Pos
         for (const auto& here : found)
             for (const std::uint32_t c : here) others[begin_of[position(c)]++] = c;
         // The sort has moved each beginning to its end, which is the next one's beginning.
-        for_rows(static_cast<std::int64_t>(positions), grain, [&](std::int64_t first, std::int64_t last) {
-            for (auto p = static_cast<std::size_t>(first); p < static_cast<std::size_t>(last); ++p) {
+        for_rows(std::int64_t(positions), grain, [&](std::int64_t first, std::int64_t last) {
+            for (auto p = std::size_t(first); p < std::size_t(last); ++p) {
                 const std::size_t from = p == 0 ? 0 : begin_of[p - 1], to = begin_of[p];
                 if (from == to) continue;
                 base[p] += detail::number_group(std::span(others).subspan(from, to - from), &number[from], key, same);
@@ -111,10 +113,10 @@ DistinctCorners distinct_corners(std::size_t corners, std::size_t positions, Pos
     out.corner.resize(corners);
     out.first.assign(numbers, none);
     for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) out.corner[c] = base[position(c)];
+        for (auto c = std::uint32_t(begin); c < end; ++c) out.corner[c] = base[position(c)];
     });
-    for_rows(static_cast<std::int64_t>(positions), grain, [&](std::int64_t first, std::int64_t last) {
-        for (auto p = static_cast<std::size_t>(first); p < static_cast<std::size_t>(last); ++p) {
+    for_rows(std::int64_t(positions), grain, [&](std::int64_t first, std::int64_t last) {
+        for (auto p = std::size_t(first); p < std::size_t(last); ++p) {
             if (leader[p] != none) out.first[base[p]] = leader[p];
             const std::size_t from = differ == 0 || p == 0 ? 0 : begin_of[p - 1], to = differ == 0 ? 0 : begin_of[p];
             for (std::size_t i = from; i < to; ++i) {

@@ -1,7 +1,7 @@
 #include "bake/mesh/mesh_corner.h"
-#include "bake/mesh/number_distinct.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/number_distinct.h"
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -12,14 +12,15 @@ namespace {
 /// The first value that is not finite, or `count`.
 std::size_t first_not_finite(const float* values, std::size_t count) {
     std::atomic<std::size_t> first = count;
-    for_rows(static_cast<std::int64_t>(count), 1 << 18, [&](std::int64_t begin, std::int64_t end) {
+    for_rows(std::int64_t(count), 1 << 18, [&](std::int64_t begin, std::int64_t end) {
         float sum = 0; // of x - x: 0, unless some x is not finite
         for (std::int64_t i = begin; i < end; ++i) sum += values[i] - values[i];
         if (sum == 0) return;
         for (std::int64_t i = begin; i < end; ++i) {
             if (std::isfinite(values[i])) continue;
             std::size_t known = first;
-            while (static_cast<std::size_t>(i) < known && !first.compare_exchange_weak(known, static_cast<std::size_t>(i))) {}
+            while (std::size_t(i) < known && !first.compare_exchange_weak(known, std::size_t(i))) {
+            }
             return;
         }
     });
@@ -35,7 +36,7 @@ void refuse_values(const float* values, std::size_t count, std::size_t component
 }
 
 template <class Vec> void refuse_values(const std::vector<Vec>& values, const char* what, const std::string& path) {
-    const auto components = static_cast<std::size_t>(Vec::length());
+    const auto components = std::size_t(Vec::length());
     if (!values.empty()) refuse_values(&values[0][0], values.size() * components, components, what, path);
 }
 
@@ -47,7 +48,7 @@ void refuse_unless_finite(const Mesh& mesh, const std::string& path) {
     refuse_values(mesh.uvs, "uv", path);
     refuse_values(mesh.tangents, "tangent", path);
     for (const Attribute& a : mesh.attributes)
-        refuse_values(a.values.data(), a.values.size(), static_cast<std::size_t>(a.components), a.name, path);
+        refuse_values(a.values.data(), a.values.size(), std::size_t(a.components), a.name, path);
 }
 
 DistinctCorners distinct_corners(const Mesh& mesh, std::size_t first_face, std::size_t end_face) {
@@ -72,7 +73,7 @@ DistinctCorners distinct_corners(const Mesh& mesh, std::size_t first_face, std::
             if (!mesh.tangents.empty())
                 for (int k = 0; k < 4; ++k) hash = mixed(hash, float_bits(mesh.tangents[begin + c][k]));
             for (const Attribute& a : mesh.attributes) {
-                const auto n = static_cast<std::size_t>(a.components);
+                const auto n = std::size_t(a.components);
                 for (std::size_t k = 0; k < n; ++k) hash = mixed(hash, float_bits(a.values[(begin + c) * n + k]));
             }
             return hash;
@@ -81,7 +82,7 @@ DistinctCorners distinct_corners(const Mesh& mesh, std::size_t first_face, std::
             if (indices(i) != indices(j)) return false;
             if (!mesh.tangents.empty() && mesh.tangents[begin + i] != mesh.tangents[begin + j]) return false;
             for (const Attribute& a : mesh.attributes) {
-                const auto n = static_cast<std::size_t>(a.components);
+                const auto n = std::size_t(a.components);
                 for (std::size_t k = 0; k < n; ++k)
                     if (a.values[(begin + i) * n + k] != a.values[(begin + j) * n + k]) return false;
             }

@@ -31,7 +31,7 @@ template <class Hash, class Equal> Numbered number_distinct(std::size_t things, 
         std::size_t place = hash(i) & mask;
         while (table[place] != free && !equal(out.first[table[place]], i)) place = (place + 1) & mask;
         if (table[place] == free) {
-            table[place] = static_cast<std::uint32_t>(out.first.size());
+            table[place] = std::uint32_t(out.first.size());
             out.first.push_back(i);
         }
         out.number[i] = table[place];

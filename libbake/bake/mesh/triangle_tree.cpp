@@ -84,7 +84,9 @@ TriangleTree::TriangleTree(const Mesh& mesh, const std::vector<Triangle>& triang
     const double side = std::max({extent.x, extent.y, extent.z});
     const double scale = side > 0 ? double((1 << 21) - 1) / side : 0;
     const auto count = std::int64_t(triangles.size());
-    const auto corner = [&](std::int64_t i, int k) { return mesh.positions[mesh.corner_position[triangles[i].corner[k]]]; };
+    const auto corner = [&](std::int64_t i, int k) {
+        return mesh.positions[mesh.corner_position[triangles[i].corner[k]]];
+    };
     std::vector<Keyed> keys(triangles.size());
     for_rows(count, 16384, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {

@@ -69,10 +69,8 @@ void TriangleTree::touching(const Vec3f& low, const Vec3f& high, std::uint32_t f
             if (!touches) continue;
             const std::uint32_t child = 4 * entry.node + std::uint32_t(c);
             if (((std::uint64_t(child) + 1) << (2 * entry.level)) <= first) continue; // all before the first
-            if (entry.level == 0)
-                visit(child);
-            else
-                stack[top++] = {child, entry.level - 1};
+            if (entry.level == 0) visit(child);
+            else stack[top++] = {child, entry.level - 1};
         }
     }
 }

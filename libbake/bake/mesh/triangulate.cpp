@@ -161,7 +161,7 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
 
 void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Triangle* out) {
     Polygon polygon;
-    for (auto f = static_cast<std::uint32_t>(first); f < end; ++f) {
+    for (auto f = std::uint32_t(first); f < end; ++f) {
         const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
         assert(corners >= 3);
         if (corners == 3) {
@@ -181,10 +181,10 @@ void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Tri
 
 std::vector<Triangle> triangulate(const Mesh& mesh) {
     std::vector<Triangle> triangles(mesh.corners() - 2 * mesh.faces());
-    for_rows(static_cast<std::int64_t>(mesh.faces()), 8192, [&](std::int64_t begin, std::int64_t end) {
-        const auto first = static_cast<std::size_t>(begin);
+    for_rows(std::int64_t(mesh.faces()), 8192, [&](std::int64_t begin, std::int64_t end) {
+        const auto first = std::size_t(begin);
         // The faces before have two triangles less than corners.
-        triangulate_faces(mesh, first, static_cast<std::size_t>(end), triangles.data() + mesh.face_begin[first] - 2 * first);
+        triangulate_faces(mesh, first, std::size_t(end), triangles.data() + mesh.face_begin[first] - 2 * first);
     });
     return triangles;
 }

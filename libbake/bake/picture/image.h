@@ -14,7 +14,7 @@ void* allocate_pages(std::size_t bytes);
 struct FreePages {
     void operator()(void* pages) const noexcept { std::free(pages); }
 };
-}
+} // namespace detail
 
 /// Owns width * height * channels values, texel (x, y) at row(y)[x * channels]. Fresh values are NOT initialised:
 /// a large image is filled by its first writer, not twice. Moves, does not copy.

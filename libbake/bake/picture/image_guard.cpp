@@ -27,8 +27,10 @@ std::string dds_fault(const std::string& head, std::int64_t stored) {
     const bool extended = code == "DX10";
     const bool small = code == "DXT1" || code == "ATI1" || code == "BC4U" || code == "BC4S" ||
                        (extended && ((format >= 70 && format <= 72) || (format >= 79 && format <= 81)));
-    const bool large = code == "DXT2" || code == "DXT3" || code == "DXT4" || code == "DXT5" || code == "ATI2" || code == "BC5U" ||
-                       code == "BC5S" || (extended && ((format >= 73 && format <= 78) || (format >= 82 && format <= 84) || (format >= 94 && format <= 99)));
+    const bool large = code == "DXT2" || code == "DXT3" || code == "DXT4" || code == "DXT5" || code == "ATI2" ||
+                       code == "BC5U" || code == "BC5S" ||
+                       (extended && ((format >= 73 && format <= 78) || (format >= 82 && format <= 84) ||
+                                     (format >= 94 && format <= 99)));
     // The top level alone; every format has at least one bit per texel.
     if (width > (1 << 20) || height > (1 << 20)) return "claims more pixels than DDS has room for";
     const std::int64_t needed = small || large ? (width + 3) / 4 * ((height + 3) / 4) * (small ? 8 : 16)
@@ -94,7 +96,8 @@ std::string read_part(std::istream& file, std::int64_t stored, ExrPart& part) {
             if (!printable_channels(value)) return "has a channel whose name cannot be printed";
         }
         if (name == "compression" && size == 1) part.compression = true, part.method = value[0];
-        if (name == "dataWindow" && size == 16) part.data_window = true, part.width = span(0, 8), part.height = span(4, 12);
+        if (name == "dataWindow" && size == 16)
+            part.data_window = true, part.width = span(0, 8), part.height = span(4, 12);
         if (name == "displayWindow" && size == 16) part.display_window = true;
         if (name == "tiles" && size == 9) part.tile_width = u32(value, 0), part.tile_height = u32(value, 4);
     }
@@ -113,12 +116,14 @@ std::string exr_fault(std::istream& file, const std::string& head, std::int64_t 
         fault = read_part(file, stored, other);
     }
     if (!fault.empty()) return fault;
-    for (const auto& [there, name] : {std::pair(first.channels, "channels"), {first.compression, "compression"},
-                                      {first.data_window, "dataWindow"}, {first.display_window, "displayWindow"}})
+    for (const auto& [there, name] : {std::pair(first.channels, "channels"),
+                                      {first.compression, "compression"},
+                                      {first.data_window, "dataWindow"},
+                                      {first.display_window, "displayWindow"}})
         if (!there) return "has a header without " + std::string(name);
     if (16 * first.chunks() > double(stored))
-        return "claims " + std::to_string(std::int64_t(first.width)) + " x " + std::to_string(std::int64_t(first.height)) +
-               " pixels in " + std::to_string(stored) + " bytes";
+        return "claims " + std::to_string(std::int64_t(first.width)) + " x " +
+               std::to_string(std::int64_t(first.height)) + " pixels in " + std::to_string(stored) + " bytes";
     return "";
 }
 
@@ -152,10 +157,12 @@ std::string tiff_fault(std::istream& file, const std::string& head, std::int64_t
     const int wide = big ? 8 : 4;
     const std::uint64_t directory = tiff.number(big ? 8 : 4, wide), count_bytes = big ? 8 : 2;
     const std::uint64_t fields = tiff.number(directory, int(count_bytes)), field_bytes = big ? 20 : 12;
-    if (directory < 8 || directory > stored || fields == 0 || fields > (stored - directory) / field_bytes) return "is cut short";
+    if (directory < 8 || directory > stored || fields == 0 || fields > (stored - directory) / field_bytes)
+        return "is cut short";
     TiffField offsets, sizes;
     for (std::uint64_t i = 0; i < fields; ++i) {
-        const std::uint64_t at = directory + count_bytes + i * field_bytes, tag = tiff.number(at, 2), type = tiff.number(at + 2, 2);
+        const std::uint64_t at = directory + count_bytes + i * field_bytes, tag = tiff.number(at, 2),
+                            type = tiff.number(at + 2, 2);
         if (tag != 273 && tag != 279 && tag != 324 && tag != 325) continue; // strips' or tiles' offsets and sizes
         TiffField field{at + 4 + wide, tiff.number(at + 4, wide), type == 3 ? 2 : type == 4 ? 4 : 8};
         if (field.count > stored / field.bytes) return "is cut short";
@@ -172,9 +179,15 @@ std::string tiff_fault(std::istream& file, const std::string& head, std::int64_t
 
 // OpenImageIO's decoders of these write past their buffers, or abort, on files with a few bytes changed, or cannot tell
 // that a file was cut.
-constexpr std::pair<std::string_view, const char*> unsafe_formats[] = {
-    {"SDPX", "DPX"}, {"XPDS", "DPX"}, {"\x80\x2a\x5f\xd7", "Cineon"}, {"\xd7\x5f\x2a\x80", "Cineon"}, {"FOR4", "IFF"},
-    {"FORM", "IFF"}, {"\x53\x80\xf6\x34", "Softimage"}, {"\x2f\x08\x67\xab", "zfile"}, {"\xab\x67\x08\x2f", "zfile"}};
+constexpr std::pair<std::string_view, const char*> unsafe_formats[] = {{"SDPX", "DPX"},
+                                                                       {"XPDS", "DPX"},
+                                                                       {"\x80\x2a\x5f\xd7", "Cineon"},
+                                                                       {"\xd7\x5f\x2a\x80", "Cineon"},
+                                                                       {"FOR4", "IFF"},
+                                                                       {"FORM", "IFF"},
+                                                                       {"\x53\x80\xf6\x34", "Softimage"},
+                                                                       {"\x2f\x08\x67\xab", "zfile"},
+                                                                       {"\xab\x67\x08\x2f", "zfile"}};
 
 } // namespace
 
@@ -190,7 +203,8 @@ std::string image_fault(const std::string& path, std::int64_t stored) {
         head.starts_with(std::string_view("II+\0", 4)) || head.starts_with(std::string_view("MM\0+", 4)))
         return tiff_fault(file, head, stored);
     for (const auto& [magic, format] : unsafe_formats)
-        if (head.starts_with(magic)) return std::string(format) + " is not read: damaged files of that format crash its decoder";
+        if (head.starts_with(magic))
+            return std::string(format) + " is not read: damaged files of that format crash its decoder";
     return "";
 }
 
@@ -200,7 +214,9 @@ namespace {
 class RandomAccess {
 public:
     explicit RandomAccess(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ~RandomAccess() { if (file_ >= 0) close(file_); }
+    ~RandomAccess() {
+        if (file_ >= 0) close(file_);
+    }
     RandomAccess(const RandomAccess&) = delete;
     RandomAccess& operator=(const RandomAccess&) = delete;
 
@@ -257,7 +273,8 @@ bool reaches_its_end(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     stream.seekg(8);
     ExrPart part;
-    return read_part(stream, stored, part).empty() && exr_reaches_its_end(file, stream.tellg(), part.tile_width > 0, stored);
+    return read_part(stream, stored, part).empty() &&
+           exr_reaches_its_end(file, stream.tellg(), part.tile_width > 0, stored);
 }
 
 } // namespace bake

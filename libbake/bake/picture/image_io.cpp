@@ -1,11 +1,11 @@
 #include "bake/picture/image_io.h"
-#include "bake/picture/picture_formats.h"
-#include "bake/picture/plain_png.h"
-#include "bake/picture/plain_tiff.h"
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/picture_formats.h"
+#include "bake/picture/plain_png.h"
+#include "bake/picture/plain_tiff.h"
 #include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
@@ -26,7 +26,9 @@ const PictureFormats& picture_formats() {
         const std::string path = unknown ? "bake_formats.so" : (program.parent_path() / "bake_formats.so").string();
         void* const library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
         void* const entry = library ? dlsym(library, "bake_picture_formats") : nullptr;
-        if (!entry) throw Error(Refusal::unreadable, std::string(dlerror()) + "; put bake_formats.so beside the command, as it was built");
+        if (!entry)
+            throw Error(Refusal::unreadable,
+                        std::string(dlerror()) + "; put bake_formats.so beside the command, as it was built");
         return *reinterpret_cast<const PictureFormats* (*)()>(entry)();
     }();
     return formats;
@@ -61,7 +63,8 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
         info = std::move(png->info);
         image = std::move(png->image);
     } else {
-        if (is_cut_short_tiff(path)) throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
+        if (is_cut_short_tiff(path))
+            throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
         image = picture_formats().read(path, info, limits);
     }
     if (info_out) *info_out = std::move(info);
@@ -90,15 +93,18 @@ Depth resolve_depth(const std::string& path, Depth depth) {
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     const auto refuse = [&](const char* why) -> Error { return Error(Refusal::usage, path + ": " + why); };
     if (ending == ".png") {
-        if (depth == Depth::half || depth == Depth::float32) throw refuse("PNG holds 8 or 16 bits; write .exr or .tif for half and float");
+        if (depth == Depth::half || depth == Depth::float32)
+            throw refuse("PNG holds 8 or 16 bits; write .exr or .tif for half and float");
         return depth == Depth::automatic ? Depth::u16 : depth;
     }
     if (ending == ".exr") {
-        if (depth == Depth::u8 || depth == Depth::u16) throw refuse("EXR holds half or float; write .png or .tif for 8 and 16 bits");
+        if (depth == Depth::u8 || depth == Depth::u16)
+            throw refuse("EXR holds half or float; write .png or .tif for 8 and 16 bits");
         return depth == Depth::automatic ? Depth::half : depth;
     }
     if (ending == ".tif" || ending == ".tiff") {
-        if (depth == Depth::half) throw refuse("half floats in TIFF are read by few programs; use float, or write .exr");
+        if (depth == Depth::half)
+            throw refuse("half floats in TIFF are read by few programs; use float, or write .exr");
         return depth == Depth::automatic ? Depth::float32 : depth;
     }
     throw refuse("unknown ending; write .png, .exr or .tif");
@@ -126,7 +132,7 @@ template <class Level> void quantise(const float* values, Level* levels, std::in
     for (std::int64_t i = 0; i < count; ++i) {
         // Written so that NaN becomes 0.
         const float clamped = values[i] > 0 ? std::min(values[i], 1.0f) : 0.0f;
-        levels[i] = static_cast<Level>(static_cast<int>(clamped * largest + 0.5f));
+        levels[i] = static_cast<Level>(int(clamped * largest + 0.5f));
     }
 }
 
@@ -143,10 +149,8 @@ struct ImageWriter::Impl {
     bool closed = false;
 
     void write_rows(const void* values, int rows) {
-        if (plain)
-            plain->write(values, rows);
-        else
-            picture_formats().write(*format, values, rows);
+        if (plain) plain->write(values, rows);
+        else picture_formats().write(*format, values, rows);
     }
 
     template <class Level> void write_levels(const float* values, int rows) {
@@ -166,10 +170,8 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     if (resolved.channels.empty()) resolved.channels = default_channels(channels);
     impl_.reset(new Impl{path, OutputFile(path), resolved.depth, width, channels});
     const PictureSize size{width, height, channels};
-    if (fits_plain_tiff(path, size, resolved))
-        impl_->plain.emplace(path, impl_->file.temporary(), size, resolved);
-    else
-        impl_->format = picture_formats().open(path, impl_->file.temporary(), size, resolved);
+    if (fits_plain_tiff(path, size, resolved)) impl_->plain.emplace(path, impl_->file.temporary(), size, resolved);
+    else impl_->format = picture_formats().open(path, impl_->file.temporary(), size, resolved);
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -195,10 +197,8 @@ void ImageWriter::next_level() {
 
 void ImageWriter::close() {
     if (impl_->closed) return;
-    if (impl_->plain)
-        impl_->plain->finish();
-    else
-        picture_formats().finish(*impl_->format);
+    if (impl_->plain) impl_->plain->finish();
+    else picture_formats().finish(*impl_->format);
     impl_->closed = true;
 }
 

@@ -1,9 +1,9 @@
 #include "bake/picture/picture_formats.h"
-#include "bake/picture/image_guard.h"
-#include "bake/picture/png_header.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/image_guard.h"
+#include "bake/picture/png_header.h"
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
@@ -33,14 +33,16 @@ void configure_oiio() {
 std::string one_line(std::string text, const std::string& path) {
     const std::string ours = "the file";
     for (const std::string& name : {'"' + path + '"', path})
-        for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += ours.size()) text.replace(at, name.size(), ours);
+        for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += ours.size())
+            text.replace(at, name.size(), ours);
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 32) c = ' ';
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
     return text.empty() ? "unknown error" : text;
 }
 
-Error unreadable(const std::string& path, const std::string& why, const char* mend = "the file is damaged; export it again") {
+Error unreadable(const std::string& path, const std::string& why,
+                 const char* mend = "the file is damaged; export it again") {
     return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
 }
 
@@ -152,7 +154,8 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     const auto stored = std::int64_t(fs::file_size(path, failed));
     if (failed || !fs::is_regular_file(status)) throw unreadable(path, "is not a regular file", "name an image file");
     if (stored == 0) throw unreadable(path, "is empty");
-    if (const std::string fault = image_fault(path, stored); !fault.empty()) throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
+    if (const std::string fault = image_fault(path, stored); !fault.empty())
+        throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
@@ -173,13 +176,18 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const Read
     if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
         throw unreadable(path, "has no pixels");
     // In double: a hostile header overflows 64 bits.
-    const double decoded = double(spec.width) * spec.height * spec.nchannels, picture = 4.0 * info.width * info.height * spec.nchannels;
+    const double decoded = double(spec.width) * spec.height * spec.nchannels,
+                 picture = 4.0 * info.width * info.height * spec.nchannels;
     const double stored_bytes = double(stored);
-    const std::string size = std::to_string(std::max(info.width, spec.width)) + " x " + std::to_string(std::max(info.height, spec.height));
-    if (decoded > largest_ratio(spec, info.format) * stored_bytes + 65536 || (picture > free_window_bytes && picture > window_ratio * stored_bytes))
+    const std::string size =
+        std::to_string(std::max(info.width, spec.width)) + " x " + std::to_string(std::max(info.height, spec.height));
+    if (decoded > largest_ratio(spec, info.format) * stored_bytes + 65536 ||
+        (picture > free_window_bytes && picture > window_ratio * stored_bytes))
         throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
-    if (std::max(4 * decoded, picture) > double(limits.max_bytes) || std::max({info.width, info.height, spec.width, spec.height}) > (1 << 20))
-        throw unsuitable(size + " pixels need more memory than the limit of " + std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
+    if (std::max(4 * decoded, picture) > double(limits.max_bytes) ||
+        std::max({info.width, info.height, spec.width, spec.height}) > (1 << 20))
+        throw unsuitable(size + " pixels need more memory than the limit of " + std::to_string(limits.max_bytes >> 20) +
+                         " MiB; scale it down");
     return in;
 }
 
@@ -195,7 +203,8 @@ void read_window(OIIO::ImageInput& in, const std::string& path, Image<float>& im
         for (int y = 0; y < spec.height && whole; y += band_rows) {
             throw_if_interrupted();
             const int end = std::min(spec.height, y + band_rows);
-            whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.row(y));
+            whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                                      image.row(y));
         }
     } else {
         whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data());
@@ -273,19 +282,21 @@ struct FormatWriter {
     }
 
     [[noreturn]] void fail(const std::string& why) {
-        throw Error(Refusal::unwritable, path + ": cannot be written (" + one_line(why, temporary) + "); is the disk full?");
+        throw Error(Refusal::unwritable,
+                    path + ": cannot be written (" + one_line(why, temporary) + "); is the disk full?");
     }
 };
 
 namespace {
 
-std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::string& temporary, const PictureSize& size,
-                                          const WriteOptions& options) {
+std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::string& temporary,
+                                          const PictureSize& size, const WriteOptions& options) {
     configure_oiio();
     const OIIO::TypeDesc stored = stored_type(options.depth);
     const bool integers = options.depth == Depth::u8 || options.depth == Depth::u16;
-    const auto writer = std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
-                                                       integers ? stored : OIIO::TypeDesc::FLOAT);
+    const auto writer =
+        std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
+                                       integers ? stored : OIIO::TypeDesc::FLOAT);
     writer->out = OIIO::ImageOutput::create(path);
     if (!writer->out) writer->fail(OIIO::geterror());
 
@@ -295,7 +306,8 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     for (int c = 0; c < size.channels; ++c)
         if (spec.channelnames[c] == "A") spec.alpha_channel = c;
     const std::string format = writer->out->format_name();
-    const bool zip = options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
+    const bool zip =
+        options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
     if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
     if (format == "png" && options.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
@@ -308,7 +320,8 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
     }
     if (options.environment == EnvironmentTag::latlong) spec.attribute("textureformat", latlong_format);
     if (options.mips) {
-        if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage")) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
+        if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage"))
+            throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
         spec.tile_width = spec.tile_height = 64;
         if (options.environment == EnvironmentTag::none) spec.attribute("textureformat", "Plain Texture");
     }
@@ -319,7 +332,8 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
 // TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
 bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
     const OIIO::ImageSpec& spec = writer.spec;
-    const std::size_t texel = writer.type.size() * spec.nchannels, row_size = texel * spec.width, tile_row = texel * spec.tile_width;
+    const std::size_t texel = writer.type.size() * spec.nchannels, row_size = texel * spec.width,
+                      tile_row = texel * spec.tile_width;
     std::vector<char> tile(tile_row * spec.tile_height);
     for (int y = 0; y < rows; y += spec.tile_height)
         for (int x = 0; x < spec.width; x += spec.tile_width) {
@@ -335,9 +349,10 @@ bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
 void write(FormatWriter& writer, const void* values, int rows) {
     OIIO::ImageOutput& out = *writer.out;
     const int first = writer.next_row, end = first + rows;
-    const bool written = !writer.spec.tile_width  ? out.write_scanlines(first, end, 0, writer.type, values)
-                         : out.supports("mipmap") ? out.write_tiles(0, writer.spec.width, first, end, 0, 1, writer.type, values)
-                                                  : write_whole_tiles(writer, static_cast<const char*>(values), rows);
+    const bool written = !writer.spec.tile_width ? out.write_scanlines(first, end, 0, writer.type, values)
+                         : out.supports("mipmap")
+                             ? out.write_tiles(0, writer.spec.width, first, end, 0, 1, writer.type, values)
+                             : write_whole_tiles(writer, static_cast<const char*>(values), rows);
     if (!written) writer.fail(out.geterror());
     writer.next_row = end;
 }
@@ -349,7 +364,8 @@ void next_level(FormatWriter& writer) {
     if (spec.get_string_attribute("textureformat") == cube_format) spec.full_height = spec.full_width;
     writer.next_row = 0;
     // In TIFF the levels are images of their own, which OIIO reads back as levels.
-    const auto mode = writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
+    const auto mode =
+        writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
     if (!writer.out->open(writer.temporary, spec, mode)) writer.fail(writer.out->geterror());
 }
 
@@ -363,6 +379,7 @@ void finish(FormatWriter& writer) {
 } // namespace bake
 
 extern "C" const bake::PictureFormats* bake_picture_formats() {
-    static const bake::PictureFormats formats{bake::read_info, bake::read, bake::open_writer, bake::write, bake::next_level, bake::finish};
+    static const bake::PictureFormats formats{bake::read_info, bake::read,       bake::open_writer,
+                                              bake::write,     bake::next_level, bake::finish};
     return &formats;
 }

@@ -22,8 +22,8 @@ struct PictureFormats {
     ImageInfo (*read_info)(const std::string& path, const ReadLimits& limits);
     Image<float> (*read)(const std::string& path, ImageInfo& info, const ReadLimits& limits);
     /// Writes to `temporary`; messages name `path`. Throws as ImageWriter.
-    std::shared_ptr<FormatWriter> (*open)(const std::string& path, const std::string& temporary, const PictureSize& size,
-                                          const WriteOptions& options);
+    std::shared_ptr<FormatWriter> (*open)(const std::string& path, const std::string& temporary,
+                                          const PictureSize& size, const WriteOptions& options);
     /// `rows` rows of levels of the stored type for integer depths, of floats otherwise.
     void (*write)(FormatWriter& writer, const void* values, int rows);
     void (*next_level)(FormatWriter& writer);

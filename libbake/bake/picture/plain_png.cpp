@@ -121,7 +121,7 @@ std::optional<PlainPng> read_plain_png(const std::string& path, const ReadLimits
     if (4 * samples > double(limits.max_bytes) || samples * info->bits / 8 > 1032 * double(file.size)) return {};
     Image<float> image(info->width, info->height, int(info->channels.size()));
     std::vector<png_byte> bytes(row * std::size_t(info->bits / 8) * std::size_t(info->height));
-    std::vector<png_bytep> rows(static_cast<std::size_t>(info->height));
+    std::vector<png_bytep> rows(std::size_t(info->height));
     for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = bytes.data() + bytes.size() / rows.size() * y;
     if (!decoder.read_rows(rows.data())) return {};
     for (int y = 0; y < info->height; ++y) to_floats(rows[std::size_t(y)], image.row(y), row, info->bits);

@@ -15,13 +15,16 @@ namespace bake {
 namespace {
 
 // Tags that say nothing about the samples: names and dates. libtiff lists these apart from the tags of the baseline.
-constexpr std::uint32_t remarks[] = {TIFFTAG_DOCUMENTNAME, TIFFTAG_IMAGEDESCRIPTION, TIFFTAG_MAKE, TIFFTAG_MODEL, TIFFTAG_SOFTWARE,
-                                     TIFFTAG_DATETIME, TIFFTAG_ARTIST, TIFFTAG_HOSTCOMPUTER, TIFFTAG_COPYRIGHT};
+constexpr std::uint32_t remarks[] = {TIFFTAG_DOCUMENTNAME, TIFFTAG_IMAGEDESCRIPTION, TIFFTAG_MAKE,
+                                     TIFFTAG_MODEL,        TIFFTAG_SOFTWARE,         TIFFTAG_DATETIME,
+                                     TIFFTAG_ARTIST,       TIFFTAG_HOSTCOMPUTER,     TIFFTAG_COPYRIGHT};
 
 // Those of the baseline that say more of the samples than is known here.
-constexpr std::uint32_t unusual[] = {TIFFTAG_FILLORDER, TIFFTAG_MINSAMPLEVALUE, TIFFTAG_MAXSAMPLEVALUE, TIFFTAG_SMINSAMPLEVALUE,
-                                     TIFFTAG_SMAXSAMPLEVALUE, TIFFTAG_TRANSFERFUNCTION, TIFFTAG_COLORMAP, TIFFTAG_EXTRASAMPLES,
-                                     TIFFTAG_IMAGEDEPTH, TIFFTAG_SUBIFD, TIFFTAG_XPOSITION, TIFFTAG_YPOSITION, TIFFTAG_PAGENUMBER};
+constexpr std::uint32_t unusual[] = {TIFFTAG_FILLORDER,       TIFFTAG_MINSAMPLEVALUE,  TIFFTAG_MAXSAMPLEVALUE,
+                                     TIFFTAG_SMINSAMPLEVALUE, TIFFTAG_SMAXSAMPLEVALUE, TIFFTAG_TRANSFERFUNCTION,
+                                     TIFFTAG_COLORMAP,        TIFFTAG_EXTRASAMPLES,    TIFFTAG_IMAGEDEPTH,
+                                     TIFFTAG_SUBIFD,          TIFFTAG_XPOSITION,       TIFFTAG_YPOSITION,
+                                     TIFFTAG_PAGENUMBER};
 
 /// Keeps the first thing libtiff says, with the system's reason, and has nothing printed.
 int keep_message(TIFF*, void* said, const char*, const char* format, va_list values) {
@@ -59,7 +62,8 @@ struct Strips {
         // Not mapped, as the file may shrink, and strips as they are stored.
         tiff = open_quietly(said, [&](TIFFOpenOptions* options) { return TIFFOpenExt(path.c_str(), "rmc", options); });
         if (!tiff) return;
-        height = get<std::uint32_t>(TIFFTAG_IMAGELENGTH), per_strip = std::min(get<std::uint32_t>(TIFFTAG_ROWSPERSTRIP), height);
+        height = get<std::uint32_t>(TIFFTAG_IMAGELENGTH),
+        per_strip = std::min(get<std::uint32_t>(TIFFTAG_ROWSPERSTRIP), height);
         if (TIFFIsTiled(tiff) || per_strip < 1 || get<std::uint16_t>(TIFFTAG_COMPRESSION) != COMPRESSION_NONE) close();
     }
     ~Strips() { close(); }
@@ -87,7 +91,8 @@ struct Strips {
     /// Bytes that the rows of strip i take.
     std::int64_t needed(std::uint32_t i) const {
         const std::int64_t per_plane = (height + per_strip - 1) / per_strip;
-        return std::int64_t(TIFFVStripSize64(tiff, std::uint32_t(std::min(per_strip, height - i % per_plane * per_strip))));
+        return std::int64_t(
+            TIFFVStripSize64(tiff, std::uint32_t(std::min(per_strip, height - i % per_plane * per_strip))));
     }
 
     bool is_inside(std::uint32_t i) const {
@@ -97,8 +102,8 @@ struct Strips {
 };
 
 template <class Level> void to_floats(const Level* levels, float* values, std::int64_t count) noexcept {
-    constexpr float step = 1.0f / static_cast<float>(static_cast<Level>(-1));
-    for (std::int64_t i = 0; i < count; ++i) values[i] = static_cast<float>(levels[i]) * step;
+    constexpr float step = 1.0f / float(static_cast<Level>(-1));
+    for (std::int64_t i = 0; i < count; ++i) values[i] = float(levels[i]) * step;
 }
 
 } // namespace
@@ -111,7 +116,8 @@ std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimi
         return {};
     for (int i = 0; i < TIFFGetTagListCount(file); ++i)
         if (!std::count(std::begin(remarks), std::end(remarks), TIFFGetTagListEntry(file, i))) return {};
-    if (std::any_of(std::begin(unusual), std::end(unusual), [&](std::uint32_t tag) { return strips.has(tag); })) return {};
+    if (std::any_of(std::begin(unusual), std::end(unusual), [&](std::uint32_t tag) { return strips.has(tag); }))
+        return {};
 
     const auto one = [&](std::uint32_t tag) { return strips.get<std::uint16_t>(tag); };
     const std::int64_t depth = one(TIFFTAG_BITSPERSAMPLE), format = one(TIFFTAG_SAMPLEFORMAT);
@@ -131,8 +137,14 @@ std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimi
     }
     if (!strips.said.empty()) return {};
     tiff.rows_per_strip = int(strips.per_strip);
-    tiff.info = {.format = "tiff", .width = int(w), .height = int(h), .channels = {"Y"},
-                 .type = floats ? SampleType::float32 : depth == 16 ? SampleType::u16 : SampleType::u8, .bits = int(depth)};
+    tiff.info = {.format = "tiff",
+                 .width = int(w),
+                 .height = int(h),
+                 .channels = {"Y"},
+                 .type = floats        ? SampleType::float32
+                         : depth == 16 ? SampleType::u16
+                                       : SampleType::u8,
+                 .bits = int(depth)};
     return tiff;
 }
 
@@ -154,21 +166,25 @@ Image<float> read_plain_tiff(const std::string& path, const PlainTiff& tiff) {
     const std::int64_t row_bytes = columns * (tiff.info.bits / 8);
     Image<float> image(columns, tiff.info.height, 1);
     // Pieces small enough to stay in the cache between reading and converting.
-    for_rows(tiff.info.height, std::max<std::int64_t>(1, (1 << 18) / row_bytes), [&](std::int64_t begin, std::int64_t end) {
-        std::vector<unsigned char> levels(tiff.info.type == SampleType::float32 ? 0 : std::size_t((end - begin) * row_bytes));
-        for (std::int64_t y = begin, last; y < end; y = last) {
-            const std::int64_t strip = y / tiff.rows_per_strip;
-            last = std::min(end, (strip + 1) * tiff.rows_per_strip);
-            auto* to = levels.empty() ? reinterpret_cast<unsigned char*>(image.row(int(y))) : levels.data();
-            std::int64_t at = tiff.strips[strip] + (y - strip * tiff.rows_per_strip) * row_bytes;
-            for (std::int64_t left = (last - y) * row_bytes, got; left > 0; to += got, at += got, left -= got)
-                if ((got = pread(file.number, to, std::size_t(left), at)) <= 0)
-                    throw Error(Refusal::unreadable, path + ": cannot be read to its end; was it being written? run again");
-            const std::int64_t count = (last - y) * columns;
-            if (tiff.info.type == SampleType::u8) to_floats(levels.data(), image.row(int(y)), count);
-            if (tiff.info.type == SampleType::u16) to_floats(reinterpret_cast<const std::uint16_t*>(levels.data()), image.row(int(y)), count);
-        }
-    });
+    for_rows(tiff.info.height, std::max<std::int64_t>(1, (1 << 18) / row_bytes),
+             [&](std::int64_t begin, std::int64_t end) {
+                 std::vector<unsigned char> levels(
+                     tiff.info.type == SampleType::float32 ? 0 : std::size_t((end - begin) * row_bytes));
+                 for (std::int64_t y = begin, last; y < end; y = last) {
+                     const std::int64_t strip = y / tiff.rows_per_strip;
+                     last = std::min(end, (strip + 1) * tiff.rows_per_strip);
+                     auto* to = levels.empty() ? reinterpret_cast<unsigned char*>(image.row(int(y))) : levels.data();
+                     std::int64_t at = tiff.strips[strip] + (y - strip * tiff.rows_per_strip) * row_bytes;
+                     for (std::int64_t left = (last - y) * row_bytes, got; left > 0; to += got, at += got, left -= got)
+                         if ((got = pread(file.number, to, std::size_t(left), at)) <= 0)
+                             throw Error(Refusal::unreadable,
+                                         path + ": cannot be read to its end; was it being written? run again");
+                     const std::int64_t count = (last - y) * columns;
+                     if (tiff.info.type == SampleType::u8) to_floats(levels.data(), image.row(int(y)), count);
+                     if (tiff.info.type == SampleType::u16)
+                         to_floats(reinterpret_cast<const std::uint16_t*>(levels.data()), image.row(int(y)), count);
+                 }
+             });
     return image;
 }
 
@@ -188,10 +204,13 @@ bool describe(TIFF* tiff, const PictureSize& size, const WriteOptions& options) 
     const bool floats = options.depth != Depth::u8 && options.depth != Depth::u16;
     const auto set = [&](std::uint32_t tag, int value) { return TIFFSetField(tiff, tag, value) == 1; };
     return set(TIFFTAG_IMAGEWIDTH, size.width) && set(TIFFTAG_IMAGELENGTH, size.height) &&
-           set(TIFFTAG_BITSPERSAMPLE, floats ? 32 : options.depth == Depth::u8 ? 8 : 16) &&
+           set(TIFFTAG_BITSPERSAMPLE, floats                       ? 32
+                                      : options.depth == Depth::u8 ? 8
+                                                                   : 16) &&
            set(TIFFTAG_SAMPLEFORMAT, floats ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT) &&
            set(TIFFTAG_COMPRESSION, COMPRESSION_NONE) &&
-           set(TIFFTAG_PHOTOMETRIC, colours == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB) && set(TIFFTAG_SAMPLESPERPIXEL, size.channels) && set(TIFFTAG_ROWSPERSTRIP, strip_rows) &&
+           set(TIFFTAG_PHOTOMETRIC, colours == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB) &&
+           set(TIFFTAG_SAMPLESPERPIXEL, size.channels) && set(TIFFTAG_ROWSPERSTRIP, strip_rows) &&
            set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) && set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) &&
            (extra.empty() || TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, int(extra.size()), extra.data()) == 1);
 }
@@ -207,12 +226,14 @@ bool fits_plain_tiff(const std::string& path, const PictureSize& size, const Wri
            size.height * row_bytes_of(size, options.depth) < (std::int64_t(1) << 32) - header_room;
 }
 
-PlainTiffWriter::PlainTiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size, const WriteOptions& options)
+PlainTiffWriter::PlainTiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+                                 const WriteOptions& options)
     : path_(path), row_bytes_(std::size_t(row_bytes_of(size, options.depth))),
       // Not truncated: the file is empty, and ext4 writes a truncated one to the disk before it closes it.
       file_(open(temporary.c_str(), O_RDWR | O_CLOEXEC)) {
     if (file_ < 0) fail(std::strerror(errno));
-    tiff_ = open_quietly(said_, [&](TIFFOpenOptions* with) { return TIFFFdOpenExt(file_, temporary.c_str(), "wl", with); });
+    tiff_ =
+        open_quietly(said_, [&](TIFFOpenOptions* with) { return TIFFFdOpenExt(file_, temporary.c_str(), "wl", with); });
     if (tiff_ && describe(tiff_, size, options)) return;
     close_files();
     fail(said_);
@@ -238,7 +259,9 @@ void PlainTiffWriter::write(const void* values, int rows) {
         const auto bytes = tmsize_t(part * row_bytes_);
         errno = 0;
         // Appends to the strip where it was left. The samples are written from where they are, and not changed.
-        if (TIFFWriteRawStrip(tiff_, std::uint32_t(row_ / strip_rows), const_cast<unsigned char*>(from), bytes) != bytes) fail(said_);
+        if (TIFFWriteRawStrip(tiff_, std::uint32_t(row_ / strip_rows), const_cast<unsigned char*>(from), bytes) !=
+            bytes)
+            fail(said_);
         from += bytes;
     }
 }

@@ -35,7 +35,8 @@ bool fits_plain_tiff(const std::string& path, const PictureSize& size, const Wri
 class PlainTiffWriter {
 public:
     /// Writes to `temporary`; messages name `path`. Throws Error{Refusal::unwritable}.
-    PlainTiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size, const WriteOptions& options);
+    PlainTiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+                    const WriteOptions& options);
     ~PlainTiffWriter();
     PlainTiffWriter(const PlainTiffWriter&) = delete;
     PlainTiffWriter& operator=(const PlainTiffWriter&) = delete;

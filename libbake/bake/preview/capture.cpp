@@ -14,32 +14,37 @@ bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinit
 
 Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats, Progress* progress) {
     if (!finite(position)) throw Error(Refusal::usage, "--at: is not a point; give three numbers, such as 0,1,0");
-    if (size < 1 || size > 32768) throw Error(Refusal::usage, "--size " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
+    if (size < 1 || size > 32768)
+        throw Error(Refusal::usage, "--size " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
     Cube cube = make_cube(size, 3);
     const int spp = std::max(1, scene.settings.spp);
     std::vector<RenderStats> per_row(std::size_t(6) * size);
     if (progress) progress->start("capture", std::int64_t(6) * size);
-    for_rows(std::int64_t(6) * size, 2, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t r = begin; r < end; ++r) {
-            const auto face = CubeFace(r / size);
-            const int y = int(r % size);
-            for (int x = 0; x < size; ++x) {
-                Vec3d sum(0);
-                for (int i = 0; i < spp; ++i) {
-                    const Vec2d at = pixel_sample(x, int(r), i, spp);
-                    const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
-                    Ray ray;
-                    ray.origin = position;
-                    ray.direction = Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
-                    const Vec3f value = radiance(scene, ray, scene.settings.bounces, per_row[r].rays);
-                    if (finite(value)) sum += Vec3d(value);
-                    else ++per_row[r].bad_samples;
+    for_rows(
+        std::int64_t(6) * size, 2,
+        [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t r = begin; r < end; ++r) {
+                const auto face = CubeFace(r / size);
+                const int y = int(r % size);
+                for (int x = 0; x < size; ++x) {
+                    Vec3d sum(0);
+                    for (int i = 0; i < spp; ++i) {
+                        const Vec2d at = pixel_sample(x, int(r), i, spp);
+                        const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
+                        Ray ray;
+                        ray.origin = position;
+                        ray.direction =
+                            Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
+                        const Vec3f value = radiance(scene, ray, scene.settings.bounces, per_row[r].rays);
+                        if (finite(value)) sum += Vec3d(value);
+                        else ++per_row[r].bad_samples;
+                    }
+                    const Vec3f mean(sum / double(spp));
+                    for (int c = 0; c < 3; ++c) cube[face].at(x, y, c) = mean[c];
                 }
-                const Vec3f mean(sum / double(spp));
-                for (int c = 0; c < 3; ++c) cube[face].at(x, y, c) = mean[c];
             }
-        }
-    }, progress);
+        },
+        progress);
     if (stats)
         for (const RenderStats& row : per_row) {
             stats->rays += row.rays;

@@ -9,6 +9,7 @@ namespace bake {
 /// `settings.bounces` mirror reflections; three channels, texel-centred, in cube space (world_to_cube). The scene's
 /// camera is not used. Every value is finite. Same bytes for any number of threads. Throws Error{Refusal::usage} when
 /// the position is not finite or the size not in [1, 32768].
-Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats = nullptr, Progress* progress = nullptr);
+Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats = nullptr,
+             Progress* progress = nullptr);
 
 } // namespace bake

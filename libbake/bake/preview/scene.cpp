@@ -1,9 +1,10 @@
 #include "bake/preview/scene.h"
 #include "bake/base/error.h"
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 namespace bake {
@@ -11,7 +12,7 @@ namespace {
 
 glm::dmat3 linear_part(const Placement& placement) {
     glm::dmat4 m(1);
-    const Vec3d angle = Vec3d(placement.rotate_deg) * (3.14159265358979323846 / 180.0);
+    const Vec3d angle = Vec3d(placement.rotate_deg) * (pi / 180.0);
     m = glm::rotate(m, angle.z, Vec3d(0, 0, 1));
     m = glm::rotate(m, angle.y, Vec3d(0, 1, 0));
     m = glm::rotate(m, angle.x, Vec3d(1, 0, 0));

@@ -26,9 +26,9 @@ struct Instance {
 
 /// What is seen where nothing is hit.
 struct Sky {
-    Cube cube;            ///< empty: the background
-    float scale = 1;      ///< of the cube's radiance
-    Vec3f background{0};  ///< radiance, linear RGB
+    Cube cube;           ///< empty: the background
+    float scale = 1;     ///< of the cube's radiance
+    Vec3f background{0}; ///< radiance, linear RGB
 };
 
 struct RenderSettings {

@@ -1,9 +1,9 @@
 #include "bake/preview/scene_entries.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
+#include "bake/mesh/file/mesh_io.h"
 #include <map>
 #include <tuple>
 
@@ -68,7 +68,8 @@ Cube load_sky(const SkyEntry& entry) {
     options.radiance = {.space = entry.space, .allow_negative = true};
     Environment sky = read_environment({entry.image}, options);
     if (!sky.is_cube() || sky.edge_samples)
-        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false}, {Samples::one});
+        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
+                           {Samples::one});
     for (Image<float>& face : sky.cube.faces)
         if (face.channels() != 3) face = to_rgb(face);
     return std::move(sky.cube);

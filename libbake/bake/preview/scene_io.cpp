@@ -17,7 +17,7 @@ constexpr double largest = 1e15; // of any number in a scene: squares and produc
     throw Error(Refusal::unreadable, file + ":" + std::to_string(line) + ": " + why);
 }
 
-int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+int line_of(const toml::node& node) { return int(node.source().begin.line); }
 
 /// One table of the file, with what its messages need.
 struct Section {
@@ -35,7 +35,7 @@ void allow_only(const Section& in, std::initializer_list<std::string_view> keys)
         if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
         std::string known;
         for (const std::string_view k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-        const int line = static_cast<int>(key.source().begin.line);
+        const int line = int(key.source().begin.line);
         refuse(in.file, line, "unknown key \"" + std::string(key.str()) + "\" in " + in.name + "; known are " + known);
     }
 }
@@ -52,8 +52,9 @@ double checked_number(const Section& in, const toml::node& node, std::string_vie
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value) refuse(in, node, in_quotes(key) + " is not a number; give one");
     if (!(*value >= low && *value <= high)) // NaN fails too
-        refuse(in, node, in_quotes(key) + " is " + text_of(*value) + ", outside " + text_of(low) + " to " +
-                             text_of(high) + "; give a value in that range");
+        refuse(in, node,
+               in_quotes(key) + " is " + text_of(*value) + ", outside " + text_of(low) + " to " + text_of(high) +
+                   "; give a value in that range");
     return *value;
 }
 
@@ -90,8 +91,8 @@ const toml::array& checked_array(const Section& in, const toml::node& node, std:
                                  const char* of_what) {
     const toml::array* list = node.as_array();
     if (!list || list->size() != count)
-        refuse(in, node, in_quotes(key) + " is not a list of " + std::to_string(count) + " " + of_what +
-                             "; give one in [ ]");
+        refuse(in, node,
+               in_quotes(key) + " is not a list of " + std::to_string(count) + " " + of_what + "; give one in [ ]");
     return *list;
 }
 
@@ -179,7 +180,10 @@ void read_sky(const Section& in, SceneEntries& scene) {
     allow_only(in, {"faces", "image", "scale", "colour-space"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
-    if (!faces && !image) refuse(in, in.table, "\"faces\" is missing; give \"name_%s.png\" or a list of six files, or \"image\", a lat-long, cross or strip");
+    if (!faces && !image)
+        refuse(in, in.table,
+               "\"faces\" is missing; give \"name_%s.png\" or a list of six files, or \"image\", a lat-long, cross or "
+               "strip");
     if (faces && image) refuse(in, *image, "\"image\" and \"faces\" are two skies; give one of them");
     scene.sky.line = line_of(faces ? *faces : *image);
     if (image) {
@@ -275,7 +279,8 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
     allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v"});
     MeshEntry m;
     m.line = line_of(in.table);
-    if (!read_path(in, "file", m.file)) refuse(in, in.table, "\"file\" is missing; give an .obj, .ply, .gltf or .glb file");
+    if (!read_path(in, "file", m.file))
+        refuse(in, in.table, "\"file\" is missing; give an .obj, .ply, .gltf or .glb file");
     m.line = line_of(*in.table.get("file"));
     if (std::string name; read(in, "material", name)) {
         const auto same = [&](const MaterialEntry& material) { return material.name == name; };
@@ -283,7 +288,7 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
         if (found == scene.materials.end())
             refuse(in, *in.table.get("material"),
                    "\"material\" names " + in_quotes(name) + ", which does not exist; add a [[material]] of that name");
-        m.material = static_cast<int>(found - scene.materials.begin());
+        m.material = int(found - scene.materials.begin());
     }
     read(in, "translate", m.placement.translate);
     read(in, "rotate-deg", m.placement.rotate_deg);
@@ -302,8 +307,7 @@ void read_one(const toml::table& root, std::string_view key, ReadSection work, S
     const toml::node* node = root.get(key);
     if (!node) return;
     const std::string name = "[" + std::string(key) + "]";
-    if (!node->is_table())
-        refuse(scene.file, line_of(*node), in_quotes(key) + " is not a table; write it as " + name);
+    if (!node->is_table()) refuse(scene.file, line_of(*node), in_quotes(key) + " is not a table; write it as " + name);
     work({*node->as_table(), name, scene.file}, scene);
 }
 
@@ -312,11 +316,9 @@ void read_each(const toml::table& root, std::string_view key, ReadSection work, 
     if (!node) return;
     const std::string name = "[[" + std::string(key) + "]]";
     const toml::array* list = node->as_array();
-    if (!list)
-        refuse(scene.file, line_of(*node), in_quotes(key) + " may stand several times; write it as " + name);
+    if (!list) refuse(scene.file, line_of(*node), in_quotes(key) + " may stand several times; write it as " + name);
     for (const toml::node& one : *list) {
-        if (!one.is_table())
-            refuse(scene.file, line_of(one), in_quotes(key) + " is not a table; write it as " + name);
+        if (!one.is_table()) refuse(scene.file, line_of(one), in_quotes(key) + " is not a table; write it as " + name);
         work({*one.as_table(), name, scene.file}, scene);
     }
 }
@@ -327,8 +329,7 @@ std::string read_text(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     std::string text(1 << 24, '\0'); // far beyond any scene
     in.read(text.data(), std::streamsize(text.size()));
-    if (in.bad() || !in.is_open())
-        throw Error(Refusal::unreadable, path + ": cannot be read; check your rights to it");
+    if (in.bad() || !in.is_open()) throw Error(Refusal::unreadable, path + ": cannot be read; check your rights to it");
     if (std::size_t(in.gcount()) == text.size())
         throw Error(Refusal::unreadable, path + ": is over 16 MiB; give a scene file");
     text.resize(std::size_t(in.gcount()));
@@ -343,7 +344,8 @@ SceneEntries read_scene(const std::string& path) {
         root = toml::parse(read_text(path), path);
     } catch (const toml::parse_error& error) {
         std::string why(error.description());
-        std::replace_if(why.begin(), why.end(), [](unsigned char c) { return c < 32; }, ' ');
+        std::replace_if(
+            why.begin(), why.end(), [](unsigned char c) { return c < 32; }, ' ');
         refuse(path, int(error.source().begin.line), why + "; mend this line");
     }
     SceneEntries scene;

@@ -12,7 +12,7 @@ void require_finite(const Image<float>& image, const std::string& file) {
     const float* begin = image.data();
     const float* bad = std::find_if_not(begin, begin + image.size(), [](float v) { return std::isfinite(v); });
     if (bad == begin + image.size()) return;
-    const std::size_t texel = static_cast<std::size_t>(bad - begin) / image.channels();
+    const std::size_t texel = std::size_t(bad - begin) / image.channels();
     throw Error(Refusal::unsuitable, file + ": holds NaN or Inf at column " + std::to_string(texel % image.width()) +
                                          ", row " + std::to_string(texel / image.width()) + "; give it a finite value");
 }
@@ -40,7 +40,7 @@ Span span_of(double u, int n) noexcept {
     const double repeated = std::isfinite(u) ? u - std::floor(u) : 0.0;
     const double at = repeated * n - 0.5;
     const double low = std::floor(at);
-    return {wrap(int(low), n), wrap(int(low) + 1, n), static_cast<float>(at - low)};
+    return {wrap(int(low), n), wrap(int(low) + 1, n), float(at - low)};
 }
 
 template <class Vec> Vec lookup(const Image<float>& image, const Vec2f& uv) noexcept {
@@ -74,7 +74,7 @@ Texture read_bump_table(const std::string& file, float scale) {
         refuse("is stored in unsigned integers, which hold no signed slopes; bake the bump table to .exr");
     const auto named = [&](const char* name) {
         const auto at = std::find(info.channels.begin(), info.channels.end(), name);
-        return at == info.channels.end() ? -1 : static_cast<int>(at - info.channels.begin());
+        return at == info.channels.end() ? -1 : int(at - info.channels.begin());
     };
     std::array<int, 2> slopes = {named("b_u"), named("b_v")};
     if (slopes[0] < 0 || slopes[1] < 0) {

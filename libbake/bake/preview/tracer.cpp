@@ -10,10 +10,10 @@ namespace {
 
 /// A hit as it is shaded, in world space; facet and n on the viewer's side.
 struct Surfel {
-    HitPoint at;            ///< where mirror rays leave
-    HitPoint light_at;      ///< where shadow rays leave: on the smooth surface
-    Vec3f facet{0}, n{0};   ///< unit
-    Vec3f v{0};             ///< unit, towards the viewer
+    HitPoint at;          ///< where mirror rays leave
+    HitPoint light_at;    ///< where shadow rays leave: on the smooth surface
+    Vec3f facet{0}, n{0}; ///< unit
+    Vec3f v{0};           ///< unit, towards the viewer
     BlinnPhong<float> bsdf;
 };
 

@@ -80,7 +80,7 @@ Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
                                    sizeof(own.triangles[0]), own.triangles.size());
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
+        rtcAttachGeometryByID(impl_->scene, geometry, unsigned(i));
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(impl_->scene);

@@ -1,4 +1,5 @@
 #include "bake/ray/camera.h"
+#include "bake/base/vec.h"
 #include <cmath>
 
 namespace bake {
@@ -18,7 +19,7 @@ CameraFrame camera_frame(const Camera& camera) noexcept {
     frame.forward = Vec3f(forward);
     frame.right = Vec3f(right);
     frame.up = Vec3f(glm::cross(right, forward));
-    frame.half_height = static_cast<float>(std::tan(0.5 * camera.fov_deg * (3.14159265358979323846 / 180.0)));
+    frame.half_height = float(std::tan(0.5 * camera.fov_deg * (pi / 180.0)));
     return frame;
 }
 

@@ -9,7 +9,7 @@ namespace bake {
 struct Camera {
     Vec3f position{0, 0, 5};
     Vec3f target{0, 0, 0};
-    Vec3f up{0, 1, 0};    ///< any direction that is up in the picture; parallel to the view: +Z or +X is taken
+    Vec3f up{0, 1, 0};     ///< any direction that is up in the picture; parallel to the view: +Z or +X is taken
     float fov_deg = 40.0f; ///< vertical, between the lower and upper edge of the picture
 };
 

@@ -20,7 +20,8 @@ struct Place {
 
 Place find_texel(const ExplainInput& in) {
     const int width = in.options.width, height = in.options.height;
-    const int x = std::clamp(int(in.uv.x * width), 0, width - 1), y = std::clamp(int((1 - in.uv.y) * height), 0, height - 1);
+    const int x = std::clamp(int(in.uv.x * width), 0, width - 1),
+              y = std::clamp(int((1 - in.uv.y) * height), 0, height - 1);
     return {x, y, {(x + 0.5) / width, 1 - (y + 0.5) / height}};
 }
 
@@ -28,7 +29,10 @@ RouteStep image_step(const ExplainInput& in, const Place& at) {
     const HeightTexture& h = *in.height;
     RouteStep step{"image_io: " + in.height_path, {}};
     step.entries.push_back({"size", {double(h.values.width()), double(h.values.height())}, ""});
-    step.entries.push_back({"stored as", {}, std::string(name(h.info.type)) + ", " + std::to_string(h.info.channels.size()) + " channel(s)"});
+    step.entries.push_back(
+        {"stored as",
+         {},
+         std::string(name(h.info.type)) + ", " + std::to_string(h.info.channels.size()) + " channel(s)"});
     step.entries.push_back({"levels used", {double(h.levels)}, h.levels > 256 ? "or more" : ""});
     step.entries.push_back({"quantisation step", {h.step}, ""});
     step.entries.push_back({"map texel (x, y)", {double(at.x), double(at.y)}, "row 0 at the top"});
@@ -40,7 +44,8 @@ RouteStep image_step(const ExplainInput& in, const Place& at) {
     for (int j = -1; j <= 1; ++j) {
         RouteEntry entry{rows[j + 1], {}, ""};
         for (int i = -1; i <= 1; ++i)
-            entry.values.push_back(h.values.at(wrap_index(x + i, h.values.width(), o.wrap_u), wrap_index(y + j, h.values.height(), o.wrap_v)));
+            entry.values.push_back(h.values.at(wrap_index(x + i, h.values.width(), o.wrap_u),
+                                               wrap_index(y + j, h.values.height(), o.wrap_v)));
         step.entries.push_back(entry);
     }
     return step;
@@ -52,7 +57,8 @@ RouteStep height_step(const ExplainInput& in, const HeightField& field, const He
     RouteStep step{"height: b = amplitude (value - midlevel)", {}};
     step.entries.push_back({"amplitude, midlevel", {o.amplitude, o.midlevel}, "object units, value"});
     step.entries.push_back({"filter", {}, std::string(name(filter))});
-    step.entries.push_back({"slopes taken at", {double(field.values().width()), double(field.values().height())}, "texels"});
+    step.entries.push_back(
+        {"slopes taken at", {double(field.values().width()), double(field.values().height())}, "texels"});
     step.entries.push_back({"b", {double(h.b)}, "object units"});
     step.entries.push_back({"b_u, b_v", {double(h.b_u), double(h.b_v)}, "per unit of u and v"});
     return step;
@@ -104,7 +110,8 @@ Frame frame_at(const BakeTarget& target, const TexelHit& hit) {
     const float b0 = 1 - hit.b1 - hit.b2;
     const auto mix = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) { return b0 * a + hit.b1 * b + hit.b2 * c; };
     const std::vector<Vec4f>& t = target.tangents;
-    return {mix(Vec3f(t[c0]), Vec3f(t[c1]), Vec3f(t[c2])), mix(target.surface.n[c0], target.surface.n[c1], target.surface.n[c2]), t[c0].w};
+    return {mix(Vec3f(t[c0]), Vec3f(t[c1]), Vec3f(t[c2])),
+            mix(target.surface.n[c0], target.surface.n[c1], target.surface.n[c2]), t[c0].w};
 }
 
 RouteStep tangent_step(const Frame& frame, const Vec3f& t) {
@@ -123,9 +130,11 @@ RouteStep encode_step(const Vec3f& t, bool directx) {
     step.entries.push_back({"rgb", list(Vec3d(rgb)), directx ? "green down (DirectX)" : "green up (OpenGL)"});
     for (const int bits : {8, 16}) {
         const auto largest = float((1 << bits) - 1);
-        const Vec3f levels = glm::vec3(std::floor(rgb.x * largest + 0.5f), std::floor(rgb.y * largest + 0.5f), std::floor(rgb.z * largest + 0.5f));
+        const Vec3f levels = glm::vec3(std::floor(rgb.x * largest + 0.5f), std::floor(rgb.y * largest + 0.5f),
+                                       std::floor(rgb.z * largest + 0.5f));
         char words[64];
-        std::snprintf(words, sizeof words, "comes back %.4f deg off", glm::degrees(angle_between(Vec3d(t), Vec3d(decode_normal(levels / largest, directx)))));
+        std::snprintf(words, sizeof words, "comes back %.4f deg off",
+                      glm::degrees(angle_between(Vec3d(t), Vec3d(decode_normal(levels / largest, directx)))));
         step.entries.push_back({std::to_string(bits) + " bit", list(Vec3d(levels)), words});
     }
     return step;
@@ -136,7 +145,9 @@ RouteStep shade_step(const Frame& frame, const Vec3f& t, bool directx) {
     const Vec3f bitangent = frame.sign * glm::cross(frame.n, frame.tangent);
     const Vec3f light = unit_or_zero(frame.tangent + bitangent + frame.n);
     const Vec3f rgb = encode_normal(t, directx);
-    const Vec3f back = decode_normal(Vec3f(std::floor(rgb.x * 255 + 0.5f), std::floor(rgb.y * 255 + 0.5f), std::floor(rgb.z * 255 + 0.5f)) / 255.0f, directx);
+    const Vec3f back = decode_normal(
+        Vec3f(std::floor(rgb.x * 255 + 0.5f), std::floor(rgb.y * 255 + 0.5f), std::floor(rgb.z * 255 + 0.5f)) / 255.0f,
+        directx);
     const Vec3f shaded = unit_or_zero(back.x * frame.tangent + back.y * bitangent + back.z * frame.n);
     step.entries.push_back({"N decoded from 8 bit", list(Vec3d(shaded)), ""});
     step.entries.push_back({"n . l, plain", {double(std::max(0.0f, glm::dot(unit_or_zero(frame.n), light)))}, ""});
@@ -149,7 +160,8 @@ RouteStep shade_step(const Frame& frame, const Vec3f& t, bool directx) {
 std::vector<RouteStep> explain(const ExplainInput& in) {
     const Place at = find_texel(in);
     const BakeTarget target = make_bake_target(*in.mesh, in.mesh_path, in.options.width, in.options.height);
-    const HeightField field(*in.height, in.options.height_options, in.options.filter, in.options.width, in.options.height);
+    const HeightField field(*in.height, in.options.height_options, in.options.filter, in.options.width,
+                            in.options.height);
     std::vector<Height<float>> heights(in.options.width);
     SlopeFilter<float>::Scratch scratch;
     field.row(at.y, heights.data(), scratch);
@@ -158,17 +170,21 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
     std::vector<RouteStep> route = {image_step(in, at), height_step(in, field, h)};
     const TexelHit& hit = target.raster.hits.at(at.x, at.y);
     if (hit.triangle == no_index) {
-        route.push_back({"uv_raster: " + in.mesh_path, {{"no face lies under this texel", {}, "padding fills it, or it stays flat"}}});
+        route.push_back({"uv_raster: " + in.mesh_path,
+                         {{"no face lies under this texel", {}, "padding fills it, or it stays flat"}}});
         return route;
     }
     const Jet<float> jet = jet_at(target.surface, hit.triangle, hit.b1, hit.b2);
     route.push_back(surface_step(in, target, hit, jet));
     const NormalMethod baked = baked_method(in, jet, h);
-    route.push_back(normal_step(baked, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
-    if (baked != in.options.method) route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
+    route.push_back(
+        normal_step(baked, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
+    if (baked != in.options.method)
+        route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
     const Vec3f normal = unit_or_zero(displaced_normal(jet, h, baked, target.lecture));
     const Frame frame = frame_at(target, hit);
-    const Vec3f t = in.options.space == Space::object ? normal : to_tangent_space(normal, frame.tangent, frame.n, frame.sign);
+    const Vec3f t =
+        in.options.space == Space::object ? normal : to_tangent_space(normal, frame.tangent, frame.n, frame.sign);
     if (t == Vec3f(0)) {
         route.push_back({"normal_map", {{"no normal", {}, "the chart has no area here; the texel is flat"}}});
         return route;

@@ -1,5 +1,6 @@
 #include "bake/verdict/image_check.h"
 #include "bake/base/parallel.h"
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -133,10 +134,8 @@ void count_levels(const Plane& plane, const ImageInfo& info, ChannelCheck& check
     }
     if (plane.count > 1) return;
     const int stored = whole && info.bits > 0 ? std::min(info.bits, sample_bits) : sample_bits;
-    if (whole)
-        check.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
-    else if (values.size() > 1)
-        check.true_bits = bits_that_hold(values, 0); // one float says nothing of bits
+    if (whole) check.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
+    else if (values.size() > 1) check.true_bits = bits_that_hold(values, 0); // one float says nothing of bits
 }
 
 double finite_or_zero(double v) noexcept { return v - v == 0 ? v : 0; }
@@ -320,8 +319,8 @@ StepSlope step_slope(double step, int width, double amplitude, double extent) no
     StepSlope s;
     s.per_texel = 0.5 * step;
     s.slope = amplitude * step * width / (2 * extent);
-    s.angle_deg = std::atan(s.slope) * 180 / 3.14159265358979323846;
-    if (s.slope > 0) s.one_degree_amplitude = amplitude * std::tan(3.14159265358979323846 / 180) / s.slope;
+    s.angle_deg = std::atan(s.slope) * 180 / pi;
+    if (s.slope > 0) s.one_degree_amplitude = amplitude * std::tan(pi / 180) / s.slope;
     return s;
 }
 

@@ -1,7 +1,7 @@
 // What is in an image, and what it looks made for.
 #pragma once
-#include "bake/picture/image_io.h"
 #include "bake/base/vec.h"
+#include "bake/picture/image_io.h"
 
 namespace bake {
 
@@ -33,12 +33,12 @@ const char* name(Looks looks) noexcept;
 struct ImageCheck {
     ImageInfo info;
     std::vector<ChannelCheck> channels;
-    int true_bits = 0;        ///< most of any channel
-    int colour_channels = 0;  ///< the channels that are not alpha, at most 3 of them
-    ChannelCheck grey;        ///< the mean of the colour channels; true_bits unset
-    double tint = 0;          ///< largest difference between colour channels of one texel, in 8-bit levels
-    double mean_tint = 0;     ///< mean of that difference over the texels
-    Tiling tiling;            ///< of the mean of the colour channels
+    int true_bits = 0;       ///< most of any channel
+    int colour_channels = 0; ///< the channels that are not alpha, at most 3 of them
+    ChannelCheck grey;       ///< the mean of the colour channels; true_bits unset
+    double tint = 0;         ///< largest difference between colour channels of one texel, in 8-bit levels
+    double mean_tint = 0;    ///< mean of that difference over the texels
+    Tiling tiling;           ///< of the mean of the colour channels
     Looks looks = Looks::colour;
 
     /// Read as normals n = 2 rgb - 1: mean length, share of texels more than 2 % off unit length, and share with
@@ -55,9 +55,9 @@ ImageCheck check_image(const Image<float>& image, const ImageInfo& info);
 
 /// What one quantisation step does to a slope, texels being extent / width apart.
 struct StepSlope {
-    double per_texel = 0; ///< smallest two-sided difference, in height per texel: step / 2
-    double slope = 0;     ///< amplitude * step * width / (2 * extent)
-    double angle_deg = 0; ///< atan(slope)
+    double per_texel = 0;            ///< smallest two-sided difference, in height per texel: step / 2
+    double slope = 0;                ///< amplitude * step * width / (2 * extent)
+    double angle_deg = 0;            ///< atan(slope)
     double one_degree_amplitude = 0; ///< amplitude at which the angle is one degree
 };
 StepSlope step_slope(double step, int width, double amplitude = 1, double extent = 1) noexcept;

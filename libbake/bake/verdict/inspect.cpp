@@ -1,7 +1,7 @@
 #include "bake/verdict/inspect.h"
-#include "bake/mesh/gltf/io.h"
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/gltf/io.h"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -64,8 +64,7 @@ void judge_topology(const MeshCheck& c, Findings& out) {
                             " repeat another; by the indices alone there are " +
                             counted(c.topology.boundary_edges, "boundary edge") + " and " +
                             counted(c.topology.components, "component"));
-    if (c.faces_without_normal == c.faces)
-        out.notes.push_back("no normals: smooth ones are computed from the faces");
+    if (c.faces_without_normal == c.faces) out.notes.push_back("no normals: smooth ones are computed from the faces");
     else
         add_if(out.warnings, c.faces_without_normal, "face|without normals",
                "others have them; computed from the faces instead");
@@ -122,7 +121,8 @@ Findings judge(const MeshReport& report) {
     if (const auto& gltf = report.gltf) {
         add_if(out.warnings, gltf->missing_images, "image|that is not there", "its textures are not either");
         if (gltf->normal_textures > 0 && !gltf->tangents)
-            out.notes.push_back("a normal texture and no tangents: viewers make their own, by MikkTSpace if they keep to the format");
+            out.notes.push_back(
+                "a normal texture and no tangents: viewers make their own, by MikkTSpace if they keep to the format");
     }
     if (report.audited && !report.audit.available) out.notes.push_back("no audit: this build has no CGAL");
     if (report.audit.available) {
@@ -130,9 +130,9 @@ Findings judge(const MeshReport& report) {
         if (a.self_intersections > 0)
             out.warnings.push_back(counted(a.self_intersections, "pair|of triangles that cut each other") +
                                    ": the surface intersects itself, first in faces " +
-                                   std::to_string(a.first_faces[0]) + " and " +
-                                   std::to_string(a.first_faces[1]) + " near (" + number(a.first_place.x) + " " +
-                                   number(a.first_place.y) + " " + number(a.first_place.z) + ")");
+                                   std::to_string(a.first_faces[0]) + " and " + std::to_string(a.first_faces[1]) +
+                                   " near (" + number(a.first_place.x) + " " + number(a.first_place.y) + " " +
+                                   number(a.first_place.z) + ")");
         add_if(out.warnings, a.inverted_components, "closed component|inside out",
                a.nested_components > 0 ? "shells must look outwards, and walls of hollows inwards"
                                        : "its faces look inwards: it bounds no volume");
@@ -182,8 +182,7 @@ Findings judge(const ImageReport& report) {
                             (c.tiling.x > tiles_up_to ? (c.tiling.y > tiles_up_to ? "" : "-u") : "-v") + " clamp");
     if (c.info.alpha_channel >= 0 && std::size_t(c.info.alpha_channel) < c.channels.size()) {
         const ChannelCheck& alpha = c.channels[c.info.alpha_channel];
-        if (alpha.min == alpha.max && alpha.min == 1)
-            out.notes.push_back("alpha is 1 everywhere");
+        if (alpha.min == alpha.max && alpha.min == 1) out.notes.push_back("alpha is 1 everywhere");
         else if (alpha.levels > 16 && c.channels.size() > 2)
             out.notes.push_back("alpha holds " + (alpha.levels > most_levels ? "many" : std::to_string(alpha.levels)) +
                                 " levels: perhaps packed data, such as a height (--channel a)");
@@ -202,8 +201,7 @@ Findings judge(const PairReport& report) {
     if (corr < pair_tells)
         out.warnings.push_back("they do not show the same relief (correlation " + number(corr) +
                                "): what follows is a guess");
-    else if (corr < pair_agrees)
-        out.warnings.push_back("they agree only roughly (correlation " + number(corr) + ")");
+    else if (corr < pair_agrees) out.warnings.push_back("they agree only roughly (correlation " + number(corr) + ")");
     if (c.inverted)
         out.warnings.push_back("inverted height: the normal map is that of the negative height; bake with --invert");
     if (c.directx)

@@ -1,10 +1,10 @@
 // What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
 #pragma once
-#include "bake/mesh/file/mesh_io.h"
-#include "bake/relief/height/height.h"
 #include "bake/mesh/check/mesh_audit.h"
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/check/mesh_distance.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/height/height.h"
 #include "bake/surface/chart/uv_check.h"
 #include "bake/verdict/image_check.h"
 #include "bake/verdict/pair_check.h"
@@ -19,7 +19,7 @@ struct Findings {
 
 struct InspectOptions {
     bool audit = false; ///< meshes: self intersections and orientation too, by CGAL, which is slow
-    MeshOptions read; ///< meshes: how they are read
+    MeshOptions read;   ///< meshes: how they are read
     MeshCheckOptions mesh;
     UvCheckOptions uv;
     Grey height_channel = Grey::mean; ///< pairs: the grey of the height

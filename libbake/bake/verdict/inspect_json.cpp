@@ -100,8 +100,11 @@ std::string to_json(const MeshReport& report) {
     json["materials"] = c.materials;
     json["groups"] = c.groups;
     if (const auto& gltf = report.gltf)
-        json["gltf"] = {{"nodes", gltf->nodes}, {"normal_textures", gltf->normal_textures}, {"images", gltf->images},
-                        {"missing_images", gltf->missing_images}, {"tangents", gltf->tangents}};
+        json["gltf"] = {{"nodes", gltf->nodes},
+                        {"normal_textures", gltf->normal_textures},
+                        {"images", gltf->images},
+                        {"missing_images", gltf->missing_images},
+                        {"tangents", gltf->tangents}};
     json["min"] = {c.box.min.x, c.box.min.y, c.box.min.z};
     json["max"] = {c.box.max.x, c.box.max.y, c.box.max.z};
     json["diagonal"] = c.diagonal;

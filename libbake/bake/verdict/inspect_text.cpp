@@ -73,8 +73,8 @@ std::string uv_rows(const MeshReport& report) {
 
 std::string audit_row(const MeshAudit& a) {
     std::string text = plural(a.self_intersections, "self intersection", "self intersections") + ", ";
-    text += !a.closed ? format("not closed (%zu of %zu components are)", a.closed_components, a.components)
-            : !a.outward ? "closed, not outward"
+    text += !a.closed         ? format("not closed (%zu of %zu components are)", a.closed_components, a.components)
+            : !a.outward      ? "closed, not outward"
             : a.bounds_volume ? "closed and outward: bounds a volume"
                               : "closed and outward";
     if (a.nested_components > 0) text += format(", %zu inside others", a.nested_components);
@@ -178,8 +178,8 @@ std::string to_text(const DistanceReport& report) {
                                    &worst == &d.there ? "of the other" : "of the first"));
     text += row("there", format("mean %.6g, rms %.6g, max %.6g to %.6g", d.there.mean, d.there.rms, d.there.lower,
                                 d.there.upper));
-    text += row("back", format("mean %.6g, rms %.6g, max %.6g to %.6g", d.back.mean, d.back.rms, d.back.lower,
-                               d.back.upper));
+    text += row("back",
+                format("mean %.6g, rms %.6g, max %.6g to %.6g", d.back.mean, d.back.rms, d.back.lower, d.back.upper));
     text += normal_row("facet normals", d.there.facet, d.back.facet);
     if (d.shading) text += normal_row("file's normals", d.there.shading, d.back.shading);
     return text + endings(report.findings);

@@ -1,5 +1,5 @@
-#include "bake/environment/file/orientation.h"
 #include "bake/environment/file/environment_io.h"
+#include "bake/environment/file/orientation.h"
 #include "bake/environment/sky/layout.h"
 #include "cli/command.h"
 #include <cmath>
@@ -19,7 +19,9 @@ Cube uneven_sky(int n, float noise = 0.01f) {
             for (int x = 0; x < n; ++x) {
                 const Vec3d d = glm::normalize(cube_direction(CubePoint<double>{face, (x + 0.5) / n, (y + 0.5) / n}));
                 for (int c = 0; c < 3; ++c)
-                    cube[face].at(x, y, c) = float(1 + 0.5 * std::sin(3 * d.x + d.y + c) + 0.4 * std::cos(2 * d.y - 2 * d.z + 1) * d.z) + uniform(random);
+                    cube[face].at(x, y, c) =
+                        float(1 + 0.5 * std::sin(3 * d.x + d.y + c) + 0.4 * std::cos(2 * d.y - 2 * d.z + 1) * d.z) +
+                        uniform(random);
             }
     return cube;
 }
@@ -38,105 +40,108 @@ Orientation inverse(const Orientation& o) {
 
 TEST_SUITE("unit") {
 
-TEST_CASE("orientation: a sky that is right is left alone") {
-    const OrientationCheck check = check_orientation(uneven_sky(32));
-    CHECK(check.given < 1.2);
-    CHECK(check.closes.as_given());
-    CHECK(!check.wrong);
-}
+    TEST_CASE("orientation: a sky that is right is left alone") {
+        const OrientationCheck check = check_orientation(uneven_sky(32));
+        CHECK(check.given < 1.2);
+        CHECK(check.closes.as_given());
+        CHECK(!check.wrong);
+    }
 
-TEST_CASE("orientation: any swap and turn that does not turn the cube as a whole is found and mended") {
-    const Cube sky = uneven_sky(24);
-    std::mt19937 random(5);
-    const Orientation mistakes[] = {{{0, 1, 2, 3, 5, 4}, {}},                     // +Z and -Z swapped
-                                    {{0, 1, 2, 3, 4, 5}, {0, 0, 1, 3, 0, 0}},     // up and down turned
-                                    {{0, 1, 3, 2, 4, 5}, {}},                     // up and down swapped
-                                    {{0, 1, 2, 3, 4, 5}, {0, 0, 0, 0, 0, 2}},     // one upside down
-                                    {{1, 0, 2, 3, 4, 5}, {0, 0, 2, 0, 0, 0}}};
-    for (const Orientation& mistake : mistakes) {
-        const Cube wrong = reorient(sky, mistake);
-        const OrientationCheck check = check_orientation(wrong);
-        CHECK(check.wrong);
+    TEST_CASE("orientation: any swap and turn that does not turn the cube as a whole is found and mended") {
+        const Cube sky = uneven_sky(24);
+        std::mt19937 random(5);
+        const Orientation mistakes[] = {{{0, 1, 2, 3, 5, 4}, {}},                 // +Z and -Z swapped
+                                        {{0, 1, 2, 3, 4, 5}, {0, 0, 1, 3, 0, 0}}, // up and down turned
+                                        {{0, 1, 3, 2, 4, 5}, {}},                 // up and down swapped
+                                        {{0, 1, 2, 3, 4, 5}, {0, 0, 0, 0, 0, 2}}, // one upside down
+                                        {{1, 0, 2, 3, 4, 5}, {0, 0, 2, 0, 0, 0}}};
+        for (const Orientation& mistake : mistakes) {
+            const Cube wrong = reorient(sky, mistake);
+            const OrientationCheck check = check_orientation(wrong);
+            CHECK(check.wrong);
+            CHECK(check.given > 2);
+            CHECK(check.best < 1.2);
+            const Cube mended = reorient(wrong, check.closes);
+            CHECK(seam_ratio(mended) == doctest::Approx(check.best));
+            CHECK(check.best == doctest::Approx(seam_ratio(sky)).epsilon(0.01));
+        }
+        // Where few faces are wrong, the least change is the answer, not a turn of the whole cube.
+        for (const int i : {0, 1, 2, 3})
+            CHECK(check_orientation(reorient(sky, mistakes[i])).closes == inverse(mistakes[i]));
+    }
+
+    TEST_CASE("orientation: faces that belong to different skies are not called mended") {
+        Cube patchwork = make_cube(16, 3);
+        for (int f = 0; f < 6; ++f) {
+            const Cube other = uneven_sky(16);
+            for (std::size_t i = 0; i < other.faces[f].size(); ++i)
+                patchwork.faces[f].data()[i] = other.faces[f].data()[i] * float(1 << f);
+        }
+        const OrientationCheck check = check_orientation(patchwork);
         CHECK(check.given > 2);
-        CHECK(check.best < 1.2);
-        const Cube mended = reorient(wrong, check.closes);
-        CHECK(seam_ratio(mended) == doctest::Approx(check.best));
-        CHECK(check.best == doctest::Approx(seam_ratio(sky)).epsilon(0.01));
+        CHECK(!check.wrong);
     }
-    // Where few faces are wrong, the least change is the answer, not a turn of the whole cube.
-    for (const int i : {0, 1, 2, 3}) CHECK(check_orientation(reorient(sky, mistakes[i])).closes == inverse(mistakes[i]));
-}
 
-TEST_CASE("orientation: faces that belong to different skies are not called mended") {
-    Cube patchwork = make_cube(16, 3);
-    for (int f = 0; f < 6; ++f) {
-        const Cube other = uneven_sky(16);
-        for (std::size_t i = 0; i < other.faces[f].size(); ++i) patchwork.faces[f].data()[i] = other.faces[f].data()[i] * float(1 << f);
+    TEST_CASE("orientation: the mending is told in words") {
+        Orientation o;
+        o.source = {0, 1, 2, 3, 5, 4};
+        o.turns = {0, 0, 1, 0, 0, 0};
+        CHECK(to_text(o, {"a", "b", "c", "d", "e", "f"}) == "+Y = c turned 90 deg, +Z = f, -Z = e");
+        CHECK(to_text({}, {"a", "b", "c", "d", "e", "f"}) == "");
     }
-    const OrientationCheck check = check_orientation(patchwork);
-    CHECK(check.given > 2);
-    CHECK(!check.wrong);
-}
-
-TEST_CASE("orientation: the mending is told in words") {
-    Orientation o;
-    o.source = {0, 1, 2, 3, 5, 4};
-    o.turns = {0, 0, 1, 0, 0, 0};
-    CHECK(to_text(o, {"a", "b", "c", "d", "e", "f"}) == "+Y = c turned 90 deg, +Z = f, -Z = e");
-    CHECK(to_text({}, {"a", "b", "c", "d", "e", "f"}) == "");
-}
 
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-TEST_CASE("orientation: skies of one colour, of one texel and of noise say nothing and are left alone") {
-    Cube flat = make_cube(4, 3);
-    for (Image<float>& face : flat.faces)
-        for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = 1;
-    CHECK(check_orientation(flat).unknown);
-    CHECK(!check_orientation(flat).wrong);
-    CHECK(check_orientation(uneven_sky(1)).unknown);
-    CHECK(!check_orientation(uneven_sky(16, 100)).wrong);
-}
+    TEST_CASE("orientation: skies of one colour, of one texel and of noise say nothing and are left alone") {
+        Cube flat = make_cube(4, 3);
+        for (Image<float>& face : flat.faces)
+            for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = 1;
+        CHECK(check_orientation(flat).unknown);
+        CHECK(!check_orientation(flat).wrong);
+        CHECK(check_orientation(uneven_sky(1)).unknown);
+        CHECK(!check_orientation(uneven_sky(16, 100)).wrong);
+    }
 
 } // TEST_SUITE
 TEST_SUITE("real") {
 
-TEST_CASE("orientation: what others found out by hand about four skies, the tool finds by itself") {
-    const auto data = test::shared_data();
-    if (data.empty()) {
-        MESSAGE("no shared data");
-        return;
+    TEST_CASE("orientation: what others found out by hand about four skies, the tool finds by itself") {
+        const auto data = test::shared_data();
+        if (data.empty()) {
+            MESSAGE("no shared data");
+            return;
+        }
+        const auto check = [&](const std::string& pattern) {
+            EnvironmentReport report;
+            read_environment({(data / "environments/sixface" / pattern).string()}, {}, &report);
+            MESSAGE(pattern << ": seam ratio " << report.orientation.given << ", best " << report.orientation.best);
+            return report;
+        };
+        const EnvironmentReport garden = check("studio_garden/studio_garden_%s.jpg");
+        CHECK(garden.orientation.given < 1);
+        CHECK(garden.orientation.closes.as_given());
+
+        const EnvironmentReport night =
+            check("skysf/skysfJ_%s.jpg"); // +Z = bk, -Z = ft, up turned by 90 deg, dn by 270
+        CHECK(night.orientation.wrong);
+        CHECK(night.files[4].ends_with("_bk.jpg"));
+        CHECK(night.files[5].ends_with("_ft.jpg"));
+        CHECK(night.orientation.closes == Orientation{{0, 1, 2, 3, 4, 5}, {0, 0, 1, 3, 0, 0}});
+        CHECK(night.orientation.best < 1);
+
+        const EnvironmentReport stars = check("tycho/tycho2t3_80_%s.jpg"); // +Y = my, -Y = py
+        CHECK(stars.orientation.wrong);
+        CHECK(stars.orientation.closes == Orientation{{0, 1, 3, 2, 4, 5}, {}});
+
+        const EnvironmentReport smooth = check("philo_sky3/sky3_%s.jpg"); // named as skysf is; its ground is even
+        CHECK(smooth.orientation.wrong);
+        CHECK(smooth.orientation.closes.turns[2] == 1);
+
+        EnvironmentReport strip;
+        read_environment({(data / "environments/strip/Ryfjallet_cubemap.png").string()}, {}, &strip);
+        CHECK(strip.orientation.given < 1);
+        CHECK(strip.orientation.closes.as_given());
     }
-    const auto check = [&](const std::string& pattern) {
-        EnvironmentReport report;
-        read_environment({(data / "environments/sixface" / pattern).string()}, {}, &report);
-        MESSAGE(pattern << ": seam ratio " << report.orientation.given << ", best " << report.orientation.best);
-        return report;
-    };
-    const EnvironmentReport garden = check("studio_garden/studio_garden_%s.jpg");
-    CHECK(garden.orientation.given < 1);
-    CHECK(garden.orientation.closes.as_given());
-
-    const EnvironmentReport night = check("skysf/skysfJ_%s.jpg"); // +Z = bk, -Z = ft, up turned by 90 deg, dn by 270
-    CHECK(night.orientation.wrong);
-    CHECK(night.files[4].ends_with("_bk.jpg"));
-    CHECK(night.files[5].ends_with("_ft.jpg"));
-    CHECK(night.orientation.closes == Orientation{{0, 1, 2, 3, 4, 5}, {0, 0, 1, 3, 0, 0}});
-    CHECK(night.orientation.best < 1);
-
-    const EnvironmentReport stars = check("tycho/tycho2t3_80_%s.jpg"); // +Y = my, -Y = py
-    CHECK(stars.orientation.wrong);
-    CHECK(stars.orientation.closes == Orientation{{0, 1, 3, 2, 4, 5}, {}});
-
-    const EnvironmentReport smooth = check("philo_sky3/sky3_%s.jpg"); // named as skysf is; its ground is even
-    CHECK(smooth.orientation.wrong);
-    CHECK(smooth.orientation.closes.turns[2] == 1);
-
-    EnvironmentReport strip;
-    read_environment({(data / "environments/strip/Ryfjallet_cubemap.png").string()}, {}, &strip);
-    CHECK(strip.orientation.given < 1);
-    CHECK(strip.orientation.closes.as_given());
-}
 
 } // TEST_SUITE

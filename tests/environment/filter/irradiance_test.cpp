@@ -1,16 +1,14 @@
-#include "bake/environment/filter/irradiance.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/vec.h"
+#include "bake/environment/filter/irradiance.h"
 #include "environment/skies.h"
 #include "oracle/zonal.h"
 #include <doctest/doctest.h>
-#include <numbers>
 
 using namespace bake;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 const Vec3d sun_direction = glm::normalize(Vec3d(0.37, 0.61, 0.53));
 
 constexpr IrradianceOptions direct = {.method = IrradianceMethod::direct, .size = 16};
@@ -44,153 +42,164 @@ double smallest(const Cube& cube) {
 
 TEST_SUITE("oracle") {
 
-TEST_CASE("irradiance: a sun's is its closed form to 1e-4, by the direct sum") {
-    const oracle::Sun sun{.amplitude = 1000, .kappa = 5000};
-    const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
-    CHECK(exact(1) == doctest::Approx(sun.flux() * sun.band_factors(2)[1]).epsilon(1e-12)); // all of it above the horizon
-    const double error = relative_rmse(irradiance(sun_sky(512, sun), direct),
-                                       [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)); });
-    MESSAGE("RMSE / mean " << error);
-    CHECK(error < 1e-4);
-}
-
-TEST_CASE("irradiance: N bands give the first N terms of a sun's series") {
-    const oracle::Sun sun{.amplitude = 10, .kappa = 50};
-    const std::vector<double> A = sun.band_factors(9);
-    const double factors[9] = {pi, 2 * pi / 3, pi / 4, 0, -pi / 24, 0, pi / 64, 0, -pi / 128};
-    for (const int bands : {1, 2, 3, 9}) {
-        const auto series = [&](const Vec3d& n) {
-            const double c = glm::dot(n, sun_direction);
-            double sum = 0, p0 = 1, p1 = c;
-            for (int l = 0; l < bands; ++l) {
-                sum += (2 * l + 1) / (4 * pi) * sun.flux() * A[l] * factors[l] * p0;
-                const double p2 = ((2 * l + 3) * c * p1 - (l + 1) * p0) / (l + 2);
-                p0 = p1, p1 = p2;
-            }
-            return sum;
-        };
-        // The midpoint rule on texels of 1.4 degrees under a sun of 8.
-        CHECK(relative_rmse(irradiance(sun_sky(64, sun), sh(bands)), series) < 5e-4);
+    TEST_CASE("irradiance: a sun's is its closed form to 1e-4, by the direct sum") {
+        const oracle::Sun sun{.amplitude = 1000, .kappa = 5000};
+        const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
+        CHECK(exact(1) ==
+              doctest::Approx(sun.flux() * sun.band_factors(2)[1]).epsilon(1e-12)); // all of it above the horizon
+        const double error = relative_rmse(irradiance(sun_sky(512, sun), direct),
+                                           [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)); });
+        MESSAGE("RMSE / mean " << error);
+        CHECK(error < 1e-4);
     }
-}
 
-TEST_CASE("irradiance: a smooth sky's is known, by either way") {
-    // 1 + x + y z: bands 0, 1 and 2 times pi, 2 pi / 3 and pi / 4.
-    const Cube sky = test::sky_of(64, 1, [](const Vec3d& d, int) { return 1 + d.x + d.y * d.z; });
-    const auto exact = [](const Vec3d& n) { return pi + 2 * pi / 3 * n.x + pi / 4 * n.y * n.z; };
-    CHECK(relative_rmse(irradiance(sky, sh(3)), exact) < 1e-4);
-    CHECK(relative_rmse(irradiance(sky, direct), exact) < 2e-4);
-}
+    TEST_CASE("irradiance: N bands give the first N terms of a sun's series") {
+        const oracle::Sun sun{.amplitude = 10, .kappa = 50};
+        const std::vector<double> A = sun.band_factors(9);
+        const double factors[9] = {pi, 2 * pi / 3, pi / 4, 0, -pi / 24, 0, pi / 64, 0, -pi / 128};
+        for (const int bands : {1, 2, 3, 9}) {
+            const auto series = [&](const Vec3d& n) {
+                const double c = glm::dot(n, sun_direction);
+                double sum = 0, p0 = 1, p1 = c;
+                for (int l = 0; l < bands; ++l) {
+                    sum += (2 * l + 1) / (4 * pi) * sun.flux() * A[l] * factors[l] * p0;
+                    const double p2 = ((2 * l + 3) * c * p1 - (l + 1) * p0) / (l + 2);
+                    p0 = p1, p1 = p2;
+                }
+                return sum;
+            };
+            // The midpoint rule on texels of 1.4 degrees under a sun of 8.
+            CHECK(relative_rmse(irradiance(sun_sky(64, sun), sh(bands)), series) < 5e-4);
+        }
+    }
 
-TEST_CASE("irradiance: the clamp's series falls as the number of bands to the power -1.5 on a sun") {
-    const oracle::Sun sun{.amplitude = 1000, .kappa = 2000};
-    const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
-    const Cube sky = sun_sky(128, sun);
-    const auto error = [&](int bands) {
-        return relative_rmse(irradiance(sky, sh(bands)), [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)); });
-    };
-    CHECK(error(3) == doctest::Approx(0.09).epsilon(0.3));
-    CHECK(error(5) / error(17) == doctest::Approx(std::pow(17.0 / 5, 1.5)).epsilon(0.3));
-}
+    TEST_CASE("irradiance: a smooth sky's is known, by either way") {
+        // 1 + x + y z: bands 0, 1 and 2 times pi, 2 pi / 3 and pi / 4.
+        const Cube sky = test::sky_of(64, 1, [](const Vec3d& d, int) { return 1 + d.x + d.y * d.z; });
+        const auto exact = [](const Vec3d& n) { return pi + 2 * pi / 3 * n.x + pi / 4 * n.y * n.z; };
+        CHECK(relative_rmse(irradiance(sky, sh(3)), exact) < 1e-4);
+        CHECK(relative_rmse(irradiance(sky, direct), exact) < 2e-4);
+    }
+
+    TEST_CASE("irradiance: the clamp's series falls as the number of bands to the power -1.5 on a sun") {
+        const oracle::Sun sun{.amplitude = 1000, .kappa = 2000};
+        const oracle::ConvolvedSun exact(sun, oracle::clamped_cosine);
+        const Cube sky = sun_sky(128, sun);
+        const auto error = [&](int bands) {
+            return relative_rmse(irradiance(sky, sh(bands)),
+                                 [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)); });
+        };
+        CHECK(error(3) == doctest::Approx(0.09).epsilon(0.3));
+        CHECK(error(5) / error(17) == doctest::Approx(std::pow(17.0 / 5, 1.5)).epsilon(0.3));
+    }
 
 } // TEST_SUITE
 
 TEST_SUITE("unit") {
 
-TEST_CASE("irradiance: a white sky gives pi, or 1 over pi") {
-    for (IrradianceOptions options : all_methods)
-        for (const int n : {1, 2, 9, 32})
-            for (const int channels : {1, 3, 4}) {
-                options.over_pi = false;
-                CHECK(test::largest_difference(irradiance(test::even_sky(n, channels, 1), options), test::even_sky(16, channels, pi)) < 3e-6);
-                options.over_pi = true;
-                CHECK(test::largest_difference(irradiance(test::even_sky(n, channels, 1), options), test::even_sky(16, channels, 1)) < 1e-6);
-            }
-}
-
-TEST_CASE("irradiance: a lone texel shines by the cosine") {
-    // Nodes that the horizon cuts are opened while this one texel counts: 1e-5 of the mean, and floats.
-    for (const auto& [face, x, y] : {std::tuple{4, 20, 9}, {0, 0, 0}, {3, 31, 15}}) {
-        Cube sky = test::even_sky(32, 1, 0);
-        sky.faces[face].at(x, y) = 1e6f;
-        const double flux = 1e6 * test::texel_solid_angle(32, x, y);
-        const Vec3d d = test::texel_direction(32, face, x, y);
-        CHECK(relative_rmse(irradiance(sky, direct), [&](const Vec3d& n) { return flux * std::max(0.0, glm::dot(n, d)); }) < 2e-5);
+    TEST_CASE("irradiance: a white sky gives pi, or 1 over pi") {
+        for (IrradianceOptions options : all_methods)
+            for (const int n : {1, 2, 9, 32})
+                for (const int channels : {1, 3, 4}) {
+                    options.over_pi = false;
+                    CHECK(test::largest_difference(irradiance(test::even_sky(n, channels, 1), options),
+                                                   test::even_sky(16, channels, pi)) < 3e-6);
+                    options.over_pi = true;
+                    CHECK(test::largest_difference(irradiance(test::even_sky(n, channels, 1), options),
+                                                   test::even_sky(16, channels, 1)) < 1e-6);
+                }
     }
-}
 
-TEST_CASE("irradiance: turned skies, sums of skies, channels each by themselves") {
-    const Cube sky = test::rough_sky(16, 2);
-    for (const IrradianceOptions& options : all_methods) {
-        const Cube out = irradiance(sky, options);
-        // The direct sum is of 1e-5 of the mean, about 30 here; sh of rounding.
-        const double tolerance = options.method == IrradianceMethod::direct ? 1e-2 : 1e-4;
-        for (const auto turn : {test::quarter_about_y, test::third_about_diagonal, test::mirror_x})
-            CHECK(test::largest_difference(irradiance(test::turned(sky, turn), options), test::turned(out, turn)) < tolerance);
-        const Cube other = test::rough_sky(16, 2, 8);
-        Cube sum = test::even_sky(16, 2, 0);
-        for (int face = 0; face < 6; ++face)
-            for (std::size_t i = 0; i < sum.faces[face].size(); ++i)
-                sum.faces[face].data()[i] = sky.faces[face].data()[i] + 3 * other.faces[face].data()[i];
-        const Cube out_other = irradiance(other, options), out_sum = irradiance(sum, options);
-        double worst = 0;
-        for (int face = 0; face < 6; ++face)
-            for (std::size_t i = 0; i < out.faces[face].size(); ++i)
-                worst = std::max(worst, std::abs(double(out_sum.faces[face].data()[i] - out.faces[face].data()[i] - 3 * out_other.faces[face].data()[i])));
-        CHECK(worst < 4 * tolerance);
-        Cube first = test::even_sky(16, 1, 0);
-        for (int face = 0; face < 6; ++face)
-            for (std::size_t i = 0; i < first.faces[face].size(); ++i) first.faces[face].data()[i] = sky.faces[face].data()[2 * i];
-        const Cube out_first = irradiance(first, options);
-        worst = 0;
-        for (int face = 0; face < 6; ++face)
-            for (std::size_t i = 0; i < out_first.faces[face].size(); ++i)
-                worst = std::max(worst, std::abs(double(out_first.faces[face].data()[i] - out.faces[face].data()[2 * i])));
-        CHECK(worst < tolerance);
+    TEST_CASE("irradiance: a lone texel shines by the cosine") {
+        // Nodes that the horizon cuts are opened while this one texel counts: 1e-5 of the mean, and floats.
+        for (const auto& [face, x, y] : {std::tuple{4, 20, 9}, {0, 0, 0}, {3, 31, 15}}) {
+            Cube sky = test::even_sky(32, 1, 0);
+            sky.faces[face].at(x, y) = 1e6f;
+            const double flux = 1e6 * test::texel_solid_angle(32, x, y);
+            const Vec3d d = test::texel_direction(32, face, x, y);
+            CHECK(relative_rmse(irradiance(sky, direct),
+                                [&](const Vec3d& n) { return flux * std::max(0.0, glm::dot(n, d)); }) < 2e-5);
+        }
     }
-}
 
-TEST_CASE("irradiance: windows damp the ringing of a sun") {
-    const Cube sky = sun_sky(64, {.amplitude = 1000, .kappa = 500});
-    const double none = smallest(irradiance(sky, sh(5)));
-    CHECK(none < 0);
-    CHECK(smallest(irradiance(sky, sh(5, ShWindow::lanczos))) > 0.7 * none);
-    CHECK(smallest(irradiance(sky, sh(5, ShWindow::hann))) > 0.7 * none);
-    CHECK(smallest(irradiance(sky, direct)) >= 0);
-}
-
-TEST_CASE("irradiance: any number of threads gives the same bytes") {
-    const Cube sky = test::rough_sky(30, 3);
-    for (const IrradianceOptions& options : {direct, sh(4)}) {
-        const auto out = [&](int threads) {
-            const ThreadLimit limit(threads);
-            return irradiance(sky, options);
-        };
-        const Cube one = out(1);
-        CHECK(test::same_bytes(one, out(2)));
-        CHECK(test::same_bytes(one, out(7)));
+    TEST_CASE("irradiance: turned skies, sums of skies, channels each by themselves") {
+        const Cube sky = test::rough_sky(16, 2);
+        for (const IrradianceOptions& options : all_methods) {
+            const Cube out = irradiance(sky, options);
+            // The direct sum is of 1e-5 of the mean, about 30 here; sh of rounding.
+            const double tolerance = options.method == IrradianceMethod::direct ? 1e-2 : 1e-4;
+            for (const auto turn : {test::quarter_about_y, test::third_about_diagonal, test::mirror_x})
+                CHECK(test::largest_difference(irradiance(test::turned(sky, turn), options), test::turned(out, turn)) <
+                      tolerance);
+            const Cube other = test::rough_sky(16, 2, 8);
+            Cube sum = test::even_sky(16, 2, 0);
+            for (int face = 0; face < 6; ++face)
+                for (std::size_t i = 0; i < sum.faces[face].size(); ++i)
+                    sum.faces[face].data()[i] = sky.faces[face].data()[i] + 3 * other.faces[face].data()[i];
+            const Cube out_other = irradiance(other, options), out_sum = irradiance(sum, options);
+            double worst = 0;
+            for (int face = 0; face < 6; ++face)
+                for (std::size_t i = 0; i < out.faces[face].size(); ++i)
+                    worst = std::max(worst, std::abs(double(out_sum.faces[face].data()[i] - out.faces[face].data()[i] -
+                                                            3 * out_other.faces[face].data()[i])));
+            CHECK(worst < 4 * tolerance);
+            Cube first = test::even_sky(16, 1, 0);
+            for (int face = 0; face < 6; ++face)
+                for (std::size_t i = 0; i < first.faces[face].size(); ++i)
+                    first.faces[face].data()[i] = sky.faces[face].data()[2 * i];
+            const Cube out_first = irradiance(first, options);
+            worst = 0;
+            for (int face = 0; face < 6; ++face)
+                for (std::size_t i = 0; i < out_first.faces[face].size(); ++i)
+                    worst = std::max(worst,
+                                     std::abs(double(out_first.faces[face].data()[i] - out.faces[face].data()[2 * i])));
+            CHECK(worst < tolerance);
+        }
     }
-}
 
-TEST_CASE("irradiance: bands and sizes out of range are refused") {
-    const Cube sky = test::even_sky(2, 3, 1);
-    for (const IrradianceOptions& options : {sh(0), sh(65), sh(-1)}) CHECK_THROWS_AS(irradiance(sky, options), Error);
-    CHECK_THROWS_AS(irradiance(sky, {.size = 0}), Error);
-    CHECK_NOTHROW(irradiance(sky, sh(64)));
-}
+    TEST_CASE("irradiance: windows damp the ringing of a sun") {
+        const Cube sky = sun_sky(64, {.amplitude = 1000, .kappa = 500});
+        const double none = smallest(irradiance(sky, sh(5)));
+        CHECK(none < 0);
+        CHECK(smallest(irradiance(sky, sh(5, ShWindow::lanczos))) > 0.7 * none);
+        CHECK(smallest(irradiance(sky, sh(5, ShWindow::hann))) > 0.7 * none);
+        CHECK(smallest(irradiance(sky, direct)) >= 0);
+    }
+
+    TEST_CASE("irradiance: any number of threads gives the same bytes") {
+        const Cube sky = test::rough_sky(30, 3);
+        for (const IrradianceOptions& options : {direct, sh(4)}) {
+            const auto out = [&](int threads) {
+                const ThreadLimit limit(threads);
+                return irradiance(sky, options);
+            };
+            const Cube one = out(1);
+            CHECK(test::same_bytes(one, out(2)));
+            CHECK(test::same_bytes(one, out(7)));
+        }
+    }
+
+    TEST_CASE("irradiance: bands and sizes out of range are refused") {
+        const Cube sky = test::even_sky(2, 3, 1);
+        for (const IrradianceOptions& options : {sh(0), sh(65), sh(-1)})
+            CHECK_THROWS_AS(irradiance(sky, options), Error);
+        CHECK_THROWS_AS(irradiance(sky, {.size = 0}), Error);
+        CHECK_NOTHROW(irradiance(sky, sh(64)));
+    }
 
 } // TEST_SUITE
 
 TEST_SUITE("stability") {
 
-TEST_CASE("irradiance: black skies, negative radiance and single texels stay finite") {
-    for (const IrradianceOptions& options : all_methods) {
-        CHECK(test::largest_difference(irradiance(test::even_sky(8, 3, 0), options), test::even_sky(16, 3, 0)) == 0);
-        const Cube out = irradiance(test::sky_of(8, 1, [](const Vec3d& d, int) { return d.x; }), options); // mean 0
-        test::for_each_texel(out, [](int, int, int, const float* value) { REQUIRE(std::isfinite(*value)); });
-        const Cube single = irradiance(test::sky_of(1, 3, test::smooth_radiance), options);
-        test::for_each_texel(single, [](int, int, int, const float* value) { REQUIRE(std::isfinite(*value)); });
+    TEST_CASE("irradiance: black skies, negative radiance and single texels stay finite") {
+        for (const IrradianceOptions& options : all_methods) {
+            CHECK(test::largest_difference(irradiance(test::even_sky(8, 3, 0), options), test::even_sky(16, 3, 0)) ==
+                  0);
+            const Cube out = irradiance(test::sky_of(8, 1, [](const Vec3d& d, int) { return d.x; }), options); // mean 0
+            test::for_each_texel(out, [](int, int, int, const float* value) { REQUIRE(std::isfinite(*value)); });
+            const Cube single = irradiance(test::sky_of(1, 3, test::smooth_radiance), options);
+            test::for_each_texel(single, [](int, int, int, const float* value) { REQUIRE(std::isfinite(*value)); });
+        }
     }
-}
 
 } // TEST_SUITE

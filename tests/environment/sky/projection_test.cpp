@@ -1,5 +1,6 @@
-#include "bake/environment/sky/projection.h"
+#include "bake/base/vec.h"
 #include "bake/environment/sky/environment.h"
+#include "bake/environment/sky/projection.h"
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -10,134 +11,151 @@ using namespace bake;
 
 namespace {
 
-constexpr Projection all_projections[] = {Projection::latlong, Projection::latlong_edges, Projection::octahedral, Projection::ball, Projection::probe};
+constexpr Projection all_projections[] = {Projection::latlong, Projection::latlong_edges, Projection::octahedral,
+                                          Projection::ball, Projection::probe};
 
 Vec3d random_direction(std::mt19937& random) {
     std::normal_distribution<double> normal;
     return glm::normalize(Vec3d(normal(random), normal(random), normal(random)));
 }
 
-int height_of(Projection p, int width) { return p == Projection::latlong || p == Projection::latlong_edges ? width / 2 : width; }
+int height_of(Projection p, int width) {
+    return p == Projection::latlong || p == Projection::latlong_edges ? width / 2 : width;
+}
 
 } // namespace
 
 TEST_SUITE("oracle") {
 
-TEST_CASE("projection: lat-long in closed form, ahead in the middle, +X at its right, up on top") {
-    const Vec3d ahead = picture_direction(Projection::latlong, 8, 4, 4, 2);
-    CHECK(glm::length(ahead - Vec3d(0, 0, 1)) < 1e-15);
-    CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 6, 2) - Vec3d(1, 0, 0)) < 1e-15);
-    CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 3, 0) - Vec3d(0, 1, 0)) < 1e-15);
-    CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 0, 2) - Vec3d(0, 0, -1)) < 1e-15);
-}
-
-TEST_CASE("projection: OpenEXR's lat-long has the poles in its outer rows and one meridian twice") {
-    for (int x = 0; x < 8; ++x) CHECK(picture_direction(Projection::latlong_edges, 8, 4, x + 0.5, 0.5).y == doctest::Approx(1));
-    for (int y = 0; y < 4; ++y)
-        CHECK(glm::length(picture_direction(Projection::latlong_edges, 8, 4, 0.5, y + 0.5) - picture_direction(Projection::latlong_edges, 8, 4, 7.5, y + 0.5)) < 1e-14);
-    // OpenEXR's own words: latitude from pi/2 down, longitude from +pi, x = sin(longitude) cos(latitude) in world axes.
-    const double latitude = M_PI / 2 - M_PI * 1 / 3, longitude = M_PI - 2 * M_PI * 2 / 7;
-    const Vec3d world(std::sin(longitude) * std::cos(latitude), std::sin(latitude), std::cos(longitude) * std::cos(latitude));
-    CHECK(glm::length(picture_direction(Projection::latlong_edges, 8, 4, 2.5, 1.5) - world_to_cube(world)) < 1e-14);
-}
-
-TEST_CASE("projection: the octahedral map is equal-area") {
-    // Areas of small quadrilaterals on the sphere, over the whole picture: all 4 pi / n^2.
-    const int n = 24;
-    double worst = 0;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const double h = 1e-3;
-            const auto at = [&](double dx, double dy) { return picture_direction(Projection::octahedral, n, n, x + 0.4 + dx, y + 0.3 + dy); };
-            const double area = glm::length(glm::cross(at(h, 0) - at(-h, 0), at(0, h) - at(0, -h))) / (4 * h * h);
-            worst = std::max(worst, std::abs(area / (4 * M_PI / (n * n)) - 1));
-        }
-    CHECK(worst < 1e-5); // second order in h
-}
-
-TEST_CASE("projection: a mirror ball reflects by the law of reflection, a probe's angle is its radius") {
-    const int n = 100;
-    for (const double x : {20.0, 50.0, 71.0})
-        for (const double y : {33.0, 60.0}) {
-            const double u = 2 * x / n - 1, v = 1 - 2 * y / n;
-            const Vec3d normal(u, v, -std::sqrt(1 - u * u - v * v)), seen(0, 0, 1);
-            CHECK(glm::length(picture_direction(Projection::ball, n, n, x, y) - (seen - 2 * glm::dot(seen, normal) * normal)) < 1e-14);
-            const Vec3d d = picture_direction(Projection::probe, n, n, x, y);
-            CHECK(std::acos(d.z) / M_PI == doctest::Approx(std::hypot(u, v)));
-            CHECK(d.x * v == doctest::Approx(d.y * u));
-            CHECK(d.x * u >= 0);
-        }
-}
-
-TEST_CASE("projection: arc tangents are those of the library to 1e-11, signs and axes included") {
-    std::vector<double> y, x;
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
-    for (int i = 0; i < 20000; ++i) {
-        y.push_back(normal(random) * std::pow(10.0, i % 7 - 3));
-        x.push_back(normal(random));
+    TEST_CASE("projection: lat-long in closed form, ahead in the middle, +X at its right, up on top") {
+        const Vec3d ahead = picture_direction(Projection::latlong, 8, 4, 4, 2);
+        CHECK(glm::length(ahead - Vec3d(0, 0, 1)) < 1e-15);
+        CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 6, 2) - Vec3d(1, 0, 0)) < 1e-15);
+        CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 3, 0) - Vec3d(0, 1, 0)) < 1e-15);
+        CHECK(glm::length(picture_direction(Projection::latlong, 8, 4, 0, 2) - Vec3d(0, 0, -1)) < 1e-15);
     }
-    for (const double a : {-1.0, 0.0, 1.0})
-        for (const double b : {-1.0, 0.0, 1.0}) y.push_back(a), x.push_back(b);
-    std::vector<double> angles = y;
-    arc_tangents(angles.data(), x.data(), int(x.size()));
-    double worst = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(angles[i] - std::atan2(y[i], x[i])));
-    CHECK(worst < 1e-11);
-}
+
+    TEST_CASE("projection: OpenEXR's lat-long has the poles in its outer rows and one meridian twice") {
+        for (int x = 0; x < 8; ++x)
+            CHECK(picture_direction(Projection::latlong_edges, 8, 4, x + 0.5, 0.5).y == doctest::Approx(1));
+        for (int y = 0; y < 4; ++y)
+            CHECK(glm::length(picture_direction(Projection::latlong_edges, 8, 4, 0.5, y + 0.5) -
+                              picture_direction(Projection::latlong_edges, 8, 4, 7.5, y + 0.5)) < 1e-14);
+        // OpenEXR's own words: latitude from pi/2 down, longitude from +pi, x = sin(longitude) cos(latitude) in world axes.
+        const double latitude = pi / 2 - pi * 1 / 3, longitude = pi - 2 * pi * 2 / 7;
+        const Vec3d world(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+                          std::cos(longitude) * std::cos(latitude));
+        CHECK(glm::length(picture_direction(Projection::latlong_edges, 8, 4, 2.5, 1.5) - world_to_cube(world)) < 1e-14);
+    }
+
+    TEST_CASE("projection: the octahedral map is equal-area") {
+        // Areas of small quadrilaterals on the sphere, over the whole picture: all 4 pi / n^2.
+        const int n = 24;
+        double worst = 0;
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const double h = 1e-3;
+                const auto at = [&](double dx, double dy) {
+                    return picture_direction(Projection::octahedral, n, n, x + 0.4 + dx, y + 0.3 + dy);
+                };
+                const double area = glm::length(glm::cross(at(h, 0) - at(-h, 0), at(0, h) - at(0, -h))) / (4 * h * h);
+                worst = std::max(worst, std::abs(area / (4 * pi / (n * n)) - 1));
+            }
+        CHECK(worst < 1e-5); // second order in h
+    }
+
+    TEST_CASE("projection: a mirror ball reflects by the law of reflection, a probe's angle is its radius") {
+        const int n = 100;
+        for (const double x : {20.0, 50.0, 71.0})
+            for (const double y : {33.0, 60.0}) {
+                const double u = 2 * x / n - 1, v = 1 - 2 * y / n;
+                const Vec3d normal(u, v, -std::sqrt(1 - u * u - v * v)), seen(0, 0, 1);
+                CHECK(glm::length(picture_direction(Projection::ball, n, n, x, y) -
+                                  (seen - 2 * glm::dot(seen, normal) * normal)) < 1e-14);
+                const Vec3d d = picture_direction(Projection::probe, n, n, x, y);
+                CHECK(std::acos(d.z) / pi == doctest::Approx(std::hypot(u, v)));
+                CHECK(d.x * v == doctest::Approx(d.y * u));
+                CHECK(d.x * u >= 0);
+            }
+    }
+
+    TEST_CASE("projection: arc tangents are those of the library to 1e-11, signs and axes included") {
+        std::vector<double> y, x;
+        std::mt19937 random(1);
+        std::normal_distribution<double> normal;
+        for (int i = 0; i < 20000; ++i) {
+            y.push_back(normal(random) * std::pow(10.0, i % 7 - 3));
+            x.push_back(normal(random));
+        }
+        for (const double a : {-1.0, 0.0, 1.0})
+            for (const double b : {-1.0, 0.0, 1.0}) y.push_back(a), x.push_back(b);
+        std::vector<double> angles = y;
+        arc_tangents(angles.data(), x.data(), int(x.size()));
+        double worst = 0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            worst = std::max(worst, std::abs(angles[i] - std::atan2(y[i], x[i])));
+        CHECK(worst < 1e-11);
+    }
 
 } // TEST_SUITE
 TEST_SUITE("unit") {
 
-TEST_CASE("projection: points and directions lead back to each other") {
-    std::mt19937 random(2);
-    for (const Projection p : all_projections) {
-        CAPTURE(name(p));
-        const int w = 64, h = height_of(p, w);
-        for (int i = 0; i < 2000; ++i) {
-            const Vec3d d = random_direction(random);
-            const Vec2d at = picture_point(p, w, h, 3.0 * d);
-            const Vec3d back = picture_direction(p, w, h, at.x, at.y);
-            // Near the rim of the disc the ball's radius hardly changes with the direction.
-            CHECK(glm::length(back - d) < (has_disc(p) ? 1e-6 : 1e-7));
+    TEST_CASE("projection: points and directions lead back to each other") {
+        std::mt19937 random(2);
+        for (const Projection p : all_projections) {
+            CAPTURE(name(p));
+            const int w = 64, h = height_of(p, w);
+            for (int i = 0; i < 2000; ++i) {
+                const Vec3d d = random_direction(random);
+                const Vec2d at = picture_point(p, w, h, 3.0 * d);
+                const Vec3d back = picture_direction(p, w, h, at.x, at.y);
+                // Near the rim of the disc the ball's radius hardly changes with the direction.
+                CHECK(glm::length(back - d) < (has_disc(p) ? 1e-6 : 1e-7));
+            }
         }
     }
-}
 
-TEST_CASE("projection: texels beyond the border are those that lie there on the sphere") {
-    for (const Projection p : {Projection::latlong, Projection::latlong_edges, Projection::octahedral}) {
-        CAPTURE(name(p));
-        const int w = 64, h = height_of(p, w);
-        const auto direction = [&](const PictureTexel& at) { return picture_direction(p, w, h, at.x + 0.5, at.y + 0.5); };
-        double worst = 0;
-        for (int i = 0; i < w; ++i)
-            for (int side = 0; side < 4; ++side) {
-                const int j = i * h / w;
-                const PictureTexel inside = side == 0 ? PictureTexel{i, 0} : side == 1 ? PictureTexel{i, h - 1} : side == 2 ? PictureTexel{0, j} : PictureTexel{w - 1, j};
-                PictureTexel outside = inside;
-                (side < 2 ? outside.y : outside.x) += side % 2 ? 1 : -1;
-                worst = std::max(worst, glm::length(direction(inside) - direction(wrapped(p, w, h, outside.x, outside.y))));
-            }
-        // A texel spans .1 rad; across the poles of a lat-long one row further.
-        CHECK(worst < 0.21);
+    TEST_CASE("projection: texels beyond the border are those that lie there on the sphere") {
+        for (const Projection p : {Projection::latlong, Projection::latlong_edges, Projection::octahedral}) {
+            CAPTURE(name(p));
+            const int w = 64, h = height_of(p, w);
+            const auto direction = [&](const PictureTexel& at) {
+                return picture_direction(p, w, h, at.x + 0.5, at.y + 0.5);
+            };
+            double worst = 0;
+            for (int i = 0; i < w; ++i)
+                for (int side = 0; side < 4; ++side) {
+                    const int j = i * h / w;
+                    const PictureTexel inside = side == 0   ? PictureTexel{i, 0}
+                                                : side == 1 ? PictureTexel{i, h - 1}
+                                                : side == 2 ? PictureTexel{0, j}
+                                                            : PictureTexel{w - 1, j};
+                    PictureTexel outside = inside;
+                    (side < 2 ? outside.y : outside.x) += side % 2 ? 1 : -1;
+                    worst = std::max(
+                        worst, glm::length(direction(inside) - direction(wrapped(p, w, h, outside.x, outside.y))));
+                }
+            // A texel spans .1 rad; across the poles of a lat-long one row further.
+            CHECK(worst < 0.21);
+        }
     }
-}
 
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-TEST_CASE("projection: every direction has a place in every picture, and every place a direction") {
-    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    for (const Projection p : all_projections) {
-        CAPTURE(name(p));
-        for (const Vec3d d : {Vec3d(0), Vec3d(nan, 1, 0), Vec3d(inf, 0, 0), Vec3d(1e-320, 0, 0), Vec3d(0, 0, -1), Vec3d(0, 0, 1), Vec3d(0, -1, 0), Vec3d(0, 1e300, 0)}) {
-            const Vec2d at = picture_point(p, 16, height_of(p, 16), d);
-            CHECK((at.x >= 0 && at.x <= 16 && at.y >= 0 && at.y <= 16));
+    TEST_CASE("projection: every direction has a place in every picture, and every place a direction") {
+        const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+        for (const Projection p : all_projections) {
+            CAPTURE(name(p));
+            for (const Vec3d d : {Vec3d(0), Vec3d(nan, 1, 0), Vec3d(inf, 0, 0), Vec3d(1e-320, 0, 0), Vec3d(0, 0, -1),
+                                  Vec3d(0, 0, 1), Vec3d(0, -1, 0), Vec3d(0, 1e300, 0)}) {
+                const Vec2d at = picture_point(p, 16, height_of(p, 16), d);
+                CHECK((at.x >= 0 && at.x <= 16 && at.y >= 0 && at.y <= 16));
+            }
+            for (const double x : {-1e9, 0.0, 8.0, 16.0, 1e9})
+                for (const double y : {-1e9, 0.0, 8.0, 16.0, 1e9})
+                    CHECK(glm::length(picture_direction(p, 16, height_of(p, 16), x, y)) == doctest::Approx(1));
         }
-        for (const double x : {-1e9, 0.0, 8.0, 16.0, 1e9})
-            for (const double y : {-1e9, 0.0, 8.0, 16.0, 1e9})
-                CHECK(glm::length(picture_direction(p, 16, height_of(p, 16), x, y)) == doctest::Approx(1));
     }
-}
 
 } // TEST_SUITE

@@ -1,6 +1,6 @@
+#include "bake/base/parallel.h"
 #include "bake/mesh/check/mesh_audit.h"
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/base/parallel.h"
 #include "cli/command.h"
 #include "mesh/check/triangle_soups.h"
 #include <doctest/doctest.h>
@@ -23,7 +23,7 @@ template <class Height> Mesh displaced_torus(int columns, int rows, const Height
     Mesh mesh = oracle::torus_mesh(columns, rows);
     for (int i = 0; i < columns; ++i)
         for (int j = 0; j < rows; ++j) {
-            const double u = 2 * oracle::pi * i / columns, v = 2 * oracle::pi * j / rows;
+            const double u = 2 * pi * i / columns, v = 2 * pi * j / rows;
             mesh.positions[i * rows + j] = Vec3f(oracle::torus(1, 0.4 + b(u, v), u, v).p);
         }
     return mesh;
@@ -48,7 +48,8 @@ TEST_SUITE("unit") {
         CHECK(inside_out.volume == doctest::Approx(-1));
 
         // It goes through the bottom and the top, each of two triangles, well off their diagonals.
-        const Mesh needle = together(cube(), mesh_of({{0.4f, 0.7f, -1}, {0.42f, 0.7f, -1}, {0.4f, 0.7f, 2}}, {{0, 1, 2}}));
+        const Mesh needle =
+            together(cube(), mesh_of({{0.4f, 0.7f, -1}, {0.42f, 0.7f, -1}, {0.4f, 0.7f, 2}}, {{0, 1, 2}}));
         const MeshAudit cut = audited(needle);
         CHECK(cut.self_intersections == 2);
         CHECK(cut.first_faces[0] == 0);
@@ -90,17 +91,18 @@ TEST_SUITE("unit") {
         };
         const std::vector<std::vector<std::uint32_t>> fan = {{0, 1, 2}, {0, 3, 4}}, hinge = {{0, 1, 2}, {1, 0, 3}};
         CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, fan) == 0);
-        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {3, 0, 1}, {3, 0, 2}}, fan) == 0);   // above, edge-on
-        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {3, 0, -1}, {3, 0, 1}}, fan) == 1);  // through its far edge
-        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {1, 0, 1}}, fan) == 1);  // through its inside
-        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, 0}, {3, 4, 0}}, fan) == 1);   // in its plane
-        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, hinge) == 0);            // flat
-        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1e-30f}}, hinge) == 0);        // all but folded
-        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, hinge) == 1);             // folded onto itself
-        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 2, 0}}) == 1);       // twice the same
+        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {3, 0, 1}, {3, 0, 2}}, fan) == 0);  // above, edge-on
+        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {3, 0, -1}, {3, 0, 1}}, fan) == 1); // through its far edge
+        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {1, 0, 1}}, fan) == 1); // through its inside
+        CHECK(count({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, 0}, {3, 4, 0}}, fan) == 1);  // in its plane
+        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, hinge) == 0);           // flat
+        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1e-30f}}, hinge) == 0);       // all but folded
+        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, hinge) == 1);            // folded onto itself
+        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 2, 0}}) == 1);      // twice the same
         // Positions equal to the bit are the same point, whatever their numbers.
         CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 4, 5}}) == 0);
-        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-30f}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 4, 5}}) == 0);
+        CHECK(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-30f}, {-1, 0, 0}, {0, -1, 0}},
+                    {{0, 1, 2}, {3, 4, 5}}) == 0);
     }
 
     TEST_CASE("audit: the same for 1, 2 and 7 threads") {
@@ -135,12 +137,14 @@ TEST_SUITE("oracle") {
         CHECK(audited(displaced_torus(48, 24, [](double, double) { return -0.8; })).bounds_volume);
 
         // Grown into each other: nowhere does b reach a focal point, so no local test sees it.
-        const MeshAudit grown = audited(together(unit_sphere(32, 16), moved(unit_sphere(32, 16), 1, {1.5f, 0.1f, 0.05f})));
+        const MeshAudit grown =
+            audited(together(unit_sphere(32, 16), moved(unit_sphere(32, 16), 1, {1.5f, 0.1f, 0.05f})));
         CHECK(grown.self_intersections > 20);
         CHECK(grown.outward);
         CHECK_FALSE(grown.bounds_volume);
 
-        const MeshAudit fine = audited(displaced_torus(48, 24, [](double u, double v) { return 0.05 * sin(4 * u) * sin(3 * v); }));
+        const MeshAudit fine =
+            audited(displaced_torus(48, 24, [](double u, double v) { return 0.05 * sin(4 * u) * sin(3 * v); }));
         CHECK(fine.bounds_volume);
     }
 
@@ -167,7 +171,7 @@ TEST_SUITE("oracle") {
 
     TEST_CASE("audit: the volume of a torus of n segments tends to 2 pi^2 R r^2 by order 2") {
         if (without_cgal()) return;
-        const double exact = 2 * oracle::pi * oracle::pi * 0.4 * 0.4;
+        const double exact = 2 * pi * pi * 0.4 * 0.4;
         const double coarse = exact - audited(oracle::torus_mesh(32, 16)).volume;
         const double fine = exact - audited(oracle::torus_mesh(64, 32)).volume;
         CHECK(fine > 0);

@@ -186,8 +186,8 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_mesh: coincident positions are welded for the topology, and told apart as indexed") {
-        const MeshCheck c = check(
-            mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
+        const MeshCheck c =
+            check(mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
         CHECK(c.coincident_positions == 2);
         CHECK(c.topology.components == 2);
         CHECK(c.topology.boundary_edges == 6);

@@ -1,6 +1,6 @@
+#include "bake/base/parallel.h"
 #include "bake/mesh/check/mesh_distance.h"
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/base/parallel.h"
 #include "bake/mesh/triangle_tree.h"
 #include "cli/command.h"
 #include "mesh/check/triangle_soups.h"
@@ -43,7 +43,8 @@ TEST_SUITE("oracle") {
         // The same squares in quarters.
         const Mesh coarse = moved(square(), 2, Vec3f(0));
         Mesh fine = square();
-        for (const Vec3f& by : {Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(1, 1, 0)}) fine = together(fine, moved(square(), 1, by));
+        for (const Vec3f& by : {Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(1, 1, 0)})
+            fine = together(fine, moved(square(), 1, by));
         const MeshDistance cut = distance(coarse, fine, few_samples());
         CHECK(cut.upper <= 1e-7 * cut.diagonal);
         CHECK(cut.back.upper <= 1e-7 * cut.diagonal);
@@ -75,7 +76,7 @@ TEST_SUITE("oracle") {
         const MeshDistance m = distance(inner, outer, few_samples());
         // A vertex of the outer one stands right over one of the inner one. Triangles lie under the sphere by up to
         // 1 - cos(half a quad's diagonal), and d with them.
-        const double chord = 1 - std::cos(oracle::pi / 48 * std::sqrt(2.0));
+        const double chord = 1 - std::cos(pi / 48 * std::sqrt(2.0));
         check_bounds(m, d, 1e-7);
         for (const OneWayDistance& way : {m.there, m.back}) {
             CHECK(way.mean < d);
@@ -158,7 +159,8 @@ TEST_SUITE("oracle") {
             CHECK(met <= d.there.upper * (1 + 1e-12));
             CHECK(met >= 0.8 * d.there.lower); // dense enough to be a trial of it
             // Where it says the farthest point is, it is.
-            CHECK(std::sqrt(other.nearest(d.there.farthest).distance2) == doctest::Approx(d.there.lower).epsilon(1e-12));
+            CHECK(std::sqrt(other.nearest(d.there.farthest).distance2) ==
+                  doctest::Approx(d.there.lower).epsilon(1e-12));
         }
     }
 

@@ -47,7 +47,8 @@ inline Mesh turned(Mesh mesh) {
 /// The cube [0, 1]^3.
 inline const std::vector<Vec3f> unit_cube_corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                                      {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-inline const Faces unit_cube_faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+inline const Faces unit_cube_faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                      {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
 inline Mesh cube() { return mesh_of(unit_cube_corners, unit_cube_faces); }
 
 /// Radius 1, closed, welded: triangles at the poles, quads elsewhere.
@@ -55,7 +56,7 @@ inline Mesh unit_sphere(std::uint32_t columns, std::uint32_t rows) {
     std::vector<Vec3f> positions = {{0, 0, -1}};
     for (std::uint32_t j = 1; j < rows; ++j)
         for (std::uint32_t i = 0; i < columns; ++i)
-            positions.emplace_back(oracle::sphere(1, 2 * oracle::pi * i / columns, oracle::pi * (double(j) / rows - 0.5)).p);
+            positions.emplace_back(oracle::sphere(1, 2 * pi * i / columns, pi * (double(j) / rows - 0.5)).p);
     positions.push_back({0, 0, 1});
     const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (j - 1) * columns + i % columns; };
     Faces faces;

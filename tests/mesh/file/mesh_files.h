@@ -1,7 +1,7 @@
 // Files for the tests of meshes: temporary ones, our own, and the shared collection.
 #pragma once
-#include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/mesh/file/mesh_io.h"
 #include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -60,7 +60,7 @@ inline Outcome outcome_of(const std::filesystem::path& path) {
         std::string reason = error.what();
         const std::string folder = path.parent_path().string() + "/";
         if (reason.rfind(folder, 0) == 0) reason.erase(0, folder.size());
-        return {static_cast<int>(error.refusal), reason};
+        return {int(error.refusal), reason};
     }
 }
 inline Outcome outcome_of_text(const std::string& name, const std::string& bytes) {
@@ -76,10 +76,10 @@ inline bool same_attributes(const bake::Mesh& a, const bake::Mesh& b) {
 }
 
 inline bool same_mesh(const bake::Mesh& a, const bake::Mesh& b) {
-    return same_attributes(a, b) && a.tangents == b.tangents && a.positions == b.positions && a.normals == b.normals && a.uvs == b.uvs && a.face_begin == b.face_begin &&
-           a.corner_position == b.corner_position && a.corner_normal == b.corner_normal && a.corner_uv == b.corner_uv &&
-           a.materials == b.materials && a.groups == b.groups && a.face_material == b.face_material &&
-           a.face_group == b.face_group;
+    return same_attributes(a, b) && a.tangents == b.tangents && a.positions == b.positions && a.normals == b.normals &&
+           a.uvs == b.uvs && a.face_begin == b.face_begin && a.corner_position == b.corner_position &&
+           a.corner_normal == b.corner_normal && a.corner_uv == b.corner_uv && a.materials == b.materials &&
+           a.groups == b.groups && a.face_material == b.face_material && a.face_group == b.face_group;
 }
 
 /// Same values at every corner, whatever the indices.

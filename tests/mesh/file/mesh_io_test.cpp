@@ -1,5 +1,5 @@
-#include "mesh/file/mesh_files.h"
 #include "bake/base/parallel.h"
+#include "mesh/file/mesh_files.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -32,9 +32,7 @@ std::size_t lines_of_word(const std::filesystem::path& path, const std::string& 
 /// A mesh with everything a file can hold, larger than one piece of the parallel reader.
 Mesh rich_mesh(std::uint32_t faces) {
     std::mt19937 random(3);
-    const auto number = [&random] {
-        return std::ldexp(static_cast<float>(random()) - 2147483648.0f, -40 + static_cast<int>(random() % 20));
-    };
+    const auto number = [&random] { return std::ldexp(float(random()) - 2147483648.0f, -40 + int(random() % 20)); };
     Mesh mesh;
     const std::uint32_t points = faces + 10;
     for (std::uint32_t i = 0; i < points; ++i) {
@@ -47,13 +45,13 @@ Mesh rich_mesh(std::uint32_t faces) {
     for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t corners = 3 + random() % 4;
         for (std::uint32_t c = 0; c < corners; ++c) {
-            mesh.corner_position.push_back(static_cast<std::uint32_t>(random() % points));
-            mesh.corner_uv.push_back(random() % 5 ? static_cast<std::uint32_t>(random() % points) : no_index);
-            mesh.corner_normal.push_back(random() % 5 ? static_cast<std::uint32_t>(random() % points) : no_index);
+            mesh.corner_position.push_back(std::uint32_t(random() % points));
+            mesh.corner_uv.push_back(random() % 5 ? std::uint32_t(random() % points) : no_index);
+            mesh.corner_normal.push_back(random() % 5 ? std::uint32_t(random() % points) : no_index);
         }
-        mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners()));
+        mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
         mesh.face_group.push_back(f < faces / 2 ? 0 : f < faces - 3 ? 1 : no_index);
-        mesh.face_material.push_back(f == 0 ? 0 : f == 1 ? 1 : f == 2 ? 2 : static_cast<std::uint32_t>(random() % 3));
+        mesh.face_material.push_back(f == 0 ? 0 : f == 1 ? 1 : f == 2 ? 2 : std::uint32_t(random() % 3));
     }
     return mesh;
 }
@@ -201,7 +199,7 @@ TEST_SUITE("unit") {
             try {
                 write_mesh(path, mesh);
             } catch (const Error& error) {
-                return static_cast<int>(error.refusal);
+                return int(error.refusal);
             }
             return 0;
         };
@@ -220,8 +218,8 @@ TEST_SUITE("stability") {
     TEST_CASE("read_mesh: our own meshes in trouble are read whole or refused with their line") {
         const auto folder = source_folder() / "meshes/trouble";
         for (const char* name : {"mirrored_uvs", "overlapping_uvs", "nonmanifold_edge", "zero_area_face", "missing_uvs",
-                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge", "nonmanifold_vertex", "flipped_face",
-                                 "duplicate_face", "crease_without_edge"}) {
+                                 "one_triangle", "bowtie_quad", "hole_on_a_bridge", "nonmanifold_vertex",
+                                 "flipped_face", "duplicate_face", "crease_without_edge"}) {
             const auto path = folder / (std::string(name) + ".obj");
             CHECK_MESSAGE(read_mesh(path.string()).faces() == lines_of_word(path, "f"), name);
         }
@@ -231,7 +229,8 @@ TEST_SUITE("stability") {
         CHECK(outcome_of(folder / "index_out_of_range.obj").reason.substr(0, 25) == "index_out_of_range.obj:5:");
         CHECK(outcome_of(folder / "cut_short.ply").reason.find("cut short") != std::string::npos);
         CHECK(outcome_of(folder / "looped_nodes.gltf").reason.find("its node 0 is met twice") != std::string::npos);
-        CHECK(outcome_of(folder / "index_out_of_range.gltf").reason.find("has index 3 of 3 positions") != std::string::npos);
+        CHECK(outcome_of(folder / "index_out_of_range.gltf").reason.find("has index 3 of 3 positions") !=
+              std::string::npos);
         CHECK(outcome_of(folder / "huge_counts.ply").reason.find("4000000000 rows of 'vertex'") != std::string::npos);
     }
 
@@ -247,7 +246,7 @@ TEST_SUITE("stability") {
                 CHECK((outcome.code == 0 || outcome.code == 3 || outcome.code == 4));
                 if (name == "a.ply") CHECK(outcome.code == 3);
                 std::string wrong = good;
-                wrong[size] = static_cast<char>(random());
+                wrong[size] = char(random());
                 const Outcome other = outcome_of(folder.write("wrong_" + name, wrong));
                 CHECK((other.code == 0 || other.code == 3 || other.code == 4));
                 CHECK(other.reason.find('\n') == std::string::npos);
@@ -342,8 +341,7 @@ TEST_SUITE("real") {
             REQUIRE_MESSAGE(std::filesystem::exists(path), e.name);
             std::size_t used = 0; // pages of address space that the process has already
             std::ifstream("/proc/self/statm") >> used;
-            const rlimit limit{used * static_cast<std::size_t>(getpagesize()) + (std::size_t(1) << 30),
-                               before.rlim_max};
+            const rlimit limit{used * std::size_t(getpagesize()) + (std::size_t(1) << 30), before.rlim_max};
             if (limited) setrlimit(RLIMIT_AS, &limit);
             const auto start = std::chrono::steady_clock::now();
             const Outcome outcome = outcome_of(path);

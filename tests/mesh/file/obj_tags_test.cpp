@@ -9,9 +9,14 @@ using Boundary = SubdivisionTags::Boundary;
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 bool same_tags(const SubdivisionTags& a, const SubdivisionTags& b) {
-    const auto crease = [](const auto& x, const auto& y) { return x.a == y.a && x.b == y.b && x.sharpness == y.sharpness; };
-    const auto corner = [](const auto& x, const auto& y) { return x.position == y.position && x.sharpness == y.sharpness; };
-    return a.boundary == b.boundary && std::equal(a.creases.begin(), a.creases.end(), b.creases.begin(), b.creases.end(), crease) &&
+    const auto crease = [](const auto& x, const auto& y) {
+        return x.a == y.a && x.b == y.b && x.sharpness == y.sharpness;
+    };
+    const auto corner = [](const auto& x, const auto& y) {
+        return x.position == y.position && x.sharpness == y.sharpness;
+    };
+    return a.boundary == b.boundary &&
+           std::equal(a.creases.begin(), a.creases.end(), b.creases.begin(), b.creases.end(), crease) &&
            std::equal(a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(), corner);
 }
 } // namespace

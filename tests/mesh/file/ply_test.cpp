@@ -198,14 +198,17 @@ TEST_SUITE("unit") {
         CHECK(back.positions.size() == 5); // 3 twice, by its uvs; the unused position is dropped
     }
 
-    TEST_CASE("read_mesh: floats of vertices by names of their own are attributes, tx ty tz tw tangents, integers neither") {
+    TEST_CASE(
+        "read_mesh: floats of vertices by names of their own are attributes, tx ty tz tw tangents, integers neither") {
         const std::string header =
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float quality\nproperty float x\nproperty float y\n"
-            "property float z\nproperty uchar red\nproperty float tx\nproperty float ty\nproperty float tz\nproperty float tw\n"
+            "property float z\nproperty uchar red\nproperty float tx\nproperty float ty\nproperty float tz\nproperty "
+            "float tw\n"
             "property double flow_0\nproperty double flow_1\nproperty float lone_0\nproperty list uchar float weights\n"
             "property float nx\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-        const Mesh mesh = read_text("t.ply", header + "7 0 0 0 255 1 0 0 1 .5 .25 3 1 9 0\n8 1 0 0 255 0 1 0 -1 1 2 4 0 0\n"
-                                                      "9 0 1 0 255 0 0 1 1 0 0 5 2 1 1 1\n3 2 0 1\n");
+        const Mesh mesh =
+            read_text("t.ply", header + "7 0 0 0 255 1 0 0 1 .5 .25 3 1 9 0\n8 1 0 0 255 0 1 0 -1 1 2 4 0 0\n"
+                                        "9 0 1 0 255 0 0 1 1 0 0 5 2 1 1 1\n3 2 0 1\n");
         CHECK(mesh.tangents == std::vector<Vec4f>{{0, 0, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, -1}});
         REQUIRE(mesh.attributes.size() == 4);
         const auto is = [&](std::size_t i, const std::string& name, int components, const std::vector<float>& values) {

@@ -1,7 +1,7 @@
 // Small glTF files put together by hand, and what becomes of them.
 #pragma once
-#include "mesh/file/mesh_files.h"
 #include "bake/mesh/gltf/io.h"
+#include "mesh/file/mesh_files.h"
 #include <cstring>
 
 namespace bake_tests {
@@ -79,16 +79,16 @@ inline bake::Mesh rich_triangles(int columns, int rows) {
     mesh.groups = {"left", "right"};
     mesh.attributes = {{"COLOR_0", 3, {}}, {"TEXCOORD_1", 2, {}}, {"mean_curvature", 1, {}}};
     const auto add = [&](int i, int j) {
-        const auto p = static_cast<std::uint32_t>(j * (columns + 1) + i);
+        const auto p = std::uint32_t(j * (columns + 1) + i);
         mesh.corner_position.push_back(p);
-        const auto face = static_cast<std::uint32_t>(mesh.faces());
+        const auto face = std::uint32_t(mesh.faces());
         mesh.tangents.push_back(bake::Vec4f(unit(0.1f * float(i), 1), face % 8 < 4 ? 1 : -1));
         for (const float c : {0.25f, 0.5f, 1.0f}) mesh.attributes[0].values.push_back(c);
         for (const float c : {float(i) / 64, float(j) / 64}) mesh.attributes[1].values.push_back(c);
         mesh.attributes[2].values.push_back(float(p));
     };
     const auto close = [&](bool right) {
-        mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners()));
+        mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
         mesh.face_material.push_back(right ? 1 : 0);
         mesh.face_group.push_back(right ? 1 : 0);
     };
@@ -109,7 +109,7 @@ inline bake::Mesh rich_triangles(int columns, int rows) {
     for (std::uint32_t p = 0; p < mesh.positions.size(); ++p)
         for (const bool right : {false, true})
             if (uv[p][right] == 0) {
-                uv[p][right] = static_cast<std::uint32_t>(mesh.uvs.size());
+                uv[p][right] = std::uint32_t(mesh.uvs.size());
                 mesh.uvs.emplace_back(mesh.positions[p].x / 4, (mesh.positions[p].y + (right ? 1 : 0)) / 4);
             }
     for (std::size_t c = 0; c < mesh.corners(); ++c) {

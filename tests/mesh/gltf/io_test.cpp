@@ -1,6 +1,6 @@
-#include "mesh/gltf/gltf_files.h"
-#include "bake/mesh/triangulate.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/triangulate.h"
+#include "mesh/gltf/gltf_files.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <random>
@@ -25,7 +25,9 @@ std::string binary_chunk(const std::string& path) {
 }
 
 Vec3d facet_normal(const Mesh& mesh, std::size_t face) {
-    const auto p = [&](std::size_t k) { return Vec3d(mesh.positions[mesh.corner_position[mesh.face_begin[face] + k]]); };
+    const auto p = [&](std::size_t k) {
+        return Vec3d(mesh.positions[mesh.corner_position[mesh.face_begin[face] + k]]);
+    };
     return glm::cross(p(1) - p(0), p(2) - p(0));
 }
 } // namespace
@@ -69,7 +71,8 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("gltf: vertices split for their uvs or normals share their position, and nothing else is shared") {
-        Buffer buffer; // two triangles that share no vertex; the second has another uv and, at one corner, another normal
+        Buffer
+            buffer; // two triangles that share no vertex; the second has another uv and, at one corner, another normal
         buffer.put<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, -0.0f, 0, 0, 1, 1, 0, 0, 1, 0});
         buffer.put<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0, 1});
         buffer.put<float>({0, 0, 1, 0, 1, 1, 0.5f, 0, 1, 1, 0, 1});
@@ -95,11 +98,13 @@ TEST_SUITE("unit") {
         buffer.put<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
         buffer.put<std::uint8_t>({0, 1, 2, 3, 3, 4, 5, 0});
         const auto corners = [&](const std::string& primitive) {
-            return read_gltf_text(gltf_text(buffer.bytes, R"(,"bufferViews":[{"buffer":0,"byteLength":80}],)"
-                                                          R"("accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"},)"
-                                                          R"({"bufferView":0,"byteOffset":72,"componentType":5121,"count":7,"type":"SCALAR"}],)"
-                                                          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},)" +
-                                                              primitive + "}]}]"))
+            return read_gltf_text(
+                       gltf_text(buffer.bytes,
+                                 R"(,"bufferViews":[{"buffer":0,"byteLength":80}],)"
+                                 R"("accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"},)"
+                                 R"({"bufferView":0,"byteOffset":72,"componentType":5121,"count":7,"type":"SCALAR"}],)"
+                                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},)" +
+                                     primitive + "}]}]"))
                 .mesh.corner_position;
         };
         CHECK(corners(R"("mode":5)") == Indices{0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4});
@@ -111,11 +116,12 @@ TEST_SUITE("unit") {
 
     TEST_CASE("gltf: interleaved, quantised and sparse values are what they stand for") {
         Buffer buffer; // stride 16: three shorts and two of padding, then two normalised shorts and padding
-        for (const auto& [x, y, u, v] : {std::array<std::int16_t, 4>{0, 0, 0, -32768}, {100, 0, 32767, 0}, {0, 200, 0, 16384}}) {
+        for (const auto& [x, y, u, v] :
+             {std::array<std::int16_t, 4>{0, 0, 0, -32768}, {100, 0, 32767, 0}, {0, 200, 0, 16384}}) {
             buffer.put<std::int16_t>({x, y, 0, 0});
             buffer.put<std::int16_t>({u, v, 0, 0});
         }
-        buffer.put<std::uint16_t>({2}).align();    // sparse index, at 48
+        buffer.put<std::uint16_t>({2}).align();        // sparse index, at 48
         buffer.put<std::int16_t>({0, 300, 7}).align(); // and its value, at 52
         const std::string rest =
             R"(,"extensionsRequired":["KHR_mesh_quantization"],"bufferViews":[{"buffer":0,"byteLength":48,"byteStride":16},)"
@@ -182,15 +188,19 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("gltf: the scene that the file shows is read; without scenes every root, without nodes every mesh") {
-        const std::string two = replaced(square_text(), R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0)",
-                                         R"("nodes":[{"name":"a","mesh":0},{"name":"b","mesh":0}],"scenes":[{"nodes":[0]},{"nodes":[1]}],"scene":1)");
+        const std::string two = replaced(
+            square_text(), R"("nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0)",
+            R"("nodes":[{"name":"a","mesh":0},{"name":"b","mesh":0}],"scenes":[{"nodes":[0]},{"nodes":[1]}],"scene":1)");
         CHECK(read_gltf_text(two).nodes.at(0).name == "b");
         CHECK(read_gltf_text(replaced(two, R"(,"scene":1)", "")).nodes.at(0).name == "a");
-        CHECK(read_gltf_text(replaced(two, R"(,"scenes":[{"nodes":[0]},{"nodes":[1]}],"scene":1)", "")).nodes.size() == 2);
-        CHECK(read_gltf_text(replaced(square_text(), R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0)", "")).mesh.faces() == 2);
+        CHECK(read_gltf_text(replaced(two, R"(,"scenes":[{"nodes":[0]},{"nodes":[1]}],"scene":1)", "")).nodes.size() ==
+              2);
+        CHECK(read_gltf_text(replaced(square_text(), R"(,"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0)", ""))
+                  .mesh.faces() == 2);
     }
 
-    TEST_CASE("gltf: materials, normal textures with their scale and pictures come back bit for bit, inside and beside") {
+    TEST_CASE(
+        "gltf: materials, normal textures with their scale and pictures come back bit for bit, inside and beside") {
         const TemporaryFolder folder;
         Gltf gltf{rich_triangles(4, 2), {}, {}, {}};
         gltf.images = {image_of("height", "", png + "1"), image_of("", "a b%.png", png + "2")};
@@ -258,14 +268,15 @@ TEST_SUITE("unit") {
             for (std::uint32_t i = 0; i < count; ++i) fan.positions.emplace_back(float(i), float(i % 7), 0);
             for (std::uint32_t i = 0; i + 2 < count; i += 2) {
                 for (const std::uint32_t k : {0u, 1u, 2u}) fan.corner_position.push_back(i + k);
-                fan.face_begin.push_back(static_cast<std::uint32_t>(fan.corners()));
+                fan.face_begin.push_back(std::uint32_t(fan.corners()));
             }
             for (const std::uint32_t k : {3u, 2u, 1u}) fan.corner_position.push_back(count - k);
-            fan.face_begin.push_back(static_cast<std::uint32_t>(fan.corners()));
+            fan.face_begin.push_back(std::uint32_t(fan.corners()));
             write_mesh(folder.file("fan.glb"), fan);
             const std::string bytes = bytes_of(folder.file("fan.glb"));
             CHECK((bytes.find("\"componentType\":5123") != std::string::npos) == (count == 65535));
-            CHECK(read_mesh(folder.file("fan.glb")).corner_position.back() == read_mesh(folder.file("fan.glb")).positions.size() - 1);
+            CHECK(read_mesh(folder.file("fan.glb")).corner_position.back() ==
+                  read_mesh(folder.file("fan.glb")).positions.size() - 1);
         }
     }
 
@@ -279,7 +290,8 @@ TEST_SUITE("unit") {
         REQUIRE(back.corners() == expected.corners());
         for (std::size_t c = 0; c < back.corners(); ++c) {
             CHECK(back.positions[back.corner_position[c]] == expected.positions[expected.corner_position[c]]);
-            CHECK(glm::length(back.normals[back.corner_normal[c]] - expected.normals[expected.corner_normal[c]]) < 1e-6f);
+            CHECK(glm::length(back.normals[back.corner_normal[c]] - expected.normals[expected.corner_normal[c]]) <
+                  1e-6f);
         }
     }
 
@@ -294,7 +306,8 @@ TEST_SUITE("unit") {
         };
         const std::string good = square_text();
         REQUIRE(refusal(good) == "read");
-        REQUIRE(refusal(replaced(good, R"("scene":0)", R"("scene":0,"extras":"\"[)" + std::string(99, '[') + '"')) == "read");
+        REQUIRE(refusal(replaced(good, R"("scene":0)", R"("scene":0,"extras":"\"[)" + std::string(99, '[') + '"')) ==
+                "read");
         const auto bad = [&](const std::string& from, const std::string& to, const std::string& part, int code = 3) {
             has(replaced(good, from, to), part, code);
         };
@@ -304,30 +317,36 @@ TEST_SUITE("unit") {
         has(good.substr(0, good.size() - 3), "is not a glTF");
         has(R"({"asset":{"version":"1.0"}})", "is glTF '1.0'");
         has(std::string(100000, '['), "nested deeper than 64");
-        bad(R"("scene":0)", R"("scene":0,"extras":)" + std::string(64, '[') + std::string(64, ']'), "nested deeper than 64");
+        bad(R"("scene":0)", R"("scene":0,"extras":)" + std::string(64, '[') + std::string(64, ']'),
+            "nested deeper than 64");
         bad(R"("byteLength":92,)", R"("byteLength":93,)", "its buffer 0 has 92 of 93 bytes");
         bad(R"("byteLength":92,)", "", "its buffer 0 has no byteLength");
         bad("base64,A", "base64,*", "its buffer 0 is not written in base64");
         bad(R"("byteOffset":80)", R"("byteOffset":81)", "its bufferView 2 reaches behind the 92 bytes");
         bad(R"("byteOffset":80)", R"("byteOffset":18446744073709551615)", "its bufferView 2 reaches behind");
         bad(R"("count":4,"type":"VEC3")", R"("count":5,"type":"VEC3")", "its accessor 0 (POSITION) reaches behind");
-        bad(R"("count":4,"type":"VEC3")", R"("count":3,"type":"VEC3")", "its TEXCOORD_0 has 4 elements for 3 positions");
-        bad(R"("count":4,"type":"VEC3")", R"("count":4000000000,"type":"VEC3")", "its accessor 0 (POSITION) reaches behind");
+        bad(R"("count":4,"type":"VEC3")", R"("count":3,"type":"VEC3")",
+            "its TEXCOORD_0 has 4 elements for 3 positions");
+        bad(R"("count":4,"type":"VEC3")", R"("count":4000000000,"type":"VEC3")",
+            "its accessor 0 (POSITION) reaches behind");
         bad(R"("count":6)", R"("count":5)", "no multiple of 3");
         bad(R"("componentType":5123)", R"("componentType":5126)", "its accessor 2 (indices) reaches behind");
         bad(R"("indices":2)", R"("indices":3)", "accessor");
         bad(R"("indices":2)", R"("indices":1)", "has indices that are no unsigned integers");
         bad(R"("POSITION":0)", R"("POSITION":9)", "POSITION asks for accessor 9 of 3");
         bad(R"("POSITION":0)", R"("POSITION":1)", "its POSITION has 2 components");
-        bad(R"({"buffer":0,"byteLength":48})", R"({"buffer":7,"byteLength":48})", "its bufferView 0 asks for buffer 7 of 1");
+        bad(R"({"buffer":0,"byteLength":48})", R"({"buffer":7,"byteLength":48})",
+            "its bufferView 0 asks for buffer 7 of 1");
         bad(R"({"mesh":0})", R"({"mesh":1})", "asks for mesh 1 of 1");
         bad(R"({"mesh":0})", R"({"mesh":0,"children":[0]})", "its node 0 is met twice");
         bad(R"({"mesh":0})", R"({"children":[1]},{"children":[2],"mesh":0},{"children":[1]})", "is met twice");
         bad(R"("scene":0)", R"("scene":4)", "asks for scene 4 of 1");
         bad(R"("nodes":[0])", R"("nodes":[3])", "its node 3 is not one of 1");
-        bad(R"({"mesh":0})", R"({"mesh":0,"matrix":[1e300,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})", "a transform that is not finite");
+        bad(R"({"mesh":0})", R"({"mesh":0,"matrix":[1e300,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})",
+            "a transform that is not finite");
         bad(R"({"mesh":0})", R"({"mesh":0,"scale":[3e38,3e38,3e38],"translation":[3e38,0,0]})", "beyond all floats");
-        bad(R"(,"scene":0)", R"(,"scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])", "needs the extension 'KHR_draco", 4);
+        bad(R"(,"scene":0)", R"(,"scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])",
+            "needs the extension 'KHR_draco", 4);
         bad(R"("indices":2)", R"("indices":2,"mode":0)", "has no triangles", 4);
         bad(R"("indices":2)", R"("indices":2,"material":0)", "asks for material 0 of 0");
         has(replaced(good, "data:application", "http://example/data:application"), "no file beside it");
@@ -339,7 +358,8 @@ TEST_SUITE("unit") {
         far.bytes[80] = 4;
         has(gltf_text(far.bytes, square_rest), "has index 4 of 4 positions");
         const TemporaryFolder folder;
-        const Outcome absent = outcome_of(folder.write("t.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"gone.bin"}]})"));
+        const Outcome absent = outcome_of(
+            folder.write("t.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"gone.bin"}]})"));
         CHECK(absent.code == 3);
         CHECK(absent.reason.find("gone.bin: cannot be read") != std::string::npos);
     }
@@ -350,21 +370,23 @@ TEST_SUITE("unit") {
             nodes += std::string(i ? "," : "") + R"({"mesh":0})";
             ids += (i ? "," : "") + std::to_string(i);
         }
-        const std::string text = gltf_text("abcd", R"(,"accessors":[{"componentType":5126,"count":16000000,"type":"VEC3"}],)"
-                                                   R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":6}]}],"nodes":[)" +
-                                                       nodes + R"(],"scenes":[{"nodes":[)" + ids + "]}]");
+        const std::string text =
+            gltf_text("abcd", R"(,"accessors":[{"componentType":5126,"count":16000000,"type":"VEC3"}],)"
+                              R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":6}]}],"nodes":[)" +
+                                  nodes + R"(],"scenes":[{"nodes":[)" + ids + "]}]");
         CHECK(outcome_of_text("t.gltf", text).code == 4);
         CHECK(refusal(text).find("more than fit here") != std::string::npos);
         CHECK(outcome_of_text("t.gltf", replaced(text, "16000000", "16777217000")).code == 4);
     }
 
-    TEST_CASE("gltf: a mesh without faces, values that are not finite and folders that are not there are refused, nothing is left") {
+    TEST_CASE("gltf: a mesh without faces, values that are not finite and folders that are not there are refused, "
+              "nothing is left") {
         const TemporaryFolder folder;
         const auto code = [](const std::string& path, const Mesh& mesh) {
             try {
                 write_mesh(path, mesh);
             } catch (const Error& error) {
-                return static_cast<int>(error.refusal);
+                return int(error.refusal);
             }
             return 0;
         };
@@ -396,7 +418,7 @@ TEST_SUITE("stability") {
             REQUIRE(outcome_of(folder.write(name, good)).code == 0);
             for (std::size_t at = 0; at < good.size(); ++at) {
                 if (at % 4 == 0) CHECK(outcome_of(folder.write(name, good.substr(0, at))).code == 3);
-                const char others[] = {static_cast<char>(random()), '9', '-', static_cast<char>(random())};
+                const char others[] = {char(random()), '9', '-', char(random())};
                 std::string wrong = good;
                 wrong[at] = others[random() % 4];
                 const Outcome outcome = outcome_of(folder.write(name, wrong));
@@ -409,7 +431,8 @@ TEST_SUITE("stability") {
     TEST_CASE("gltf: a chain of a hundred thousand nodes is walked without calls within calls") {
         std::string nodes;
         for (int i = 0; i < 100000; ++i) nodes += R"({"children":[)" + std::to_string(i + 1) + "]},";
-        const std::string text = replaced(square_text(), R"("nodes":[{"mesh":0}])", R"("nodes":[)" + nodes + R"({"mesh":0}])");
+        const std::string text =
+            replaced(square_text(), R"("nodes":[{"mesh":0}])", R"("nodes":[)" + nodes + R"({"mesh":0}])");
         CHECK(read_gltf_text(text).nodes.size() == 1);
     }
 } // stability

@@ -1,8 +1,8 @@
 // Meshes and heights that the tests of displacement share.
 #pragma once
-#include "bake/relief/displace/displace.h"
 #include "bake/base/parallel.h"
 #include "bake/mesh/check/mesh_check.h"
+#include "bake/relief/displace/displace.h"
 #include "oracle/surfaces.h"
 #include <doctest/doctest.h>
 #include <functional>
@@ -39,7 +39,8 @@ inline Mesh polygons(std::vector<Vec3f> positions, const std::vector<std::vector
         mesh.corner_position.insert(mesh.corner_position.end(), face.begin(), face.end());
         mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
     }
-    for (std::uint32_t c = 0; c < corner_uvs.size(); ++c) mesh.uvs.push_back(corner_uvs[c]), mesh.corner_uv.push_back(c);
+    for (std::uint32_t c = 0; c < corner_uvs.size(); ++c)
+        mesh.uvs.push_back(corner_uvs[c]), mesh.corner_uv.push_back(c);
     for (std::uint32_t c = 0; c < corner_normals.size(); ++c)
         mesh.normals.push_back(corner_normals[c]), mesh.corner_normal.push_back(c);
     return mesh;
@@ -57,7 +58,8 @@ inline Mesh cube(bool flat = false) {
     for (const auto& face : cube_faces)
         for (int k = 0; k < 4; ++k) {
             uvs.push_back(Vec2f(k == 1 || k == 2, k >= 2));
-            const Vec3f a = cube_corners[face[1]] - cube_corners[face[0]], b = cube_corners[face[2]] - cube_corners[face[0]];
+            const Vec3f a = cube_corners[face[1]] - cube_corners[face[0]],
+                        b = cube_corners[face[2]] - cube_corners[face[0]];
             normals.push_back(glm::normalize(glm::cross(a, b)));
         }
     return polygons(cube_corners, cube_faces, uvs, flat ? normals : std::vector<Vec3f>{});

@@ -90,53 +90,53 @@ void check_covers(const PatchRates& rates) {
 
 TEST_SUITE("unit") {
 
-TEST_CASE("tessellation: any rates of a quad give faces that turn left, cover it and share every edge inside") {
-    for (const std::uint32_t a : {1u, 2u, 3u, 7u})
-        for (const std::uint32_t b : {1u, 2u, 5u})
-            for (const std::uint32_t c : {1u, 2u, 4u})
-                for (const std::uint32_t d : {1u, 2u, 3u})
-                    for (const std::uint32_t m : {1u, 2u, 6u})
-                        for (const std::uint32_t n : {1u, 2u, 3u}) check_covers({4, {a, b, c, d}, m, n});
-}
+    TEST_CASE("tessellation: any rates of a quad give faces that turn left, cover it and share every edge inside") {
+        for (const std::uint32_t a : {1u, 2u, 3u, 7u})
+            for (const std::uint32_t b : {1u, 2u, 5u})
+                for (const std::uint32_t c : {1u, 2u, 4u})
+                    for (const std::uint32_t d : {1u, 2u, 3u})
+                        for (const std::uint32_t m : {1u, 2u, 6u})
+                            for (const std::uint32_t n : {1u, 2u, 3u}) check_covers({4, {a, b, c, d}, m, n});
+    }
 
-TEST_CASE("tessellation: any rates of a triangle give faces that turn left, cover it and share every edge inside") {
-    for (const std::uint32_t a : {1u, 2u, 3u, 7u})
-        for (const std::uint32_t b : {1u, 2u, 5u})
-            for (const std::uint32_t c : {1u, 2u, 4u})
-                for (const std::uint32_t m : {1u, 2u, 3u, 4u, 8u}) check_covers({3, {a, b, c, 1}, m, m});
-}
+    TEST_CASE("tessellation: any rates of a triangle give faces that turn left, cover it and share every edge inside") {
+        for (const std::uint32_t a : {1u, 2u, 3u, 7u})
+            for (const std::uint32_t b : {1u, 2u, 5u})
+                for (const std::uint32_t c : {1u, 2u, 4u})
+                    for (const std::uint32_t m : {1u, 2u, 3u, 4u, 8u}) check_covers({3, {a, b, c, 1}, m, m});
+    }
 
-TEST_CASE("tessellation: equal rates give quads on a quad, triangles on a triangle") {
-    CHECK(cut({4, {5, 5, 5, 5}, 5, 5}).mesh.corners() == 4 * 25);
-    CHECK(cut({4, {5, 3, 5, 3}, 5, 3}).mesh.corners() == 4 * 15);
-    CHECK(cut({3, {5, 5, 5, 1}, 5, 5}).mesh.corners() == 3 * 25);
-}
+    TEST_CASE("tessellation: equal rates give quads on a quad, triangles on a triangle") {
+        CHECK(cut({4, {5, 5, 5, 5}, 5, 5}).mesh.corners() == 4 * 25);
+        CHECK(cut({4, {5, 3, 5, 3}, 5, 3}).mesh.corners() == 4 * 15);
+        CHECK(cut({3, {5, 5, 5, 1}, 5, 5}).mesh.corners() == 3 * 25);
+    }
 
-TEST_CASE("tessellation: sides of one or two segments need no point inside") {
-    const Cut c = cut({4, {2, 1, 1, 1}, 1, 1});
-    CHECK(c.places.size() == 5);
-    CHECK(c.mesh.faces() == 3);
-    CHECK(cut({3, {2, 2, 1, 1}, 1, 1}).mesh.faces() == 3);
-    CHECK(cut({4, {5, 1, 3, 1}, 1, 1}).places.size() == 4 + 4 + 2);
-}
+    TEST_CASE("tessellation: sides of one or two segments need no point inside") {
+        const Cut c = cut({4, {2, 1, 1, 1}, 1, 1});
+        CHECK(c.places.size() == 5);
+        CHECK(c.mesh.faces() == 3);
+        CHECK(cut({3, {2, 2, 1, 1}, 1, 1}).mesh.faces() == 3);
+        CHECK(cut({4, {5, 1, 3, 1}, 1, 1}).places.size() == 4 + 4 + 2);
+    }
 
-TEST_CASE("tessellation: a quad whose side is one point becomes triangles, and one of two points nothing") {
-    const auto corner = [](std::uint32_t i) { return FaceCorner{i, i, i}; };
-    Mesh mesh;
-    mesh.face_begin.resize(2), mesh.corner_position.resize(3), mesh.corner_normal.resize(3);
-    FaceCounter count;
-    FaceWriter writer(mesh, 0, 0);
-    count.quad(corner(7), corner(7), corner(1), corner(2));
-    writer.quad(corner(7), corner(7), corner(1), corner(2));
-    CHECK(count.faces == 1);
-    CHECK(count.corners == 3);
-    CHECK(mesh.corner_position == std::vector<std::uint32_t>{7, 1, 2});
-    count.quad(corner(7), corner(7), corner(1), corner(1));
-    writer.quad(corner(7), corner(7), corner(1), corner(1));
-    count.triangle(corner(7), corner(7), corner(1));
-    writer.triangle(corner(7), corner(7), corner(1));
-    CHECK(count.faces == 1);
-    CHECK(writer.faces() == 1);
-}
+    TEST_CASE("tessellation: a quad whose side is one point becomes triangles, and one of two points nothing") {
+        const auto corner = [](std::uint32_t i) { return FaceCorner{i, i, i}; };
+        Mesh mesh;
+        mesh.face_begin.resize(2), mesh.corner_position.resize(3), mesh.corner_normal.resize(3);
+        FaceCounter count;
+        FaceWriter writer(mesh, 0, 0);
+        count.quad(corner(7), corner(7), corner(1), corner(2));
+        writer.quad(corner(7), corner(7), corner(1), corner(2));
+        CHECK(count.faces == 1);
+        CHECK(count.corners == 3);
+        CHECK(mesh.corner_position == std::vector<std::uint32_t>{7, 1, 2});
+        count.quad(corner(7), corner(7), corner(1), corner(1));
+        writer.quad(corner(7), corner(7), corner(1), corner(1));
+        count.triangle(corner(7), corner(7), corner(1));
+        writer.triangle(corner(7), corner(7), corner(1));
+        CHECK(count.faces == 1);
+        CHECK(writer.faces() == 1);
+    }
 
 } // TEST_SUITE

@@ -3,7 +3,6 @@
 
 using namespace bake;
 using namespace bake::test;
-using oracle::pi;
 
 namespace {
 
@@ -17,7 +16,8 @@ Relief vectors(double amplitude, VectorSpace space) {
     r.values = Image<float>(512, 512, 3);
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 512; ++x)
-            for (int c = 0; c < 3; ++c) r.values.at(x, y, c) = float(0.5 + 0.5 * field((x + 0.5) / 512, 1 - (y + 0.5) / 512)[c]);
+            for (int c = 0; c < 3; ++c)
+                r.values.at(x, y, c) = float(0.5 + 0.5 * field((x + 0.5) / 512, 1 - (y + 0.5) / 512)[c]);
     r.height.amplitude = 2 * amplitude;
     r.vector = space;
     return r;
@@ -37,47 +37,49 @@ Vec3d displaced_torus(double u, double v, double amplitude, VectorSpace space) {
 
 TEST_SUITE("oracle") {
 
-TEST_CASE("displace: vectors in object and tangent space against the closed form of a torus") {
-    const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 16, 8);
-    DisplaceOptions options;
-    options.rates.levels = 3;
-    for (const VectorSpace space : {VectorSpace::object, VectorSpace::tangent}) {
-        CAPTURE(int(space));
-        const Displaced out = displace(base, vectors(0.05, space), options);
-        check_sound(out.mesh);
-        double position = 0, normal = 0;
-        for (std::size_t c = 0; c < out.mesh.corners(); ++c) {
-            const Vec2d uv(out.mesh.uvs[out.mesh.corner_uv[c]]);
-            const auto at = [&](double u, double v) { return displaced_torus(u, v, 0.05, space); };
-            const double h = 1e-5;
-            const Vec3d N = glm::cross(at(uv.x + h, uv.y) - at(uv.x - h, uv.y), at(uv.x, uv.y + h) - at(uv.x, uv.y - h));
-            position = std::max(position, glm::length(at(uv.x, uv.y) - Vec3d(out.mesh.positions[out.mesh.corner_position[c]])));
-            normal = std::max(normal, oracle::angle_deg(N, Vec3d(out.mesh.normals[out.mesh.corner_normal[c]])));
+    TEST_CASE("displace: vectors in object and tangent space against the closed form of a torus") {
+        const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 16, 8);
+        DisplaceOptions options;
+        options.rates.levels = 3;
+        for (const VectorSpace space : {VectorSpace::object, VectorSpace::tangent}) {
+            CAPTURE(int(space));
+            const Displaced out = displace(base, vectors(0.05, space), options);
+            check_sound(out.mesh);
+            double position = 0, normal = 0;
+            for (std::size_t c = 0; c < out.mesh.corners(); ++c) {
+                const Vec2d uv(out.mesh.uvs[out.mesh.corner_uv[c]]);
+                const auto at = [&](double u, double v) { return displaced_torus(u, v, 0.05, space); };
+                const double h = 1e-5;
+                const Vec3d N =
+                    glm::cross(at(uv.x + h, uv.y) - at(uv.x - h, uv.y), at(uv.x, uv.y + h) - at(uv.x, uv.y - h));
+                position = std::max(
+                    position, glm::length(at(uv.x, uv.y) - Vec3d(out.mesh.positions[out.mesh.corner_position[c]])));
+                normal = std::max(normal, oracle::angle_deg(N, Vec3d(out.mesh.normals[out.mesh.corner_normal[c]])));
+            }
+            CHECK(position < 3e-6); // 1e-6 of the diagonal
+            CHECK(normal < 0.01);
         }
-        CHECK(position < 3e-6); // 1e-6 of the diagonal
-        CHECK(normal < 0.01);
     }
-}
 
-TEST_CASE("displace: tangent vectors turn with the chart: its x runs along +u, also where the chart is mirrored") {
-    for (const bool mirrored : {false, true}) {
-        const float w = mirrored ? -1.0f : 1.0f;
-        const BaseSurface base(polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}},
-                                        {{0, 0}, {w, 0}, {w, 1}, {0, 1}}));
-        Relief r;
-        r.values = Image<float>(1, 1, 3);
-        r.values.at(0, 0, 0) = 1, r.values.at(0, 0, 1) = 0.5f, r.values.at(0, 0, 2) = 0.25f;
-        r.height = {.amplitude = 1, .midlevel = 0};
-        r.vector = VectorSpace::tangent;
-        const Displaced out = displace(base, r);
-        // +u is -x on the mirrored chart, +v is +y on both.
-        float lowest = 10;
-        for (const Vec3f& p : out.mesh.positions) lowest = std::min(lowest, p.x);
-        CHECK(lowest == doctest::Approx(mirrored ? -1 : 1));
-        CHECK(bounds(out.mesh).min.y == doctest::Approx(0.5));
-        CHECK(bounds(out.mesh).min.z == doctest::Approx(0.25));
-        for (const Vec3f& n : out.mesh.normals) CHECK(n.z == doctest::Approx(1));
+    TEST_CASE("displace: tangent vectors turn with the chart: its x runs along +u, also where the chart is mirrored") {
+        for (const bool mirrored : {false, true}) {
+            const float w = mirrored ? -1.0f : 1.0f;
+            const BaseSurface base(polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}},
+                                            {{0, 0}, {w, 0}, {w, 1}, {0, 1}}));
+            Relief r;
+            r.values = Image<float>(1, 1, 3);
+            r.values.at(0, 0, 0) = 1, r.values.at(0, 0, 1) = 0.5f, r.values.at(0, 0, 2) = 0.25f;
+            r.height = {.amplitude = 1, .midlevel = 0};
+            r.vector = VectorSpace::tangent;
+            const Displaced out = displace(base, r);
+            // +u is -x on the mirrored chart, +v is +y on both.
+            float lowest = 10;
+            for (const Vec3f& p : out.mesh.positions) lowest = std::min(lowest, p.x);
+            CHECK(lowest == doctest::Approx(mirrored ? -1 : 1));
+            CHECK(bounds(out.mesh).min.y == doctest::Approx(0.5));
+            CHECK(bounds(out.mesh).min.z == doctest::Approx(0.25));
+            for (const Vec3f& n : out.mesh.normals) CHECK(n.z == doctest::Approx(1));
+        }
     }
-}
 
 } // TEST_SUITE

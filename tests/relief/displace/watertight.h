@@ -1,8 +1,8 @@
 // Whether a displaced mesh has cracks: its border beside what the base's border becomes at the rates it was cut with.
 #pragma once
 #include "bake/base/error.h"
-#include "bake/relief/displace/rates.h"
 #include "bake/mesh/weld.h"
+#include "bake/relief/displace/rates.h"
 #include "relief/displace/displace_meshes.h"
 
 namespace bake::test {
@@ -19,7 +19,8 @@ inline Border border_of(const Mesh& mesh) {
     edges.reserve(mesh.corners());
     for (std::size_t f = 0; f < mesh.faces(); ++f)
         for (std::uint32_t c = mesh.face_begin[f], last = mesh.face_begin[f + 1] - 1; c <= last; ++c)
-            edges.push_back(std::minmax(mesh.corner_position[c], mesh.corner_position[c < last ? c + 1 : mesh.face_begin[f]]));
+            edges.push_back(
+                std::minmax(mesh.corner_position[c], mesh.corner_position[c < last ? c + 1 : mesh.face_begin[f]]));
     std::sort(edges.begin(), edges.end());
     Border border;
     std::vector<bool> on_border(mesh.positions.size());
@@ -80,8 +81,11 @@ inline Cracks cracks_of(const Mesh& mesh, const BaseSurface& base, const RatePla
     const Border planned = border_of(base, plan), found = border_of(mesh);
     Mesh welded = mesh;
     weld_positions(welded);
-    const auto more = [](std::size_t a, std::size_t b) { return static_cast<long long>(a) - static_cast<long long>(b); };
-    return {more(found.edges, planned.edges), more(found.points, planned.points), more(found.edges, border_of(welded).edges)};
+    const auto more = [](std::size_t a, std::size_t b) {
+        return static_cast<long long>(a) - static_cast<long long>(b);
+    };
+    return {more(found.edges, planned.edges), more(found.points, planned.points),
+            more(found.edges, border_of(welded).edges)};
 }
 
 /// Patches two of whose sides are cut differently.
@@ -90,7 +94,8 @@ inline std::size_t mixed_patches(const BaseSurface& base, const RatePlan& plan) 
     std::size_t mixed = 0;
     for (const PatchComplex::Patch& patch : cells.complex().patches) {
         bool differ = false;
-        for (int i = 1; i < patch.sides(); ++i) differ |= plan.rates.of_edge(patch.edge[i]) != plan.rates.of_edge(patch.edge[0]);
+        for (int i = 1; i < patch.sides(); ++i)
+            differ |= plan.rates.of_edge(patch.edge[i]) != plan.rates.of_edge(patch.edge[0]);
         mixed += differ;
     }
     return mixed;

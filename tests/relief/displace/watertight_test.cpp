@@ -36,82 +36,95 @@ void check_whole(const BaseSurface& base, const Rates& rates, Seam seam) {
     CHECK(cracks.t_junctions == 0);
     CHECK(cracks.parted == 0);
     check_sound(noisy.displaced.mesh);
-    if (rates.rule != Rates::Rule::uniform && base.complex().patches.size() > 1) CHECK(mixed_patches(base, noisy.plan) > 0);
+    if (rates.rule != Rates::Rule::uniform && base.complex().patches.size() > 1)
+        CHECK(mixed_patches(base, noisy.plan) > 0);
 }
 
 } // namespace
 
 TEST_SUITE("unit") {
 
-TEST_CASE("watertight: a corner on a point of its own, at the same place or beside it, is a crack and seen") {
-    const BaseSurface base(cube());
-    Noisy noisy = displaced_by_noise(base, mixed_rates(base.mesh(), 60), Seam::average);
-    REQUIRE_FALSE(cracks_of(noisy.displaced.mesh, base, noisy.plan).any());
-    Mesh& mesh = noisy.displaced.mesh;
-    mesh.positions.push_back(mesh.positions[mesh.corner_position[0]]);
-    mesh.corner_position[0] = std::uint32_t(mesh.positions.size() - 1);
-    const Cracks parted = cracks_of(mesh, base, noisy.plan);
-    CHECK(parted.border_edges == 4);
-    CHECK(parted.t_junctions > 0);
-    CHECK(parted.parted == 4);
-    mesh.positions.back().x += 1e-6f;
-    const Cracks open = cracks_of(mesh, base, noisy.plan);
-    CHECK(open.border_edges == 4);
-    CHECK(open.parted == 0);
-}
+    TEST_CASE("watertight: a corner on a point of its own, at the same place or beside it, is a crack and seen") {
+        const BaseSurface base(cube());
+        Noisy noisy = displaced_by_noise(base, mixed_rates(base.mesh(), 60), Seam::average);
+        REQUIRE_FALSE(cracks_of(noisy.displaced.mesh, base, noisy.plan).any());
+        Mesh& mesh = noisy.displaced.mesh;
+        mesh.positions.push_back(mesh.positions[mesh.corner_position[0]]);
+        mesh.corner_position[0] = std::uint32_t(mesh.positions.size() - 1);
+        const Cracks parted = cracks_of(mesh, base, noisy.plan);
+        CHECK(parted.border_edges == 4);
+        CHECK(parted.t_junctions > 0);
+        CHECK(parted.parted == 4);
+        mesh.positions.back().x += 1e-6f;
+        const Cracks open = cracks_of(mesh, base, noisy.plan);
+        CHECK(open.border_edges == 4);
+        CHECK(open.parted == 0);
+    }
 
 } // TEST_SUITE
 
 TEST_SUITE("real") {
 
-TEST_CASE("displace: no mesh of others gets a boundary edge that it did not have, at uniform rates") {
-    const auto files = shared_meshes();
-    if (files.empty()) {
-        MESSAGE("no shared data: skipped");
-        return;
+    TEST_CASE("displace: no mesh of others gets a boundary edge that it did not have, at uniform rates") {
+        const auto files = shared_meshes();
+        if (files.empty()) {
+            MESSAGE("no shared data: skipped");
+            return;
+        }
+        for (const fs::path& file : files) {
+            CAPTURE(file.string());
+            const BaseSurface base(read_with_uvs(file));
+            const std::size_t faces = base.mesh().faces();
+            const int levels = faces > 15000 ? 0 : faces > 5000 ? 1 : 2;
+            check_whole(base, uniform(levels), Seam::average);
+            if (faces > 5000) continue;
+            // Hangs together as before, flipped faces and all.
+            const Topology before = check(base.mesh()).welded;
+            const Topology after =
+                check(displaced_by_noise(base, uniform(levels), Seam::average).displaced.mesh).topology;
+            CHECK(after.boundary_loops == before.boundary_loops);
+            CHECK(after.boundary_edges == before.boundary_edges << levels);
+            CHECK(after.components == before.components);
+            CHECK(after.closed_components == before.closed_components);
+            CHECK((after.flipped_faces > 0) == (before.flipped_faces > 0));
+        }
     }
-    for (const fs::path& file : files) {
-        CAPTURE(file.string());
-        const BaseSurface base(read_with_uvs(file));
-        const std::size_t faces = base.mesh().faces();
-        const int levels = faces > 15000 ? 0 : faces > 5000 ? 1 : 2;
-        check_whole(base, uniform(levels), Seam::average);
-        if (faces > 5000) continue;
-        // Hangs together as before, flipped faces and all.
-        const Topology before = check(base.mesh()).welded;
-        const Topology after = check(displaced_by_noise(base, uniform(levels), Seam::average).displaced.mesh).topology;
-        CHECK(after.boundary_loops == before.boundary_loops);
-        CHECK(after.boundary_edges == before.boundary_edges << levels);
-        CHECK(after.components == before.components);
-        CHECK(after.closed_components == before.closed_components);
-        CHECK((after.flipped_faces > 0) == (before.flipped_faces > 0));
-    }
-}
 
-TEST_CASE("displace: no mesh of others gets a crack where rates differ from edge to edge") {
-    for (const fs::path& file : shared_meshes()) {
-        CAPTURE(file.string());
-        const BaseSurface base(read_with_uvs(file));
-        const std::size_t faces = base.mesh().faces();
-        check_whole(base, mixed_rates(base.mesh(), (faces > 15000 ? 0.2 : faces > 5000 ? 1 : 2) * double(faces)), Seam::average);
+    TEST_CASE("displace: no mesh of others gets a crack where rates differ from edge to edge") {
+        for (const fs::path& file : shared_meshes()) {
+            CAPTURE(file.string());
+            const BaseSurface base(read_with_uvs(file));
+            const std::size_t faces = base.mesh().faces();
+            check_whole(base,
+                        mixed_rates(base.mesh(), (faces > 15000  ? 0.2
+                                                  : faces > 5000 ? 1
+                                                                 : 2) *
+                                                     double(faces)),
+                        Seam::average);
+        }
     }
-}
 
-TEST_CASE("displace: the limit surface of every cage of others stays whole at uniform and at mixed rates") {
-    int cages = 0;
-    for (const fs::path& file : shared_meshes()) {
-        CAPTURE(file.string());
-        Mesh cage = read_with_uvs(file);
-        const std::size_t faces = cage.faces();
-        const Scheme scheme = cage.corners() == 3 * faces ? Scheme::loop : Scheme::catmark;
-        if (faces > 6500 || !is_cage(cage, scheme)) continue; // the sweep has those
-        ++cages;
-        // Fewer levels of isolation: those of large cages take most of the time, and no crack depends on them.
-        const BaseSurface base(std::move(cage), SubdivisionOptions{.scheme = scheme, .isolation = faces > 500 ? 3 : 10});
-        check_whole(base, uniform(faces > 5000 ? 0 : faces > 500 ? 1 : 3), Seam::blend);
-        check_whole(base, mixed_rates(base.mesh(), (faces > 5000 ? 0.5 : faces > 500 ? 1 : 4) * double(faces)), Seam::blend);
+    TEST_CASE("displace: the limit surface of every cage of others stays whole at uniform and at mixed rates") {
+        int cages = 0;
+        for (const fs::path& file : shared_meshes()) {
+            CAPTURE(file.string());
+            Mesh cage = read_with_uvs(file);
+            const std::size_t faces = cage.faces();
+            const Scheme scheme = cage.corners() == 3 * faces ? Scheme::loop : Scheme::catmark;
+            if (faces > 6500 || !is_cage(cage, scheme)) continue; // the sweep has those
+            ++cages;
+            // Fewer levels of isolation: those of large cages take most of the time, and no crack depends on them.
+            const BaseSurface base(std::move(cage),
+                                   SubdivisionOptions{.scheme = scheme, .isolation = faces > 500 ? 3 : 10});
+            check_whole(base, uniform(faces > 5000 ? 0 : faces > 500 ? 1 : 3), Seam::blend);
+            check_whole(base,
+                        mixed_rates(base.mesh(), (faces > 5000  ? 0.5
+                                                  : faces > 500 ? 1
+                                                                : 4) *
+                                                     double(faces)),
+                        Seam::blend);
+        }
+        if (!shared_meshes().empty()) CHECK(cages > 20);
     }
-    if (!shared_meshes().empty()) CHECK(cages > 20);
-}
 
 } // TEST_SUITE

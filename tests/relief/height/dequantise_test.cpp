@@ -6,7 +6,6 @@
 #include <filesystem>
 
 using namespace bake;
-using oracle::pi;
 using oracle::TorusRelief;
 
 namespace {
@@ -15,7 +14,8 @@ Image<float> plane_map(const HeightTexture& height, double amplitude, const Vec2
     NormalMapOptions options;
     options.width = height.values.width(), options.height = height.values.height();
     options.height_options.amplitude = amplitude;
-    return normal_map(HeightField(height, options.height_options, filter, options.width, options.height), extent, options);
+    return normal_map(HeightField(height, options.height_options, filter, options.width, options.height), extent,
+                      options);
 }
 
 Vec3d normal_at(const Image<float>& map, int x, int y) {
@@ -65,7 +65,8 @@ Errors rounded_error(const std::string& path, Filter filter) {
     const Vec2d extent = resolve_extent(0, 0, values.width(), values.height());
     const Image<float> truth = plane_map(fine, 0.05, extent, Filter::c2);
     const auto error = [&] {
-        return mean_error(plane_map(coarse, 0.05, extent, filter), [&](int x, int y) { return normal_at(truth, x, y); });
+        return mean_error(plane_map(coarse, 0.05, extent, filter),
+                          [&](int x, int y) { return normal_at(truth, x, y); });
     };
     const double stored = error();
     dequantise(coarse, Wrap::repeat, Wrap::repeat);
@@ -85,33 +86,34 @@ std::filesystem::path source_folder() {
 
 TEST_SUITE("oracle") {
 
-TEST_CASE("dequantise: the gentler the relief the more it helps, and on a steep one it does no more than a tenth of harm") {
-    double share = 2;
-    for (const TorusRelief& r : {TorusRelief{0.01, 24, 12}, {0.01, 12, 6}, {0.01, 6, 4}, {0.01, 3, 2}})
-        for (const Filter filter : {Filter::sobel, Filter::c2}) {
-            const Errors e = waves_error(r, filter);
-            say(std::to_string(r.k) + " x " + std::to_string(r.m) + " waves, " + std::string(name(filter)), e);
-            CHECK(e.dequantised < 1.1 * e.stored);
-            if (filter == Filter::c2) continue;
-            CHECK(e.dequantised / e.stored < share);
-            share = e.dequantised / e.stored;
-        }
-    CHECK(share < 0.2);
-}
+    TEST_CASE("dequantise: the gentler the relief the more it helps, and on a steep one it does no more than a tenth "
+              "of harm") {
+        double share = 2;
+        for (const TorusRelief& r : {TorusRelief{0.01, 24, 12}, {0.01, 12, 6}, {0.01, 6, 4}, {0.01, 3, 2}})
+            for (const Filter filter : {Filter::sobel, Filter::c2}) {
+                const Errors e = waves_error(r, filter);
+                say(std::to_string(r.k) + " x " + std::to_string(r.m) + " waves, " + std::string(name(filter)), e);
+                CHECK(e.dequantised < 1.1 * e.stored);
+                if (filter == Filter::c2) continue;
+                CHECK(e.dequantised / e.stored < share);
+                share = e.dequantised / e.stored;
+            }
+        CHECK(share < 0.2);
+    }
 }
 
 TEST_SUITE("stability") {
 
-TEST_CASE("dequantise: on heights with detail it may do harm, and the page says so") {
-    std::vector<std::filesystem::path> heights = {source_folder() / "meshes/bricks.png"};
-    const auto data = source_folder() / "../shared/data/textures/heights";
-    for (const char* more : {"crater_dat.png", "terrain3d_mountain1.exr", "terrain3d_stones.exr"})
-        if (std::filesystem::exists(data / more)) heights.push_back(data / more);
-    for (const auto& path : heights)
-        for (const Filter filter : {Filter::sobel, Filter::c2}) {
-            const Errors e = rounded_error(path.string(), filter);
-            say(path.filename().string() + ", " + std::string(name(filter)), e);
-            CHECK(e.dequantised < 3 * e.stored);
-        }
-}
+    TEST_CASE("dequantise: on heights with detail it may do harm, and the page says so") {
+        std::vector<std::filesystem::path> heights = {source_folder() / "meshes/bricks.png"};
+        const auto data = source_folder() / "../shared/data/textures/heights";
+        for (const char* more : {"crater_dat.png", "terrain3d_mountain1.exr", "terrain3d_stones.exr"})
+            if (std::filesystem::exists(data / more)) heights.push_back(data / more);
+        for (const auto& path : heights)
+            for (const Filter filter : {Filter::sobel, Filter::c2}) {
+                const Errors e = rounded_error(path.string(), filter);
+                say(path.filename().string() + ", " + std::string(name(filter)), e);
+                CHECK(e.dequantised < 3 * e.stored);
+            }
+    }
 }

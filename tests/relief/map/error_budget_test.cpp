@@ -5,7 +5,6 @@
 #include <filesystem>
 
 using namespace bake;
-using oracle::pi;
 using oracle::relief_options;
 using oracle::relief_texture;
 using oracle::TorusRelief;
@@ -14,8 +13,9 @@ namespace {
 
 /// The promise of error_budget: the measured rms lies within the total, and the total within 3 times the measured rms.
 void check_budget(const ErrorBudget& budget, double measured_rms) {
-    MESSAGE("budget " << budget.total_deg << " (filter " << budget.filter_deg << ", quantisation " << budget.quantisation_deg << ", encoding "
-                      << budget.encoding_deg << ", method " << budget.method_deg << ") against " << measured_rms << " deg measured, x"
+    MESSAGE("budget " << budget.total_deg << " (filter " << budget.filter_deg << ", quantisation "
+                      << budget.quantisation_deg << ", encoding " << budget.encoding_deg << ", method "
+                      << budget.method_deg << ") against " << measured_rms << " deg measured, x"
                       << budget.total_deg / measured_rms);
     CHECK(measured_rms <= budget.total_deg);
     CHECK(budget.total_deg <= 3 * measured_rms);
@@ -30,7 +30,8 @@ template <class Slope> double plane_rms(const Image<float>& map, const Vec2d& ex
         for (int x = 0; x < map.width(); ++x) {
             const Vec3f rgb = stored_normal({map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2)}, depth);
             const Vec2d s = slope(x, y);
-            const double angle = oracle::angle_deg(Vec3d(decode_normal(rgb, false)), {-s.x / extent.x, -s.y / extent.y, 1});
+            const double angle =
+                oracle::angle_deg(Vec3d(decode_normal(rgb, false)), {-s.x / extent.x, -s.y / extent.y, 1});
             sum += angle * angle;
         }
     return std::sqrt(sum / (double(map.width()) * map.height()));
@@ -121,107 +122,122 @@ Resampled resample(const Image<float>& fine, int bits) {
 
 TEST_SUITE("oracle") {
 
-TEST_CASE("error_budget: holds on the torus, by height depth, map depth and method") {
-    const Mesh mesh = oracle::torus_mesh(1024, 512);
-    const TorusRelief r;
-    const BakeTarget target = make_bake_target(mesh, "torus", 512, 512);
-    const struct { int height_bits; Depth depth; Filter filter; NormalMethod method; } cases[] = {
-        {8, Depth::u16, Filter::automatic, NormalMethod::exact}, {8, Depth::u8, Filter::automatic, NormalMethod::exact},
-        {8, Depth::u16, Filter::c2, NormalMethod::exact},        {0, Depth::u16, Filter::central, NormalMethod::exact},
-        {0, Depth::half, Filter::automatic, NormalMethod::exact}, {16, Depth::u16, Filter::sobel, NormalMethod::blinn},
-        {16, Depth::u16, Filter::automatic, NormalMethod::lecture}};
-    for (const auto& c : cases) {
-        CAPTURE(c.height_bits);
-        const HeightTexture height = relief_texture(r, 512, c.height_bits);
-        const NormalMapOptions options = relief_options(r, 512, c.filter, c.method);
-        const HeightField field(height, options.height_options, c.filter, 512, 512);
-        NormalMapReport report;
-        Image<float> map = normal_map(field, target, options, report);
-        if (c.depth == Depth::half)
-            for (std::size_t i = 0; i < map.size(); ++i) map.data()[i] = as_half(map.data()[i]);
-        const auto errors = oracle::map_errors(map, target, bits_of(c.depth), [&](double u, double v) { return oracle::relief_normal(r, u, v); });
-        check_budget(error_budget(mesh_budget(height, field, options, target, c.depth)), oracle::spread(errors).rms);
+    TEST_CASE("error_budget: holds on the torus, by height depth, map depth and method") {
+        const Mesh mesh = oracle::torus_mesh(1024, 512);
+        const TorusRelief r;
+        const BakeTarget target = make_bake_target(mesh, "torus", 512, 512);
+        const struct {
+            int height_bits;
+            Depth depth;
+            Filter filter;
+            NormalMethod method;
+        } cases[] = {{8, Depth::u16, Filter::automatic, NormalMethod::exact},
+                     {8, Depth::u8, Filter::automatic, NormalMethod::exact},
+                     {8, Depth::u16, Filter::c2, NormalMethod::exact},
+                     {0, Depth::u16, Filter::central, NormalMethod::exact},
+                     {0, Depth::half, Filter::automatic, NormalMethod::exact},
+                     {16, Depth::u16, Filter::sobel, NormalMethod::blinn},
+                     {16, Depth::u16, Filter::automatic, NormalMethod::lecture}};
+        for (const auto& c : cases) {
+            CAPTURE(c.height_bits);
+            const HeightTexture height = relief_texture(r, 512, c.height_bits);
+            const NormalMapOptions options = relief_options(r, 512, c.filter, c.method);
+            const HeightField field(height, options.height_options, c.filter, 512, 512);
+            NormalMapReport report;
+            Image<float> map = normal_map(field, target, options, report);
+            if (c.depth == Depth::half)
+                for (std::size_t i = 0; i < map.size(); ++i) map.data()[i] = as_half(map.data()[i]);
+            const auto errors = oracle::map_errors(map, target, bits_of(c.depth),
+                                                   [&](double u, double v) { return oracle::relief_normal(r, u, v); });
+            check_budget(error_budget(mesh_budget(height, field, options, target, c.depth)),
+                         oracle::spread(errors).rms);
+        }
     }
-}
 
-TEST_CASE("error_budget: holds on the sphere, poles included") {
-    const Mesh mesh = sphere_mesh(512, 1024);
-    const TorusRelief r{0.005, 16, 8};
-    const BakeTarget target = make_bake_target(mesh, "sphere", 512, 256);
-    for (const int bits : {8, 0}) {
-        HeightTexture height;
-        height.values = Image<float>(512, 256, 1);
-        const HeightTexture square = relief_texture(r, 512, bits);
-        for (int y = 0; y < 256; ++y)
-            for (int x = 0; x < 512; ++x) {
-                const double value = oracle::relief(r, (x + 0.5) / 512, 1 - (y + 0.5) / 256).b / (2 * r.A) + 0.5;
-                height.values.at(x, y) = float(bits ? std::round(value * 255) / 255 : value);
-            }
-        height.levels = square.levels, height.step = square.step;
-        NormalMapOptions options = relief_options(r, 512, Filter::automatic);
-        options.height = 256;
-        options.height_options.wrap_v = Wrap::repeat;
-        const HeightField field(height, options.height_options, Filter::automatic, 512, 256);
-        NormalMapReport report;
-        const Image<float> map = normal_map(field, target, options, report);
-        const auto errors = oracle::map_errors(map, target, 16, [&](double u, double v) {
-            const Jet<double> s = oracle::sphere(1, 2 * pi * u, pi * (v - 0.5));
-            const Height<double> h = oracle::relief(r, u, v);
-            return glm::cross(2 * pi * s.p_u + h.b_u * s.n + 2 * pi * h.b * s.n_u, pi * s.p_v + h.b_v * s.n + pi * h.b * s.n_v);
-        });
-        check_budget(error_budget(mesh_budget(height, field, options, target, Depth::u16)), oracle::spread(errors).rms);
+    TEST_CASE("error_budget: holds on the sphere, poles included") {
+        const Mesh mesh = sphere_mesh(512, 1024);
+        const TorusRelief r{0.005, 16, 8};
+        const BakeTarget target = make_bake_target(mesh, "sphere", 512, 256);
+        for (const int bits : {8, 0}) {
+            HeightTexture height;
+            height.values = Image<float>(512, 256, 1);
+            const HeightTexture square = relief_texture(r, 512, bits);
+            for (int y = 0; y < 256; ++y)
+                for (int x = 0; x < 512; ++x) {
+                    const double value = oracle::relief(r, (x + 0.5) / 512, 1 - (y + 0.5) / 256).b / (2 * r.A) + 0.5;
+                    height.values.at(x, y) = float(bits ? std::round(value * 255) / 255 : value);
+                }
+            height.levels = square.levels, height.step = square.step;
+            NormalMapOptions options = relief_options(r, 512, Filter::automatic);
+            options.height = 256;
+            options.height_options.wrap_v = Wrap::repeat;
+            const HeightField field(height, options.height_options, Filter::automatic, 512, 256);
+            NormalMapReport report;
+            const Image<float> map = normal_map(field, target, options, report);
+            const auto errors = oracle::map_errors(map, target, 16, [&](double u, double v) {
+                const Jet<double> s = oracle::sphere(1, 2 * pi * u, pi * (v - 0.5));
+                const Height<double> h = oracle::relief(r, u, v);
+                return glm::cross(2 * pi * s.p_u + h.b_u * s.n + 2 * pi * h.b * s.n_u,
+                                  pi * s.p_v + h.b_v * s.n + pi * h.b * s.n_v);
+            });
+            check_budget(error_budget(mesh_budget(height, field, options, target, Depth::u16)),
+                         oracle::spread(errors).rms);
+        }
     }
-}
 }
 
 TEST_SUITE("unit") {
 
-TEST_CASE("better_filter: advises the spline where steps are small against the detail, and sobel where they are not") {
-    const auto advice = [](const TorusRelief& r, int bits, Filter filter) {
-        const HeightTexture height = relief_texture(r, 512, bits);
-        const NormalMapOptions options = relief_options(r, 512, filter);
-        const HeightField field(height, options.height_options, filter, 512, 512);
-        const BudgetInput input = plane_budget(height, field, options, {1, 1}, Depth::u16);
-        return better_filter(input, error_budget(input));
-    };
-    // 8 texels a period: sobel loses a tenth of every slope, 8-bit steps cost less.
-    REQUIRE(advice({0.01, 64, 64}, 8, Filter::sobel));
-    CHECK(advice({0.01, 64, 64}, 8, Filter::sobel)->filter != Filter::sobel);
-    REQUIRE(advice({0.01, 3, 2}, 8, Filter::c2));
-    CHECK(advice({0.01, 3, 2}, 8, Filter::c2)->filter == Filter::sobel);
-    CHECK_FALSE(advice({0.01, 3, 2}, 8, Filter::sobel));
-    CHECK_FALSE(advice({0.01, 4, 4}, 0, Filter::c2)); // the encoding is all there is
-}
+    TEST_CASE(
+        "better_filter: advises the spline where steps are small against the detail, and sobel where they are not") {
+        const auto advice = [](const TorusRelief& r, int bits, Filter filter) {
+            const HeightTexture height = relief_texture(r, 512, bits);
+            const NormalMapOptions options = relief_options(r, 512, filter);
+            const HeightField field(height, options.height_options, filter, 512, 512);
+            const BudgetInput input = plane_budget(height, field, options, {1, 1}, Depth::u16);
+            return better_filter(input, error_budget(input));
+        };
+        // 8 texels a period: sobel loses a tenth of every slope, 8-bit steps cost less.
+        REQUIRE(advice({0.01, 64, 64}, 8, Filter::sobel));
+        CHECK(advice({0.01, 64, 64}, 8, Filter::sobel)->filter != Filter::sobel);
+        REQUIRE(advice({0.01, 3, 2}, 8, Filter::c2));
+        CHECK(advice({0.01, 3, 2}, 8, Filter::c2)->filter == Filter::sobel);
+        CHECK_FALSE(advice({0.01, 3, 2}, 8, Filter::sobel));
+        CHECK_FALSE(advice({0.01, 4, 4}, 0, Filter::c2)); // the encoding is all there is
+    }
 }
 
 TEST_SUITE("real") {
 
-TEST_CASE("error_budget: holds on three real heights resampled from finer ones") {
-    const char* source = std::getenv("BAKE_SOURCE");
-    const auto data = std::filesystem::path(source ? source : ".") / "../shared/data";
-    if (!std::filesystem::exists(data)) {
-        MESSAGE("no shared data: skipped");
-        return;
-    }
-    for (const char* name : {"meshes/leeperrysmith/Infinite-Level_02_Disp_NoSmoothUV-4096.jpg", "textures/pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg",
-                             "textures/heights/terrain3d_stones.exr"}) {
-        const HeightTexture fine = read_height((data / name).string());
-        for (const int bits : {8, 16, 0}) {
-            const Resampled r = resample(fine.values, bits);
-            const int width = r.coarse.values.width(), height = r.coarse.values.height();
-            const Vec2d extent(1, double(height) / width);
-            NormalMapOptions options;
-            options.width = width, options.height = height;
-            options.height_options.amplitude = 0.05;
-            for (const Filter filter : {Filter::automatic, Filter::central, Filter::c2}) {
-                options.filter = filter;
-                const HeightField field(r.coarse, options.height_options, filter, width, height);
-                const Image<float> map = normal_map(field, extent, options);
-                const double measured = plane_rms(map, extent, Depth::u16, [&](int x, int y) { return 0.05 * Vec2d(r.slope_u.at(x, y), r.slope_v.at(x, y)); });
-                MESSAGE(std::string(name) << ", " << bits << " bit, " << std::string(bake::name(filter)));
-                check_budget(error_budget(plane_budget(r.coarse, field, options, extent, Depth::u16)), measured);
+    TEST_CASE("error_budget: holds on three real heights resampled from finer ones") {
+        const char* source = std::getenv("BAKE_SOURCE");
+        const auto data = std::filesystem::path(source ? source : ".") / "../shared/data";
+        if (!std::filesystem::exists(data)) {
+            MESSAGE("no shared data: skipped");
+            return;
+        }
+        for (const char* name : {"meshes/leeperrysmith/Infinite-Level_02_Disp_NoSmoothUV-4096.jpg",
+                                 "textures/pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg",
+                                 "textures/heights/terrain3d_stones.exr"}) {
+            const HeightTexture fine = read_height((data / name).string());
+            for (const int bits : {8, 16, 0}) {
+                const Resampled r = resample(fine.values, bits);
+                const int width = r.coarse.values.width(), height = r.coarse.values.height();
+                const Vec2d extent(1, double(height) / width);
+                NormalMapOptions options;
+                options.width = width, options.height = height;
+                options.height_options.amplitude = 0.05;
+                for (const Filter filter : {Filter::automatic, Filter::central, Filter::c2}) {
+                    options.filter = filter;
+                    const HeightField field(r.coarse, options.height_options, filter, width, height);
+                    const Image<float> map = normal_map(field, extent, options);
+                    const double measured = plane_rms(map, extent, Depth::u16, [&](int x, int y) {
+                        return 0.05 * Vec2d(r.slope_u.at(x, y), r.slope_v.at(x, y));
+                    });
+                    MESSAGE(std::string(name) << ", " << bits << " bit, " << std::string(bake::name(filter)));
+                    check_budget(error_budget(plane_budget(r.coarse, field, options, extent, Depth::u16)), measured);
+                }
             }
         }
     }
-}
 }

@@ -45,42 +45,48 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 TEST_SUITE("real") {
 
-TEST_CASE("normal_map: from each real height, at least as close to the author's map as the manifest's figure") {
-    const char* source = std::getenv("BAKE_SOURCE");
-    const auto pairs = std::filesystem::path(source ? source : ".") / "../shared/data/textures/pairs";
-    if (!std::filesystem::exists(pairs)) {
-        MESSAGE("no shared data: skipped");
-        return;
+    TEST_CASE("normal_map: from each real height, at least as close to the author's map as the manifest's figure") {
+        const char* source = std::getenv("BAKE_SOURCE");
+        const auto pairs = std::filesystem::path(source ? source : ".") / "../shared/data/textures/pairs";
+        if (!std::filesystem::exists(pairs)) {
+            MESSAGE("no shared data: skipped");
+            return;
+        }
+        // Those of a stated correlation of .95 or more; least: its digits, less half of the last. scale: slope per unit of
+        // height per texel in the author's map.
+        const struct {
+            const char *height, *normals;
+            double least_x, least_y, scale;
+            bool inverted;
+        } known[] = {
+            {"ambientcg_Rock020/Rock020_1K_Displacement.jpg", "ambientcg_Rock020/Rock020_1K_Normal.jpg", .9985, .9985,
+             63, false},
+            {"ambientcg_Tiles036/Tiles036_1K_Displacement.jpg", "ambientcg_Tiles036/Tiles036_1K_Normal.jpg", .9945,
+             .9945, 3.5, false},
+            {"cube2_metal_tech_01/metal_tech_01_hm.png", "cube2_metal_tech_01/metal_tech_01_nm.png", .9995, .9995, 68.4,
+             false},
+            {"cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png",
+             "cube2_diamond_plate_big_gk/diamond_plate_big_gk_nm.png", .9975, .9975, 47, false},
+            {"cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png", "cube2_wall_plate_12_gk/wall_plate_12_gk_nm.png", .965,
+             .9955, 7.2, true},
+            {"cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png",
+             "cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_nm.png", .965, .945, 33, false},
+        };
+        for (const auto& k : known) {
+            HeightTexture height = read_height((pairs / k.height).string());
+            if (k.inverted) invert(height);
+            const Image<float> author = read_image((pairs / k.normals).string());
+            REQUIRE(author.width() == height.values.width());
+            NormalMapOptions options;
+            options.directx = true;
+            options.height_options.amplitude = k.scale / author.width(); // per unit of u on a picture one unit wide
+            const HeightField field(height, options.height_options, Filter::central, author.width(), author.height());
+            const Image<float> ours = normal_map(field, {1, double(author.height()) / author.width()}, options);
+            const double along_x = correlation(box_slopes(ours, 0, true), box_slopes(author, 0, true));
+            const double along_y = correlation(box_slopes(ours, 1, true), box_slopes(author, 1, true));
+            MESSAGE(std::string(k.height) << ": " << along_x << ", " << along_y);
+            CHECK(along_x >= k.least_x);
+            CHECK(along_y >= k.least_y);
+        }
     }
-    // Those of a stated correlation of .95 or more; least: its digits, less half of the last. scale: slope per unit of
-    // height per texel in the author's map.
-    const struct {
-        const char *height, *normals;
-        double least_x, least_y, scale;
-        bool inverted;
-    } known[] = {
-        {"ambientcg_Rock020/Rock020_1K_Displacement.jpg", "ambientcg_Rock020/Rock020_1K_Normal.jpg", .9985, .9985, 63, false},
-        {"ambientcg_Tiles036/Tiles036_1K_Displacement.jpg", "ambientcg_Tiles036/Tiles036_1K_Normal.jpg", .9945, .9945, 3.5, false},
-        {"cube2_metal_tech_01/metal_tech_01_hm.png", "cube2_metal_tech_01/metal_tech_01_nm.png", .9995, .9995, 68.4, false},
-        {"cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png", "cube2_diamond_plate_big_gk/diamond_plate_big_gk_nm.png", .9975, .9975, 47, false},
-        {"cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png", "cube2_wall_plate_12_gk/wall_plate_12_gk_nm.png", .965, .9955, 7.2, true},
-        {"cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png", "cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_nm.png", .965, .945, 33, false},
-    };
-    for (const auto& k : known) {
-        HeightTexture height = read_height((pairs / k.height).string());
-        if (k.inverted) invert(height);
-        const Image<float> author = read_image((pairs / k.normals).string());
-        REQUIRE(author.width() == height.values.width());
-        NormalMapOptions options;
-        options.directx = true;
-        options.height_options.amplitude = k.scale / author.width(); // per unit of u on a picture one unit wide
-        const HeightField field(height, options.height_options, Filter::central, author.width(), author.height());
-        const Image<float> ours = normal_map(field, {1, double(author.height()) / author.width()}, options);
-        const double along_x = correlation(box_slopes(ours, 0, true), box_slopes(author, 0, true));
-        const double along_y = correlation(box_slopes(ours, 1, true), box_slopes(author, 1, true));
-        MESSAGE(std::string(k.height) << ": " << along_x << ", " << along_y);
-        CHECK(along_x >= k.least_x);
-        CHECK(along_y >= k.least_y);
-    }
-}
 }

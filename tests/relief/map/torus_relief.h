@@ -61,7 +61,8 @@ inline bake::NormalMapOptions relief_options(const TorusRelief& r, int size, bak
 /// Angle of every texel between the map, decoded in the target's frames, and `truth(u, v)`, in degrees. `bits` rounds
 /// the map as a file of that depth does; 0 keeps floats.
 template <class Truth>
-std::vector<double> map_errors(const bake::Image<float>& map, const bake::BakeTarget& target, int bits, const Truth& truth) {
+std::vector<double> map_errors(const bake::Image<float>& map, const bake::BakeTarget& target, int bits,
+                               const Truth& truth) {
     std::vector<double> errors;
     errors.reserve(map.size() / 3);
     const auto largest = float(std::exp2(bits) - 1);
@@ -81,7 +82,8 @@ std::vector<double> map_errors(const bake::Image<float>& map, const bake::BakeTa
                 N += b[i] * Vec3d(target.surface.n[corner[i]]);
             }
             const Vec3d B = double(target.tangents[corner[0]].w) * glm::cross(N, T);
-            errors.push_back(angle_deg(t.x * T + t.y * B + t.z * N, truth((x + 0.5) / map.width(), 1 - (y + 0.5) / map.height())));
+            errors.push_back(
+                angle_deg(t.x * T + t.y * B + t.z * N, truth((x + 0.5) / map.width(), 1 - (y + 0.5) / map.height())));
         }
     return errors;
 }

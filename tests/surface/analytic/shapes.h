@@ -1,8 +1,8 @@
 // The analytic shapes of the tests: some of every kind, with the files that two of them need.
 #pragma once
-#include "mesh/file/mesh_files.h"
 #include "bake/base/text.h"
 #include "bake/surface/analytic/parametric.h"
+#include "mesh/file/mesh_files.h"
 #include <numbers>
 
 namespace bake_tests {
@@ -25,8 +25,10 @@ inline std::string octants() {
                 for (int i = 0; i < 4; ++i) {
                     const auto& level = up[half == 0 ? row : 3 - row];
                     const double c[4] = {1, 0, -1, 0}, s[4] = {0, 1, 0, -1};
-                    const double x = c[q] * round[i][0] - s[q] * round[i][1], z = s[q] * round[i][0] + c[q] * round[i][1];
-                    text += bake::format("%.17g %.17g %.17g\n", level[0] * x, half == 0 ? level[1] : -level[1], -level[0] * z);
+                    const double x = c[q] * round[i][0] - s[q] * round[i][1],
+                                 z = s[q] * round[i][0] + c[q] * round[i][1];
+                    text += bake::format("%.17g %.17g %.17g\n", level[0] * x, half == 0 ? level[1] : -level[1],
+                                         -level[0] * z);
                 }
     return text;
 }
@@ -36,7 +38,8 @@ inline std::string sheet() {
     std::string text = "1\n";
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
-            text += bake::format("%g %g %g\n", i + 0.3 * ((i * 7 + j * 3) % 4), 0.5 * ((i * 5 + j * 11) % 7), -j + 0.2 * ((i * 3 + j) % 5));
+            text += bake::format("%g %g %g\n", i + 0.3 * ((i * 7 + j * 3) % 4), 0.5 * ((i * 5 + j * 11) % 7),
+                                 -j + 0.2 * ((i * 3 + j) % 5));
     return text;
 }
 
@@ -47,13 +50,25 @@ struct Shapes {
                 sheet_file = folder.write("sheet.txt", sheet());
 
     std::vector<std::string> closed() const {
-        return {"sphere:R=1.3", "ellipsoid:a=1,b=0.6,c=0.8", "torus:R=2,r=0.7", "superellipsoid:e1=0.6,e2=0.8",
-                "revolution:profile=" + drop_file, "revolution:profile=" + ring_file, "bezier:file=" + octants_file};
+        return {"sphere:R=1.3",
+                "ellipsoid:a=1,b=0.6,c=0.8",
+                "torus:R=2,r=0.7",
+                "superellipsoid:e1=0.6,e2=0.8",
+                "revolution:profile=" + drop_file,
+                "revolution:profile=" + ring_file,
+                "bezier:file=" + octants_file};
     }
     std::vector<std::string> open() const {
-        return {"plane:w=2,d=3", "disc:R=1.5", "cylinder:R=0.7,h=3", "cone:R=1,h=1.5", "cone:R=1,h=1.5,r=0.4",
-                "helicoid:R=1.2,h=2,turns=1.5", "saddle:R=1,h=0.4", "revolution:profile=" + vase_file,
-                "revolution:pointed=1,profile=" + drop_file, "bezier:flip=1,file=" + sheet_file};
+        return {"plane:w=2,d=3",
+                "disc:R=1.5",
+                "cylinder:R=0.7,h=3",
+                "cone:R=1,h=1.5",
+                "cone:R=1,h=1.5,r=0.4",
+                "helicoid:R=1.2,h=2,turns=1.5",
+                "saddle:R=1,h=0.4",
+                "revolution:profile=" + vase_file,
+                "revolution:pointed=1,profile=" + drop_file,
+                "bezier:flip=1,file=" + sheet_file};
     }
     static std::vector<std::string> one_sided() { return {"moebius:R=1,w=0.8", "klein:R=1,r=0.4"}; }
     std::vector<std::string> all() const {

@@ -1,5 +1,5 @@
-#include "bake/surface/chart/uv_check.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/surface/chart/uv_check.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>

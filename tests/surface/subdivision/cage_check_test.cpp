@@ -1,5 +1,5 @@
-#include "mesh/file/mesh_files.h"
 #include "bake/surface/subdivision/subdivision.h"
+#include "mesh/file/mesh_files.h"
 #include "oracle/surfaces.h"
 #include "surface/subdivision/cages.h"
 
@@ -45,25 +45,31 @@ TEST_SUITE("unit") {
 
     TEST_CASE("check_cage: two faces of the same vertices count as duplicates however they are turned") {
         const std::vector<Vec3f> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {2, 3, 0, 1}})), "face 1 and face 2 lie on the same vertices"));
-        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {3, 2, 1, 0}})), "face 1 and face 2 lie on the same vertices"));
-        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {0, 2, 1, 3}})), "face 1 and face 2 lie on the same vertices"));
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {2, 3, 0, 1}})),
+                     "face 1 and face 2 lie on the same vertices"));
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {3, 2, 1, 0}})),
+                     "face 1 and face 2 lie on the same vertices"));
+        CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {0, 2, 1, 3}})),
+                     "face 1 and face 2 lie on the same vertices"));
     }
 
     TEST_CASE("check_cage: of several places the first is named") {
         Mesh cage = box();
-        for (const std::uint32_t f : {5u, 2u}) std::swap(cage.corner_position[4 * f + 1], cage.corner_position[4 * f + 3]);
+        for (const std::uint32_t f : {5u, 2u})
+            std::swap(cage.corner_position[4 * f + 1], cage.corner_position[4 * f + 3]);
         CHECK(begins(refusal(cage), "face 1 and face 6 run along the edge between vertex 1 and vertex 4 the same way"));
     }
 }
 
 TEST_SUITE("stability") {
     TEST_CASE("check_cage: a non-manifold edge is refused with its place") {
-        CHECK(begins(refusal_of_file("nonmanifold_edge.obj"), "three faces or more, among them face 1 and face 2, share the "
-                                                              "edge between vertex 1 and vertex 2; "));
+        CHECK(begins(refusal_of_file("nonmanifold_edge.obj"),
+                     "three faces or more, among them face 1 and face 2, share the "
+                     "edge between vertex 1 and vertex 2; "));
     }
     TEST_CASE("check_cage: a non-manifold vertex is refused with its place") {
-        CHECK(begins(refusal_of_file("nonmanifold_vertex.obj"), "face 1 and face 2 touch at vertex 3 without sharing an edge"));
+        CHECK(begins(refusal_of_file("nonmanifold_vertex.obj"),
+                     "face 1 and face 2 touch at vertex 3 without sharing an edge"));
         // Two closed fans, where counting corners and edges sees nothing.
         Mesh twins = box();
         const Mesh other = box();
@@ -78,8 +84,9 @@ TEST_SUITE("stability") {
         CHECK(begins(refusal(twins), "face 1 and face 7 touch at vertex 1 without sharing an edge"));
     }
     TEST_CASE("check_cage: a flipped face is refused with its place") {
-        CHECK(begins(refusal_of_file("flipped_face.obj"), "face 1 and face 6 run along the edge between vertex 1 and vertex 4 "
-                                                          "the same way; turn one of them round"));
+        CHECK(begins(refusal_of_file("flipped_face.obj"),
+                     "face 1 and face 6 run along the edge between vertex 1 and vertex 4 "
+                     "the same way; turn one of them round"));
     }
     TEST_CASE("check_cage: a duplicate face is refused with its place") {
         CHECK(begins(refusal_of_file("duplicate_face.obj"), "face 2 and face 7 lie on the same vertices; remove one"));
@@ -88,7 +95,8 @@ TEST_SUITE("stability") {
         CHECK(begins(refusal_of_file("zero_area_face.obj"), "face 3 uses vertex 2 twice"));
     }
     TEST_CASE("check_cage: a crease that is no edge is refused with its place") {
-        CHECK(begins(refusal_of_file("crease_without_edge.obj"), "there is a crease between vertex 1 and vertex 7, but no edge"));
+        CHECK(begins(refusal_of_file("crease_without_edge.obj"),
+                     "there is a crease between vertex 1 and vertex 7, but no edge"));
         Mesh cage = box();
         cage.tags.creases = {{3, 999, 1}};
         CHECK(begins(refusal(cage), "there is a crease between vertex 4 and vertex 1000, but no edge"));
@@ -132,6 +140,7 @@ TEST_SUITE("real") {
         CHECK(refusal(read_mesh((data / "meshes/leeperrysmith/LeePerrySmith.obj").string()), Scheme::loop) == "");
         const auto bad = [&](const char* name) { return refusal(read_mesh((data / "bad/meshes" / name).string())); };
         CHECK(bad("osd_catmark_nonman_verts.obj").find("touch at vertex") != std::string::npos);
-        CHECK(bad("trimesh_joined_tetrahedra.obj").find("face 4 and face 8 lie on the same vertices") != std::string::npos);
+        CHECK(bad("trimesh_joined_tetrahedra.obj").find("face 4 and face 8 lie on the same vertices") !=
+              std::string::npos);
     }
 }

@@ -1,5 +1,5 @@
-#include "mesh/file/mesh_files.h"
 #include "bake/surface/subdivision/subdivision.h"
+#include "mesh/file/mesh_files.h"
 #include "oracle/surfaces.h"
 #include "surface/subdivision/cages.h"
 

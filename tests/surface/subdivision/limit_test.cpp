@@ -1,6 +1,6 @@
 // SubdivisionSurface against limit masks, on cages of our own and on the collection's.
-#include "mesh/file/mesh_files.h"
 #include "bake/surface/subdivision/subdivision.h"
+#include "mesh/file/mesh_files.h"
 #include "oracle/limit_masks.h"
 #include "oracle/surfaces.h"
 #include "surface/subdivision/cages.h"
@@ -14,12 +14,15 @@ struct Worst {
     double position = 0; ///< of the diagonal
     double normal_deg = 0;
     std::size_t points = 0, normals = 0;
-    bool good() const { return points > 0 && normals > 0 && position <= 1e-6 && normal_deg <= 0.01; } ///< the issue's limits
+    bool good() const {
+        return points > 0 && normals > 0 && position <= 1e-6 && normal_deg <= 0.01;
+    } ///< the issue's limits
 };
 
 // At the corners of some faces of a level. Normals of rings below `least_ring` of the diagonal are left out.
 template <class Wanted>
-void compare(const SubdivisionSurface& surface, const oracle::Cage& level, double diagonal, double least_ring, const Wanted& wanted, Worst& worst) {
+void compare(const SubdivisionSurface& surface, const oracle::Cage& level, double diagonal, double least_ring,
+             const Wanted& wanted, Worst& worst) {
     const oracle::LimitMasks masks(level);
     for (std::uint32_t f = 0; f < level.faces.size(); ++f) {
         const oracle::Cage::Face& face = level.faces[f];
@@ -50,7 +53,8 @@ int sharp_levels(const Mesh& cage) {
 
 // All points of level `levels`, and round every `step`-th vertex those of each level down to 2^-`deepest`, where the
 // last irregular pieces are approximations.
-Worst against_masks(const Mesh& cage, Scheme scheme, int levels, int deepest, std::uint32_t step = 1, double least_ring = 1e-8) {
+Worst against_masks(const Mesh& cage, Scheme scheme, int levels, int deepest, std::uint32_t step = 1,
+                    double least_ring = 1e-8) {
     const SubdivisionSurface surface(cage, {scheme});
     const double size = diagonal(bounds(cage));
     const int sharp = sharp_levels(cage);
@@ -110,11 +114,13 @@ TEST_SUITE("oracle") {
         // In triangles the valence is twice that.
         for (const int n : {3, 5, 7, 12}) {
             check_good(against_masks(dome(n), Scheme::catmark, 3, 38, 100), "dome, valence " + std::to_string(n));
-            check_good(against_masks(in_triangles(dome(n)), Scheme::loop, 3, 38, 100), "triangle dome " + std::to_string(n));
+            check_good(against_masks(in_triangles(dome(n)), Scheme::loop, 3, 38, 100),
+                       "triangle dome " + std::to_string(n));
         }
     }
 
-    TEST_CASE("SubdivisionSurface: at valence 8, and 10 under Loop, the normal is right down to 1e-11 of the diagonal") {
+    TEST_CASE(
+        "SubdivisionSurface: at valence 8, and 10 under Loop, the normal is right down to 1e-11 of the diagonal") {
         // Beyond these valences it turns by more than the bound within the last piece, 1e-8 of the diagonal.
         check_good(against_masks(dome(8), Scheme::catmark, 3, 44, 100, 1e-11), "dome, valence 8");
         check_good(against_masks(in_triangles(dome(5)), Scheme::loop, 3, 44, 100, 1e-11), "triangle dome, valence 10");
@@ -149,7 +155,8 @@ TEST_SUITE("oracle") {
 }
 
 TEST_SUITE("real") {
-    TEST_CASE("SubdivisionSurface: every cage of the collection is within 1e-6 of the diagonal and 0.01 degrees of its masks") {
+    TEST_CASE("SubdivisionSurface: every cage of the collection is within 1e-6 of the diagonal and 0.01 degrees of its "
+              "masks") {
         const auto meshes = source_folder() / "../shared/data/meshes";
         if (!std::filesystem::exists(meshes)) {
             MESSAGE("no ../shared/data: skipped");
@@ -163,7 +170,8 @@ TEST_SUITE("real") {
             check_good(against_masks(in_triangles(cage), Scheme::loop, 2, 16, 8), name);
         }
         check_good(against_masks(read("spot/spot_control_mesh.obj"), Scheme::catmark, 2, 15, 11), "spot");
-        check_good(against_masks(read("opensubdiv/catmark_righthanded.obj"), Scheme::catmark, 2, 14, 41), "righthanded");
+        check_good(against_masks(read("opensubdiv/catmark_righthanded.obj"), Scheme::catmark, 2, 14, 41),
+                   "righthanded");
         check_good(against_masks(read("opensubdiv/catmark_car.obj"), Scheme::catmark, 1, 11, 101), "car");
         check_good(against_masks(read("trimesh/fuze.obj"), Scheme::loop, 1, 40, 47, 1e-11), "fuze");
     }

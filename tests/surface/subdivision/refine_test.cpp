@@ -1,5 +1,5 @@
-#include "mesh/file/mesh_files.h"
 #include "bake/surface/subdivision/subdivision.h"
+#include "mesh/file/mesh_files.h"
 #include "oracle/limit_masks.h"
 #include "surface/subdivision/cages.h"
 #include <map>
@@ -14,7 +14,8 @@ double distance_of_points(const std::vector<Vec3f>& a, const std::vector<Vec3f>&
     using Key = std::tuple<long, long, long>;
     const auto one_way = [cell](const std::vector<Vec3f>& from, const std::vector<Vec3f>& to) {
         const auto key = [cell](const Vec3f& p, int i, int j, int k) {
-            return Key{std::lround(double(p.x) / cell) + i, std::lround(double(p.y) / cell) + j, std::lround(double(p.z) / cell) + k};
+            return Key{std::lround(double(p.x) / cell) + i, std::lround(double(p.y) / cell) + j,
+                       std::lround(double(p.z) / cell) + k};
         };
         std::multimap<Key, Vec3f> grid;
         for (const Vec3f& p : to) grid.emplace(key(p, 0, 0, 0), p);
@@ -91,7 +92,8 @@ TEST_SUITE("oracle") {
                     REQUIRE(fine.positions.size() == expected.points.size());
                     std::vector<Vec3f> points;
                     for (const Vec3d& p : expected.points) points.emplace_back(p);
-                    CHECK(distance_of_points(fine.positions, points, 0.1) < 5e-7); // both rounded to float, sizes up to 3
+                    CHECK(distance_of_points(fine.positions, points, 0.1) <
+                          5e-7); // both rounded to float, sizes up to 3
                 }
             }
         }

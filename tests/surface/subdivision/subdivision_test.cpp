@@ -23,7 +23,8 @@ LimitPoint point(const SubdivisionSurface& surface, std::uint32_t patch, double 
 Mesh rich_cage(Scheme scheme) {
     Mesh cage = box();
     cage.positions.emplace_back(1, 0.5f, 2.4f);
-    cage.corner_position = {0, 3, 2, 1, 0, 1, 5, 4, 2, 3, 7, 6, 1, 2, 6, 5, 0, 4, 7, 3, 4, 5, 8, 5, 6, 8, 6, 7, 8, 7, 4, 8};
+    cage.corner_position = {0, 3, 2, 1, 0, 1, 5, 4, 2, 3, 7, 6, 1, 2, 6, 5,
+                            0, 4, 7, 3, 4, 5, 8, 5, 6, 8, 6, 7, 8, 7, 4, 8};
     cage.face_begin = {0, 4, 8, 12, 16, 20, 23, 26, 29, 32};
     cage.tags.creases = {{4, 5, 2.3f}, {5, 6, 10}, {1, 2, 10}, {2, 3, 10}};
     cage.tags.corners = {{8, 1.5f}};
@@ -49,16 +50,19 @@ TEST_SUITE("unit") {
             const SubdivisionSurface surface(rich_cage(scheme), {scheme, UvSmoothing::all});
             for (const int rate : {1, 7, 64, 100})
                 for (const Derivatives order : {Derivatives::none, Derivatives::first, Derivatives::second}) {
-                    std::vector<LimitPoint> lattice(std::size_t((rate + 1) * (rate + 1))), single = lattice, rows = lattice;
+                    std::vector<LimitPoint> lattice(std::size_t((rate + 1) * (rate + 1))), single = lattice,
+                                                                                           rows = lattice;
                     std::vector<Vec2d> st;
-                    for_lattice(loop, rate, [&](int i, int j, int) { st.emplace_back(double(i) / rate, double(j) / rate); });
+                    for_lattice(loop, rate,
+                                [&](int i, int j, int) { st.emplace_back(double(i) / rate, double(j) / rate); });
                     for (const std::uint32_t patch : {0u, 3u, surface.patches() - 1}) {
                         surface.evaluate_lattice(patch, rate, order, lattice);
                         surface.evaluate(patch, st, order, single);
                         const int half = rate / 2;
                         surface.evaluate_rows(patch, rate, 0, half, order, rows);
                         const int before = loop ? half * (rate + 1) - half * (half - 1) / 2 : half * (rate + 1);
-                        surface.evaluate_rows(patch, rate, half, rate + 1, order, std::span(rows).subspan(std::size_t(before)));
+                        surface.evaluate_rows(patch, rate, half, rate + 1, order,
+                                              std::span(rows).subspan(std::size_t(before)));
                         CHECK(std::memcmp(lattice.data(), single.data(), st.size() * sizeof(LimitPoint)) == 0);
                         CHECK(std::memcmp(lattice.data(), rows.data(), st.size() * sizeof(LimitPoint)) == 0);
                     }
@@ -82,7 +86,9 @@ TEST_SUITE("unit") {
         Mesh cage = rich_cage(Scheme::catmark);
         const SubdivisionSurface surface(cage, {Scheme::catmark, UvSmoothing::none});
         REQUIRE(surface.patches() == 5 + 4 * 3);
-        const auto uv = [&](std::uint32_t f, std::uint32_t k) { return Vec2d(cage.uvs[cage.corner_uv[cage.face_begin[f] + k]]); };
+        const auto uv = [&](std::uint32_t f, std::uint32_t k) {
+            return Vec2d(cage.uvs[cage.corner_uv[cage.face_begin[f] + k]]);
+        };
         for (std::uint32_t patch = 0; patch < surface.patches(); ++patch) {
             const std::uint32_t f = surface.face(patch), k = surface.corner(patch);
             CHECK(f == (patch < 5 ? patch : 5 + (patch - 5) / 3));
@@ -150,7 +156,8 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("SubdivisionSurface: a flat cage gives a flat surface, and a face's uvs of a plane that plane's") {
-        const SubdivisionSurface surface(sheet(4, [](int, int) { return 0.25; }), {Scheme::catmark, UvSmoothing::inside});
+        const SubdivisionSurface surface(sheet(4, [](int, int) { return 0.25; }),
+                                         {Scheme::catmark, UvSmoothing::inside});
         for (std::uint32_t patch = 0; patch < surface.patches(); ++patch) {
             const LimitPoint p = point(surface, patch, 0.3, 0.9);
             CHECK(p.p.z == doctest::Approx(0.25).epsilon(1e-15));
@@ -201,7 +208,8 @@ TEST_SUITE("unit") {
             };
             std::map<std::pair<std::uint32_t, std::uint32_t>, Side> sides;
             for (std::uint32_t patch = 0; patch < surface.patches(); ++patch) {
-                const std::uint32_t f = surface.face(patch), begin = cage.face_begin[f], size = cage.face_begin[f + 1] - begin;
+                const std::uint32_t f = surface.face(patch), begin = cage.face_begin[f],
+                                    size = cage.face_begin[f + 1] - begin;
                 const std::vector<Vec2d> corners = scheme == Scheme::loop
                                                        ? std::vector<Vec2d>{{0, 0}, {1, 0}, {0, 1}}
                                                        : std::vector<Vec2d>{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -249,7 +257,8 @@ TEST_SUITE("unit") {
 }
 
 TEST_SUITE("stability") {
-    TEST_CASE("SubdivisionSurface: an extraordinary vertex of any valence has a point, a normal and finite derivatives") {
+    TEST_CASE(
+        "SubdivisionSurface: an extraordinary vertex of any valence has a point, a normal and finite derivatives") {
         for (const int n : {3, 5, 6, 16, 60})
             for (const Scheme scheme : {Scheme::catmark, Scheme::loop}) {
                 const Mesh cage = scheme == Scheme::loop ? in_triangles(dome(n)) : dome(n);
@@ -278,12 +287,14 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("SubdivisionSurface: a corner stays where it is when corners are kept, is rounded when not, and goes with no border") {
+    TEST_CASE("SubdivisionSurface: a corner stays where it is when corners are kept, is rounded when not, and goes "
+              "with no border") {
         Mesh cage = sheet(4, [](int i, int j) { return 0.25 * i * j; });
         cage.tags.boundary = SubdivisionTags::Boundary::edge_and_corner;
         CHECK(point(SubdivisionSurface(cage), 0, 0, 0).p == Vec3d(cage.positions[0]));
         cage.tags.boundary = SubdivisionTags::Boundary::edge_only;
-        const Vec3d rounded = (4.0 * Vec3d(cage.positions[0]) + Vec3d(cage.positions[1]) + Vec3d(cage.positions[5])) / 6.0;
+        const Vec3d rounded =
+            (4.0 * Vec3d(cage.positions[0]) + Vec3d(cage.positions[1]) + Vec3d(cage.positions[5])) / 6.0;
         CHECK(glm::distance(point(SubdivisionSurface(cage), 0, 0, 0).p, rounded) < 1e-15);
         cage.tags.boundary = SubdivisionTags::Boundary::none;
         const SubdivisionSurface inner(cage);
@@ -296,10 +307,12 @@ TEST_SUITE("stability") {
         CHECK(glm::distance(point(SubdivisionSurface(tagged), 1, 1, 1).p, Vec3d(all.positions[6])) < 3e-14);
     }
 
-    TEST_CASE("SubdivisionSurface: a crease has one line of points and two normals; a semi-sharp one lies between it and none") {
+    TEST_CASE("SubdivisionSurface: a crease has one line of points and two normals; a semi-sharp one lies between it "
+              "and none") {
         const auto at = [](float sharpness, std::uint32_t patch, double s, double t) {
             Mesh cage = box();
-            for (const auto& [a, b] : {std::pair(4u, 5u), {5u, 6u}, {6u, 7u}, {7u, 4u}}) cage.tags.creases.push_back({a, b, sharpness});
+            for (const auto& [a, b] : {std::pair(4u, 5u), {5u, 6u}, {6u, 7u}, {7u, 4u}})
+                cage.tags.creases.push_back({a, b, sharpness});
             return point(SubdivisionSurface(cage), patch, s, t);
         };
         // Face 1 begins along the edge that face 2 ends on.
@@ -307,7 +320,8 @@ TEST_SUITE("stability") {
         CHECK(glm::distance(top.p, side.p) < 1e-15);
         CHECK(oracle::angle_deg(glm::cross(top.p_s, top.p_t), glm::cross(side.p_s, side.p_t)) > 40);
         const LimitPoint smooth_top = at(0, 1, 0.3, 0), smooth_side = at(0, 2, 0.3, 1);
-        CHECK(oracle::angle_deg(glm::cross(smooth_top.p_s, smooth_top.p_t), glm::cross(smooth_side.p_s, smooth_side.p_t)) < 1e-9);
+        CHECK(oracle::angle_deg(glm::cross(smooth_top.p_s, smooth_top.p_t),
+                                glm::cross(smooth_side.p_s, smooth_side.p_t)) < 1e-9);
         double before = smooth_top.p.z;
         for (const float sharpness : {0.5f, 1.0f, 1.5f, 3.0f, 6.0f, 9.5f, 10.0f}) {
             const double z = at(sharpness, 1, 0.3, 0).p.z;

@@ -7,9 +7,13 @@
 namespace bake {
 namespace {
 
-Error unsuitable(const std::string& file, const std::string& why) { return Error(Refusal::unsuitable, file + ": " + why); }
+Error unsuitable(const std::string& file, const std::string& why) {
+    return Error(Refusal::unsuitable, file + ": " + why);
+}
 
-std::string size_of(const Image<float>& image) { return std::to_string(image.width()) + "x" + std::to_string(image.height()); }
+std::string size_of(const Image<float>& image) {
+    return std::to_string(image.width()) + "x" + std::to_string(image.height());
+}
 
 SkyFormat format_of(const std::string& file, const Image<float>& image, const ImageInfo& info) {
     if (info.environment == EnvironmentTag::cube) return SkyFormat::openexr_cube;
@@ -20,8 +24,12 @@ SkyFormat format_of(const std::string& file, const Image<float>& image, const Im
         return *layout == CubeLayout::vcross ? SkyFormat::vcross : SkyFormat::strip;
     }
     if (image.width() == image.height())
-        throw unsuitable(file, "is square, as mirror balls, angular maps and octahedral maps are; say which with --from ball, probe or octahedral");
-    throw unsuitable(file, "is " + size_of(image) + ", which is no shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop it, or say --from");
+        throw unsuitable(file, "is square, as mirror balls, angular maps and octahedral maps are; say which with "
+                               "--from ball, probe or octahedral");
+    throw unsuitable(
+        file,
+        "is " + size_of(image) +
+            ", which is no shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop it, or say --from");
 }
 
 /// Mean of the colour channels of the texels inside and outside the disc.
@@ -46,7 +54,8 @@ void check_shape(const std::string& file, const Image<float>& image, SkyFormat k
     switch (kind) {
     case SkyFormat::latlong:
     case SkyFormat::openexr_latlong:
-        if (w != 2 * h || w < 2) throw unsuitable(file, "is " + size_of(image) + "; a lat-long is twice as wide as high; crop or scale it");
+        if (w != 2 * h || w < 2)
+            throw unsuitable(file, "is " + size_of(image) + "; a lat-long is twice as wide as high; crop or scale it");
         break;
     case SkyFormat::octahedral:
     case SkyFormat::ball:
@@ -59,8 +68,12 @@ void check_shape(const std::string& file, const Image<float>& image, SkyFormat k
     if (kind == SkyFormat::probe) {
         const DiscMeans means = disc_means(image);
         if (means.outside > 0.02 * means.inside)
-            throw unsuitable(file, format("is not black outside the disc (mean %.3g there, %.3g inside), so it is no angular map; perhaps a "
-                                          "photograph of a ball (--from ball) or octahedral", means.outside, means.inside));
+            throw unsuitable(
+                file,
+                format(
+                    "is not black outside the disc (mean %.3g there, %.3g inside), so it is no angular map; perhaps a "
+                    "photograph of a ball (--from ball) or octahedral",
+                    means.outside, means.inside));
     }
 }
 
@@ -81,7 +94,8 @@ Cube cut(const std::string& file, const Image<float>& image, SkyFormat format) {
     case SkyFormat::vcross: return cut_faces(image, CubeLayout::vcross, FaceOrder::gl, file);
     case SkyFormat::openexr_cube: {
         Cube cube = cut_faces(image, CubeLayout::strip, FaceOrder::openexr, file);
-        if (cube.size() < 2) throw unsuitable(file, "has faces of one texel, which cannot lie on all four edges; give a larger one");
+        if (cube.size() < 2)
+            throw unsuitable(file, "has faces of one texel, which cannot lie on all four edges; give a larger one");
         return cube;
     }
     default: return cut_faces(image, flat ? CubeLayout::hstrip : CubeLayout::strip, FaceOrder::gl, file);
@@ -115,15 +129,18 @@ const char* name(SkyFormat format) noexcept {
     return "";
 }
 
-Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options, EnvironmentReport* report_out) {
+Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options,
+                             EnvironmentReport* report_out) {
     EnvironmentReport own;
     EnvironmentReport& report = report_out ? *report_out : own;
     Environment sky;
     const bool pattern = inputs.size() == 1 && inputs[0].find("%s") != std::string::npos;
     if (inputs.size() != 1 || pattern) {
         if (options.from != SkyFormat::automatic && options.from != SkyFormat::faces)
-            throw Error(Refusal::usage, std::string("--from ") + name(options.from) + ": is one image, but " + inputs[0] +
-                                            (pattern ? " stands for six" : " is one of " + std::to_string(inputs.size())) + "; leave --from out");
+            throw Error(Refusal::usage,
+                        std::string("--from ") + name(options.from) + ": is one image, but " + inputs[0] +
+                            (pattern ? " stands for six" : " is one of " + std::to_string(inputs.size())) +
+                            "; leave --from out");
         const FaceFiles found = pattern ? find_faces(inputs[0]) : name_faces(inputs);
         FacesReport faces;
         sky.cube = read_faces(found.files, options.radiance, &faces);
@@ -143,7 +160,8 @@ Environment read_environment(const std::vector<std::string>& inputs, const ReadE
         return sky;
     }
     const std::string& file = inputs[0];
-    if (options.from == SkyFormat::faces) throw Error(Refusal::usage, file + ": is one file; give six faces, or a pattern with %s");
+    if (options.from == SkyFormat::faces)
+        throw Error(Refusal::usage, file + ": is one file; give six faces, or a pattern with %s");
     ImageInfo info;
     Image<float> image = read_radiance(file, options.radiance, &info, &report.mended);
     report.type = info.type;

@@ -1,15 +1,27 @@
 // Environments from files: which format it is, whether it is what it is said to be, and whether its faces join.
 #pragma once
-#include "bake/environment/sky/environment.h"
 #include "bake/environment/file/face_files.h"
-#include "bake/environment/sky/layout.h"
 #include "bake/environment/file/orientation.h"
+#include "bake/environment/sky/environment.h"
+#include "bake/environment/sky/layout.h"
 #include <string>
 #include <vector>
 
 namespace bake {
 
-enum class SkyFormat { automatic, faces, latlong, hcross, vcross, strip, ball, probe, octahedral, openexr_cube, openexr_latlong };
+enum class SkyFormat {
+    automatic,
+    faces,
+    latlong,
+    hcross,
+    vcross,
+    strip,
+    ball,
+    probe,
+    octahedral,
+    openexr_cube,
+    openexr_latlong
+};
 const char* name(SkyFormat format) noexcept;
 
 struct ReadEnvironmentOptions {
@@ -33,6 +45,7 @@ struct EnvironmentReport {
 
 /// Throws Error naming the file: as read_image, read_faces, name_faces; unsuitable when the picture does not have the
 /// shape of its format, and for a probe or ball with something else than black outside the disc.
-Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options = {}, EnvironmentReport* report = nullptr);
+Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options = {},
+                             EnvironmentReport* report = nullptr);
 
 } // namespace bake

@@ -82,7 +82,8 @@ std::string with(const std::string& pattern, const std::string& word) {
 } // namespace
 
 FaceFiles name_faces(const std::vector<std::string>& paths) {
-    if (paths.empty()) throw Error(Refusal::usage, "no file: there is no input; give six faces, a pattern with %s, or one image");
+    if (paths.empty())
+        throw Error(Refusal::usage, "no file: there is no input; give six faces, a pattern with %s, or one image");
     const std::vector<std::string> parts = distinct_parts(paths);
     for (const Words& words : all_words()) {
         const std::vector<int> faces = faces_of(parts, words);
@@ -93,13 +94,15 @@ FaceFiles name_faces(const std::vector<std::string>& paths) {
         for (std::size_t i = 0; i < paths.size(); ++i) {
             std::string& file = found.files[faces[i]];
             if (!file.empty())
-                throw Error(Refusal::usage, paths[i] + ": is a second " + words[faces[i]] + " beside " + file + "; give each face once");
+                throw Error(Refusal::usage, paths[i] + ": is a second " + words[faces[i]] + " beside " + file +
+                                                "; give each face once");
             file = paths[i];
         }
         for (int face = 0; face < 6; ++face)
             if (found.files[face].empty())
-                throw Error(Refusal::usage, paths[0] + ": and its like are " + std::to_string(paths.size()) + " faces of six; " + words[face] +
-                                                " (" + cube_face_names[face] + ") is missing");
+                throw Error(Refusal::usage, paths[0] + ": and its like are " + std::to_string(paths.size()) +
+                                                " faces of six; " + words[face] + " (" + cube_face_names[face] +
+                                                ") is missing");
         return found;
     }
     if (paths.size() != 6)
@@ -109,7 +112,8 @@ FaceFiles name_faces(const std::vector<std::string>& paths) {
     std::copy(paths.begin(), paths.end(), found.files.begin());
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < i; ++j)
-            if (found.files[i] == found.files[j]) throw Error(Refusal::usage, paths[i] + ": is given twice; give each face once");
+            if (found.files[i] == found.files[j])
+                throw Error(Refusal::usage, paths[i] + ": is given twice; give each face once");
     return found;
 }
 
@@ -132,8 +136,10 @@ FaceFiles find_faces(const std::string& pattern) {
         if (there > most) most = there, missing = absent;
     }
     throw Error(Refusal::unreadable,
-                missing + ": no such file" + (most > 0 ? ", though " + std::to_string(most) + " of the six faces are there" : "") +
-                    "; check the pattern " + pattern + ", whose %s stands for px nx py ny pz nz, right left up down front back, ...");
+                missing + ": no such file" +
+                    (most > 0 ? ", though " + std::to_string(most) + " of the six faces are there" : "") +
+                    "; check the pattern " + pattern +
+                    ", whose %s stands for px nx py ny pz nz, right left up down front back, ...");
 }
 
 std::array<std::string, 6> cube_files(const std::string& pattern) {
@@ -148,19 +154,21 @@ Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& 
     for (int i = 0; i < 6; ++i) {
         const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, files[i] + ": " + why); };
         ImageInfo info;
-        Image<float>& face = cube.faces[i] = read_radiance(files[i], options, &info, report ? &report->mended[i] : nullptr);
+        Image<float>& face = cube.faces[i] =
+            read_radiance(files[i], options, &info, report ? &report->mended[i] : nullptr);
         if (face.width() != face.height())
-            refuse("is " + std::to_string(face.width()) + "x" + std::to_string(face.height()) + "; a face of the sky must be square");
+            refuse("is " + std::to_string(face.width()) + "x" + std::to_string(face.height()) +
+                   "; a face of the sky must be square");
         if (i == 0) first = info;
         if (face.width() != cube.size())
-            refuse("is " + std::to_string(face.width()) + " texels wide, but " + files[0] + " is " + std::to_string(cube.size()) +
-                   "; the six faces must be of one size");
+            refuse("is " + std::to_string(face.width()) + " texels wide, but " + files[0] + " is " +
+                   std::to_string(cube.size()) + "; the six faces must be of one size");
         if (face.channels() != cube.channels())
-            refuse("has " + std::to_string(face.channels()) + " channel(s), but " + files[0] + " has " + std::to_string(cube.channels()) +
-                   "; the six faces must be alike");
+            refuse("has " + std::to_string(face.channels()) + " channel(s), but " + files[0] + " has " +
+                   std::to_string(cube.channels()) + "; the six faces must be alike");
         if (info.type != first.type)
-            refuse(std::string("holds ") + name(info.type) + " samples, but " + files[0] + " holds " + name(first.type) +
-                   "; the six faces must be alike");
+            refuse(std::string("holds ") + name(info.type) + " samples, but " + files[0] + " holds " +
+                   name(first.type) + "; the six faces must be alike");
     }
     if (report) report->first = std::move(first);
     return cube;

@@ -1,7 +1,7 @@
 // Which file is which face: by its name, by a pattern, or by its place in a list; and the reading of all six.
 #pragma once
-#include "bake/environment/sky/cube.h"
 #include "bake/environment/file/radiance.h"
+#include "bake/environment/sky/cube.h"
 #include <array>
 #include <string>
 #include <vector>
@@ -39,7 +39,8 @@ struct FacesReport {
 
 /// Reads six faces with the channels they have, one to four. Throws Error naming the file: unreadable; unsuitable for a
 /// face that is not square, or whose size, number of channels or sample type is not that of the first.
-Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& options = {}, FacesReport* report = nullptr);
+Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& options = {},
+                FacesReport* report = nullptr);
 
 /// Reads six faces for the preview: three channels, finite. Throws as read_faces, and for fewer than three channels.
 Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);

@@ -35,7 +35,7 @@ const Seams& seams() {
                 CubeTexel middle = texel_on(n, CubeFace(face), side, 1);
                 (side % 2 ? middle.x : middle.y) += side == 1 || side == 2 ? 1 : -1;
                 const CubeTexel there = texel_across(n, CubeFace(face), middle.x, middle.y);
-                const int other = static_cast<int>(there.face);
+                const int other = int(there.face);
                 for (int k = 0; k < 4; ++k) {
                     const CubeTexel at = texel_on(n, there.face, k, 1);
                     if (at.x == there.x && at.y == there.y && face < other) all[count++] = {{face, side}, {other, k}};
@@ -91,7 +91,8 @@ StepSums mean_across(const Cube& cube, Side a, Side b, int channels) {
     const int n = cube.size();
     StepSums sum;
     for (int i = 0; i < n; ++i) {
-        const CubeTexel p = texel_on(n, CubeFace(a.face), a.side, i), q = texel_on(n, CubeFace(b.face), b.side, n - 1 - i);
+        const CubeTexel p = texel_on(n, CubeFace(a.face), a.side, i),
+                        q = texel_on(n, CubeFace(b.face), b.side, n - 1 - i);
         sum.add(step(&cube[p.face].at(p.x, p.y), &cube[q.face].at(q.x, q.y), channels));
     }
     return {sum.plain / n, sum.square / n};
@@ -104,7 +105,8 @@ Steps all_squares(const Cube& cube, int channels) {
     Steps steps{};
     for_rows(24, 1, [&](std::int64_t begin, std::int64_t end) {
         for (int a = int(begin); a < int(end); ++a)
-            for (int b = 0; b < 24; ++b) steps[a][b] = a / 4 == b / 4 ? 0 : mean_across(cube, {a / 4, a % 4}, {b / 4, b % 4}, channels).square;
+            for (int b = 0; b < 24; ++b)
+                steps[a][b] = a / 4 == b / 4 ? 0 : mean_across(cube, {a / 4, a % 4}, {b / 4, b % 4}, channels).square;
     });
     return steps;
 }
@@ -115,7 +117,8 @@ int side_of_file(int side, int turns) noexcept { return (side + turns) % 4; }
 double total(const Steps& steps, const Orientation& o) noexcept {
     double sum = 0;
     for (const auto& [a, b] : seams())
-        sum += steps[4 * o.source[a.face] + side_of_file(a.side, o.turns[a.face])][4 * o.source[b.face] + side_of_file(b.side, o.turns[b.face])];
+        sum += steps[4 * o.source[a.face] + side_of_file(a.side, o.turns[a.face])]
+                    [4 * o.source[b.face] + side_of_file(b.side, o.turns[b.face])];
     return sum;
 }
 
@@ -180,8 +183,9 @@ int colours(const Cube& cube) noexcept { return std::min(3, cube.channels()); }
 double mean_over_seams(const Cube& cube, const Orientation& o) {
     double sum = 0;
     for (const auto& [a, b] : seams())
-        sum += mean_across(cube, {o.source[a.face], side_of_file(a.side, o.turns[a.face])}, {o.source[b.face], side_of_file(b.side, o.turns[b.face])},
-                           colours(cube)).plain;
+        sum += mean_across(cube, {o.source[a.face], side_of_file(a.side, o.turns[a.face])},
+                           {o.source[b.face], side_of_file(b.side, o.turns[b.face])}, colours(cube))
+                   .plain;
     return sum / 12;
 }
 
@@ -203,7 +207,8 @@ OrientationCheck check_orientation(const Cube& cube) {
     const double mean_square = 12 * inside.square;
     check.closes = Search(squares, 1e-6 * inside.square).best;
     const double given = total(squares, {}) / mean_square, best = total(squares, check.closes) / mean_square;
-    check.wrong = given > 1.2 && !check.closes.as_given() && best <= 0.85 * given && (best <= 1.4 || best <= 0.25 * given);
+    check.wrong =
+        given > 1.2 && !check.closes.as_given() && best <= 0.85 * given && (best <= 1.4 || best <= 0.25 * given);
     check.given = mean_over_seams(cube, {}) / inside.plain;
     check.best = check.closes.as_given() ? check.given : mean_over_seams(cube, check.closes) / inside.plain;
     return check;

@@ -71,7 +71,8 @@ BadTexels find_bad(const Image<float>& image, float largest, int alpha) {
             bool any = false;
             for (int i = 0; i < image.width() * channels; ++i) any |= is_bad(row[i], largest);
             if (!any) continue;
-            for (int x = 0; x < image.width(); ++x) count(rows[y], row + std::size_t(x) * channels, channels, alpha, largest, x, y);
+            for (int x = 0; x < image.width(); ++x)
+                count(rows[y], row + std::size_t(x) * channels, channels, alpha, largest, x, y);
         }
     });
     BadTexels all;
@@ -104,20 +105,25 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     const int channels = image.channels();
     switch (policy) {
     case BadPolicy::refuse:
-        throw Error(Refusal::unsuitable, file + ": holds texels that are no radiance: " + to_text(bad, largest) +
-                                             "; mend the picture, or let bake cubemap do it with --bad zero or --bad clamp");
+        throw Error(Refusal::unsuitable,
+                    file + ": holds texels that are no radiance: " + to_text(bad, largest) +
+                        "; mend the picture, or let bake cubemap do it with --bad zero or --bad clamp");
     case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
-    case BadPolicy::clamp: each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); }); break;
+    case BadPolicy::clamp:
+        each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); });
+        break;
     }
     return bad;
 }
 
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out, BadTexels* found) {
+Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out,
+                           BadTexels* found) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
     if (image.channels() > 4)
-        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
-                                             " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
+        throw Error(Refusal::unsuitable,
+                    file + ": has " + std::to_string(image.channels()) +
+                        " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
     if (is_srgb(options.space, info)) srgb_to_linear(image, info.alpha_channel);
     BadTexels bad;
     if (options.allow_negative) {

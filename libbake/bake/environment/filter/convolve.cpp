@@ -62,7 +62,8 @@ public:
         const bool straddles_horizon = far * far / 2 > 1;
         // Nodes may grow as the lobe dies away: between K^(-1/4), the same error in each part of it, and K^(-1/2), the
         // same error on each part of the sky.
-        const float widest = std::min(straddles_horizon ? widest_at_horizon_ : widest_expansion, widest_ / std::pow(K, 0.3f));
+        const float widest =
+            std::min(straddles_horizon ? widest_at_horizon_ : widest_expansion, widest_ / std::pow(K, 0.3f));
         if (2 * node.rho > widest) return false;
         float error = K * lobe_.slope(t) * node.Q;
         if (straddles_horizon) error += lobe_.horizon_slope() * node.Q / (4 * std::sqrt(3 * node.h));
@@ -96,13 +97,15 @@ void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const 
         } else {
             const int n = tree.size(at.level - 1);
             for (int y = std::min(2 * at.y + 1, n - 1); y >= 2 * at.y; --y)
-                for (int x = std::min(2 * at.x + 1, n - 1); x >= 2 * at.x; --x) open.push_back({at.level - 1, at.face, x, y});
+                for (int x = std::min(2 * at.x + 1, n - 1); x >= 2 * at.x; --x)
+                    open.push_back({at.level - 1, at.face, x, y});
         }
     }
 }
 
 template <class Lobe>
-void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const Tile& tile, int channels, Sums& sums) noexcept {
+void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const Tile& tile, int channels,
+                Sums& sums) noexcept {
     float K[tile_directions];
     for (const SkyNode& s : texels) {
         for (int k = 0; k < tile.count; ++k) {
@@ -116,7 +119,8 @@ void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const Tile
 }
 
 template <class Lobe>
-void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& tile, int channels, Sums& sums) noexcept {
+void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& tile, int channels,
+               Sums& sums) noexcept {
     float K[tile_directions], K1[tile_directions];
     for (const SkyNode& s : nodes) {
         const float r = std::sqrt(3 * s.h), half_h = 0.5f * s.h;

@@ -16,7 +16,9 @@
 namespace bake {
 
 /// Width of a lobe about its centre, radians; of the clamped cosine, which has none of its own, 2.
-template <class Lobe> float width_of(const Lobe& lobe) noexcept { return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f)); }
+template <class Lobe> float width_of(const Lobe& lobe) noexcept {
+    return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f));
+}
 
 /// The level of a tree over a sky of that size that is fine enough for lobes as wide: eight nodes to a width and 512 to
 /// an edge, which keep a sun's flux, place and size.

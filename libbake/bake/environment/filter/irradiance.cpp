@@ -1,15 +1,15 @@
 #include "bake/environment/filter/irradiance.h"
 #include "bake/base/error.h"
+#include "bake/base/vec.h"
 #include "bake/environment/filter/convolve.h"
 #include "bake/environment/filter/spherical_harmonics.h"
 #include <cmath>
-#include <numbers>
 
 namespace bake {
 namespace {
 
 double window_factor(ShWindow window, int l, int bands) noexcept {
-    const double x = std::numbers::pi * l / bands;
+    const double x = pi * l / bands;
     switch (window) {
     case ShWindow::none: return 1;
     case ShWindow::hann: return (1 + std::cos(x)) / 2;
@@ -33,7 +33,7 @@ Cube irradiance(const Cube& sky, const IrradianceOptions& options) {
         const GgxLobe cosine;
         const RadianceTree tree(sky, finest_level_for(sky.size(), width_of(cosine)));
         Cube mean = convolve(tree, cosine, options.size, {.node_width = 0.5f, .tolerance = 1e-5f});
-        if (!options.over_pi) scale(mean, std::numbers::pi);
+        if (!options.over_pi) scale(mean, pi);
         return mean;
     }
     if (options.bands < 1 || options.bands > 64)
@@ -41,7 +41,7 @@ Cube irradiance(const Cube& sky, const IrradianceOptions& options) {
     ShCoefficients series = project_sh(sky, options.bands);
     std::vector<double> factors = cosine_band_factors(options.bands);
     for (int l = 0; l < options.bands; ++l)
-        factors[l] *= window_factor(options.window, l, options.bands) / (options.over_pi ? std::numbers::pi : 1);
+        factors[l] *= window_factor(options.window, l, options.bands) / (options.over_pi ? pi : 1);
     scale_bands(series, factors);
     return evaluate_sh(series, options.size);
 }

@@ -22,10 +22,10 @@ enum class ShWindow {
 
 struct IrradianceOptions {
     IrradianceMethod method = IrradianceMethod::direct;
-    int bands = 3;                     ///< sh: bands l = 0 ... bands - 1, that is bands^2 coefficients; 1 to 64
-    ShWindow window = ShWindow::none;  ///< sh
-    int size = 32;                     ///< texels along an edge of the result, at least 1
-    bool over_pi = false;              ///< divides by pi, as engines store it: a white sky stays white
+    int bands = 3;                    ///< sh: bands l = 0 ... bands - 1, that is bands^2 coefficients; 1 to 64
+    ShWindow window = ShWindow::none; ///< sh
+    int size = 32;                    ///< texels along an edge of the result, at least 1
+    bool over_pi = false;             ///< divides by pi, as engines store it: a white sky stays white
 };
 
 /// Irradiance in the direction of every texel's centre, in cube space; as many channels as `sky`, which is finite and

@@ -4,10 +4,10 @@
 // width of what is seen along n: sources that straddle the horizon are let in by their part above it,
 //   c+ = (c + r)^2 / (4 r) for |c| < r,  the mean of max(c, 0) over a source spread evenly from c - r to c + r.
 #pragma once
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 namespace bake {
 
@@ -33,7 +33,7 @@ struct GgxLobe {
     /// Integral over the sphere.
     double integral() const noexcept {
         const double k = double(kappa);
-        return 2 * std::numbers::pi * (k < 1e-4 ? 0.5 - k / 3 : (k - std::log1p(k)) / (k * k));
+        return 2 * pi * (k < 1e-4 ? 0.5 - k / 3 : (k - std::log1p(k)) / (k * k));
     }
     /// -d ln K / dt about t, the horizon apart: what a source's spread is measured against.
     float slope(float t) const noexcept { return kappa / (1 + kappa * t); }
@@ -70,7 +70,7 @@ struct PhongLobe {
 
     float sharpness() const noexcept { return exponent; }
     float horizon_slope() const noexcept { return exponent < 2 ? 1.0f : 0.0f; } ///< about
-    double integral() const noexcept { return 2 * std::numbers::pi / (double(exponent) + 1); }
+    double integral() const noexcept { return 2 * pi / (double(exponent) + 1); }
     float slope(float) const noexcept { return exponent; }
     float at(float t) const noexcept { return power_of_cosine(t, exponent); }
     LobeValue at(float t, float r) const noexcept {

@@ -12,10 +12,11 @@ Image<float> framed(const Cube& sky, int face_index) {
     const Image<float>& face = sky.faces[face_index];
     const int n = face.width(), channels = face.channels();
     Image<float> wide(n + 2, n + 2, channels);
-    for (int y = 0; y < n; ++y) std::copy(face.row(y), face.row(y) + std::size_t(n) * channels, wide.row(y + 1) + channels);
+    for (int y = 0; y < n; ++y)
+        std::copy(face.row(y), face.row(y) + std::size_t(n) * channels, wide.row(y + 1) + channels);
     const auto copy_across = [&](int x, int y) {
         const CubeTexel there = texel_across(n, static_cast<CubeFace>(face_index), x, y);
-        const float* from = &sky.faces[static_cast<int>(there.face)].at(there.x, there.y);
+        const float* from = &sky.faces[int(there.face)].at(there.x, there.y);
         std::copy(from, from + channels, &wide.at(x + 1, y + 1));
     };
     for (int i = 0; i < n; ++i)
@@ -86,7 +87,8 @@ Pieces pieces_of(int n, int m) {
 
 Cube copy_of(const Cube& sky) {
     Cube copy = make_cube(sky.size(), sky.channels());
-    for (int f = 0; f < 6; ++f) std::copy(sky.faces[f].data(), sky.faces[f].data() + sky.faces[f].size(), copy.faces[f].data());
+    for (int f = 0; f < 6; ++f)
+        std::copy(sky.faces[f].data(), sky.faces[f].data() + sky.faces[f].size(), copy.faces[f].data());
     return copy;
 }
 
@@ -159,7 +161,8 @@ Cube resize_by_area(const Cube& sky, int size) {
 std::vector<Cube> mip_chain(const Cube& sky, const MipOptions& options) {
     std::vector<Cube> chain;
     chain.push_back(copy_of(sky));
-    while (chain.back().size() / 2 >= std::max(1, options.smallest)) chain.push_back(next_mip(chain.back(), options.filter));
+    while (chain.back().size() / 2 >= std::max(1, options.smallest))
+        chain.push_back(next_mip(chain.back(), options.filter));
     return chain;
 }
 

@@ -11,8 +11,10 @@ namespace {
 
 void check(const PrefilterOptions& options) {
     const auto refuse = [](const std::string& message) { throw Error(Refusal::usage, message); };
-    if (options.roughness.empty()) refuse("specular: no roughness; give one for each level, as in --roughness 0,0.1,0.3,1");
-    if (options.size < 0) refuse("specular: size " + std::to_string(options.size) + " is negative; give 0 for the sky's own");
+    if (options.roughness.empty())
+        refuse("specular: no roughness; give one for each level, as in --roughness 0,0.1,0.3,1");
+    if (options.size < 0)
+        refuse("specular: size " + std::to_string(options.size) + " is negative; give 0 for the sky's own");
     for (const double value : options.roughness) {
         if (options.lobe == SpecularLobe::ggx && !(value >= 0 && value <= 1))
             refuse("roughness " + std::to_string(value) + ": GGX's alpha lies in 0 to 1; give one of these");
@@ -29,7 +31,8 @@ std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options) {
     float narrowest = 2;
     for (const double value : options.roughness)
         if (!ggx || value > 0)
-            narrowest = std::min(narrowest, ggx ? width_of(GgxLobe::of_alpha(value)) : width_of(PhongLobe{float(value)}));
+            narrowest =
+                std::min(narrowest, ggx ? width_of(GgxLobe::of_alpha(value)) : width_of(PhongLobe{float(value)}));
     const RadianceTree tree(sky, finest_level_for(sky.size(), narrowest));
 
     const int first = options.size == 0 ? sky.size() : options.size;
@@ -37,12 +40,9 @@ std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options) {
     for (std::size_t level = 0; level < options.roughness.size(); ++level) {
         const int size = std::max(1, level < 31 ? first >> level : 0);
         const double value = options.roughness[level];
-        if (!ggx)
-            chain.push_back(convolve(tree, PhongLobe{float(value)}, size));
-        else if (value > 0)
-            chain.push_back(convolve(tree, GgxLobe::of_alpha(value), size));
-        else
-            chain.push_back(resize_by_area(sky, size));
+        if (!ggx) chain.push_back(convolve(tree, PhongLobe{float(value)}, size));
+        else if (value > 0) chain.push_back(convolve(tree, GgxLobe::of_alpha(value), size));
+        else chain.push_back(resize_by_area(sky, size));
     }
     return chain;
 }

@@ -1,11 +1,11 @@
 #include "bake/environment/filter/radiance_tree.h"
 #include "bake/base/parallel.h"
+#include "bake/base/vec.h"
 #include "bake/environment/sky/solid_angle.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace bake {
 namespace {
@@ -86,7 +86,7 @@ double sum_over_texels(const Cube& sky, int channel, const std::vector<double>& 
     return sum;
 }
 
-constexpr double sphere = 4 * std::numbers::pi;
+constexpr double sphere = 4 * pi;
 
 } // namespace
 
@@ -123,8 +123,8 @@ SkyNode RadianceTree::from_children(int level, int face, int x, int y) const noe
 float RadianceTree::texel_at(const Vec3f& d, int channel) const noexcept {
     const CubePoint<float> at = cube_point(d);
     const int n = sky_.size();
-    const auto index = [n](float s) { return std::clamp(static_cast<int>(s * static_cast<float>(n)), 0, n - 1); };
-    return sky_.faces[static_cast<int>(at.face)].at(index(at.s), index(at.t), channel);
+    const auto index = [n](float s) { return std::clamp(int(s * float(n)), 0, n - 1); };
+    return sky_.faces[int(at.face)].at(index(at.s), index(at.t), channel);
 }
 
 RadianceTree::RadianceTree(const Cube& sky, int finest)
@@ -160,7 +160,8 @@ RadianceTree::RadianceTree(const Cube& sky, int finest)
         for_rows(std::int64_t(6) * m, 4, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row)
                 for (int x = 0; x < m; ++x)
-                    store(from_children(level, int(row / m), x, int(row % m)), channels_, &values[(row * m + x) * stride_]);
+                    store(from_children(level, int(row / m), x, int(row % m)), channels_,
+                          &values[(row * m + x) * stride_]);
         });
         levels_.back().values = std::move(values);
     }

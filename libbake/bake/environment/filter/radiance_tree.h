@@ -33,7 +33,7 @@ public:
     explicit RadianceTree(const Cube& sky, int finest = 0);
 
     int channels() const noexcept { return channels_; }
-    int last_level() const noexcept { return static_cast<int>(levels_.size()); }
+    int last_level() const noexcept { return int(levels_.size()); }
     int finest() const noexcept { return finest_; }
     int size(int level) const noexcept; ///< nodes along an edge
     /// Node (x, y) of a face. Level 0: h, rho, Q and D are 0.

@@ -1,5 +1,6 @@
 #include "bake/environment/filter/spherical_harmonics.h"
 #include "bake/base/parallel.h"
+#include "bake/base/vec.h"
 #include "bake/environment/sky/solid_angle.h"
 #include <algorithm>
 #include <cassert>
@@ -8,8 +9,6 @@
 
 namespace bake {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Unit directions of the texels of one row of a face.
 struct RowDirections {
@@ -133,7 +132,8 @@ ShCoefficients project_sh(const Cube& sky, int bands) {
             }
     });
     for (int chunk = 0; chunk < chunks; ++chunk)
-        for (std::size_t i = 0; i < series.values.size(); ++i) series.values[i] += sums[chunk * series.values.size() + i];
+        for (std::size_t i = 0; i < series.values.size(); ++i)
+            series.values[i] += sums[chunk * series.values.size() + i];
     for (int c = 0; c < channels; ++c) series.values[c] += mean[c] * 2 * std::sqrt(pi);
     return series;
 }
@@ -169,7 +169,8 @@ Cube evaluate_sh(const ShCoefficients& series, int size) {
 void scale_bands(ShCoefficients& series, const std::vector<double>& factors) {
     assert(int(factors.size()) == series.bands);
     for (int l = 0; l < series.bands; ++l)
-        for (int i = l * l * series.channels; i < (l + 1) * (l + 1) * series.channels; ++i) series.values[i] *= factors[l];
+        for (int i = l * l * series.channels; i < (l + 1) * (l + 1) * series.channels; ++i)
+            series.values[i] *= factors[l];
 }
 
 std::vector<double> cosine_band_factors(int bands) {

@@ -1,10 +1,9 @@
 #include "bake/environment/resample/lattice.h"
+#include "bake/base/vec.h"
 #include <cmath>
 
 namespace bake {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool is_latlong(Projection p) noexcept { return p == Projection::latlong || p == Projection::latlong_edges; }
 
@@ -14,8 +13,8 @@ Lattice::Lattice(CubeFace face, int size, bool edge_samples, const glm::dmat3& t
     : face_lattice_(true), edges_(edge_samples), face_(face), width_(size), height_(size), turn_(turn) {}
 
 Lattice::Lattice(Projection projection, int width, int height, const glm::dmat3& turn)
-    : face_lattice_(false), edges_(projection == Projection::latlong_edges), projection_(projection), width_(width), height_(height),
-      turn_(turn) {
+    : face_lattice_(false), edges_(projection == Projection::latlong_edges), projection_(projection), width_(width),
+      height_(height), turn_(turn) {
     if (!is_latlong(projection)) return;
     for (int i = 0; i <= width; ++i) {
         const Vec3d d = picture_direction(projection, width, height, i, 0.5 * height);
@@ -42,12 +41,13 @@ Vec3d Lattice::point(double x, double y) const noexcept {
 }
 
 void Lattice::points(int x0, int parts, double y, int count, Vec3d* directions) const noexcept {
-    const auto row = static_cast<int>(std::ceil(y)); // the outer half rows of edge samples begin at .5, which is as 0
+    const auto row = int(std::ceil(y)); // the outer half rows of edge samples begin at .5, which is as 0
     if (!meridians_.empty() && parts == 1 && (row == y || row <= 1 || row >= height_)) {
         const Vec2d parallel = parallels_[row == y ? row : row <= 1 ? 0 : height_];
         // turn_ * (sin phi cos theta, sin theta, cos phi cos theta), its parts common to the row taken out
         const Vec3d right = turn_[0] * parallel.y, up = turn_[1] * parallel.x, ahead = turn_[2] * parallel.y;
-        for (int k = 0; k < count; ++k) directions[k] = right * meridians_[x0 + k].x + up + ahead * meridians_[x0 + k].y;
+        for (int k = 0; k < count; ++k)
+            directions[k] = right * meridians_[x0 + k].x + up + ahead * meridians_[x0 + k].y;
         return;
     }
     for (int k = 0; k < count; ++k) directions[k] = turn_ * point(x0 + double(k) / parts, y);
@@ -57,7 +57,8 @@ Vec2d Lattice::centroid(int x, int y) const noexcept {
     if (!row_middle_.empty()) return {0, row_middle_[y]};
     if (!face_lattice_) return {0, 0}; // equal-area
     const double n = edges_ ? width_ - 1 : width_, off = edges_ ? 0 : 0.5;
-    const double sc = 2 * (x + off) / n - 1, tc = 2 * (y + off) / n - 1, slope = -3 / (1 + sc * sc + tc * tc) * (2 / n) / 12;
+    const double sc = 2 * (x + off) / n - 1, tc = 2 * (y + off) / n - 1,
+                 slope = -3 / (1 + sc * sc + tc * tc) * (2 / n) / 12;
     return {slope * sc, slope * tc};
 }
 

@@ -8,10 +8,11 @@ namespace {
 /// A part of an edge within cell (x, y), in coordinates of the cell.
 inline void add_part(EdgePart*& parts, int x, int y, double x0, double y0, double x1, double y1) noexcept {
     const double h = y1 - y0, middle = 0.5 * (y0 + y1), across = x0 + x1;
-    *parts++ = {x, y,
-                     {h * (1 - 0.5 * across), h * (0.5 - (across * across - x0 * x1) * (1.0 / 6)),
-                      h * (middle - (across * middle * 6 + (x1 - x0) * h) * (1.0 / 12))},
-                     {h, 0.5 * h, h * middle}};
+    *parts++ = {x,
+                y,
+                {h * (1 - 0.5 * across), h * (0.5 - (across * across - x0 * x1) * (1.0 / 6)),
+                 h * (middle - (across * middle * 6 + (x1 - x0) * h) * (1.0 / 12))},
+                {h, 0.5 * h, h * middle}};
 }
 
 template <int sign> inline void add(CellMoments& sum, const CellMoments& part) noexcept {
@@ -22,7 +23,8 @@ template <int sign> inline void add(CellMoments& sum, const CellMoments& part) n
 }
 
 /// Adds an edge's parts to the cells, `columns` to a row, the first of them at (column, row).
-template <int sign> inline void add_edge(const EdgeParts& edge, CellMoments* cells, int column, int row, int columns) noexcept {
+template <int sign>
+inline void add_edge(const EdgeParts& edge, CellMoments* cells, int column, int row, int columns) noexcept {
     for (const EdgePart *part = edge.first, *end = part + edge.count; part != end; ++part) {
         CellMoments* const here = cells + std::ptrdiff_t(part->y - row) * columns + (part->x - column);
         CellMoments* const row_end = cells + std::ptrdiff_t(part->y - row + 1) * columns;

@@ -43,7 +43,9 @@ struct EdgePart {
 struct CellWindow {
     int low_x, high_x, low_y, high_y;
 };
-inline CellWindow whole_face(const FaceGrid& grid) noexcept { return {grid.low(), grid.high(), grid.low(), grid.high()}; }
+inline CellWindow whole_face(const FaceGrid& grid) noexcept {
+    return {grid.low(), grid.high(), grid.low(), grid.high()};
+}
 
 /// What the overlaps of one quadrilateral are told in, kept between calls for its memory.
 struct Overlap {
@@ -66,8 +68,8 @@ inline int cell_of(double x) noexcept {
 
 /// A point in a face's plane, in cells.
 struct PlanePoint {
-    double x = 0, y = 0, ma = 0;      ///< ma: the component along the face's axis; x and y hold where it is above .2
-    int column = 0, row = 0;          ///< the cell
+    double x = 0, y = 0, ma = 0; ///< ma: the component along the face's axis; x and y hold where it is above .2
+    int column = 0, row = 0;     ///< the cell
 };
 /// From directions to the plane of a face.
 struct FacePlane {
@@ -75,7 +77,9 @@ struct FacePlane {
     double middle;
 
     FacePlane(const FaceGrid& grid, CubeFace face) noexcept;
-    PlanePoint project(const Vec3d& d) const noexcept { return place({glm::dot(s, d), glm::dot(t, d), glm::dot(axis, d)}); }
+    PlanePoint project(const Vec3d& d) const noexcept {
+        return place({glm::dot(s, d), glm::dot(t, d), glm::dot(axis, d)});
+    }
     /// project(d) is place(map() * d).
     glm::dmat3 map() const noexcept { return glm::transpose(glm::dmat3(s, t, axis)); }
     PlanePoint place(const Vec3d& mapped) const noexcept {
@@ -102,10 +106,11 @@ template <class T> inline T least_of(T a, T b, T c, T d) noexcept { return std::
 template <class T> inline T most_of(T a, T b, T c, T d) noexcept { return std::max(std::max(a, b), std::max(c, d)); }
 
 /// Whether a quadrilateral lies ahead of the face and its bounding box meets the window.
-inline bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) noexcept {
+inline bool may_meet(const CellWindow& window, const PlanePoint& a, const PlanePoint& b, const PlanePoint& c,
+                     const PlanePoint& d) noexcept {
     return least_of(a.ma, b.ma, c.ma, d.ma) >= 0.3 && most_of(a.column, b.column, c.column, d.column) >= window.low_x &&
-           least_of(a.column, b.column, c.column, d.column) < window.high_x && most_of(a.row, b.row, c.row, d.row) >= window.low_y &&
-           least_of(a.row, b.row, c.row, d.row) < window.high_y;
+           least_of(a.column, b.column, c.column, d.column) < window.high_x &&
+           most_of(a.row, b.row, c.row, d.row) >= window.low_y && least_of(a.row, b.row, c.row, d.row) < window.high_y;
 }
 
 /// The quadrilateral with corners (0, 0), (1, 0), (1, 1), (0, 1) of its local coordinates, all of it. `edges`: its upper

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/base/vec.h"
 #include "bake/environment/resample/resample_exact.h"
 #include <algorithm>
 #include <cassert>
@@ -15,15 +16,13 @@
 namespace bake {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 int side_of(Samples samples) noexcept { return samples == Samples::grid4 ? 4 : 1; }
 
 /// One row of the result: side x side looks per texel; direction(x, y) gives the source's direction at a point of the
 /// result, in texels.
 template <class Directions>
-void sample_row(const Environment& source, int y, int width, int side, Directions&& direction, std::vector<Vec3d>& looks, std::vector<float>& seen,
-                float* row) {
+void sample_row(const Environment& source, int y, int width, int side, Directions&& direction,
+                std::vector<Vec3d>& looks, std::vector<float>& seen, float* row) {
     const int channels = source.channels();
     looks.resize(width);
     seen.resize(std::size_t(width) * channels);
@@ -33,7 +32,7 @@ void sample_row(const Environment& source, int y, int width, int side, Direction
         return;
     }
     std::fill_n(row, std::size_t(width) * channels, 0.0f);
-    const float share = 1.0f / static_cast<float>(side * side);
+    const float share = 1.0f / float(side * side);
     for (int k = 0; k < side * side; ++k) {
         for (int x = 0; x < width; ++x) looks[x] = direction(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
         sample(source, looks.data(), width, seen.data());
@@ -42,34 +41,49 @@ void sample_row(const Environment& source, int y, int width, int side, Direction
 }
 
 /// Rows [low, high) of a face, sampled.
-void sampled_rows(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options, Samples samples, int low, int high,
-                  float* values, Progress* progress) {
+void sampled_rows(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options,
+                  Samples samples, int low, int high, float* values, Progress* progress) {
     const int n = grid.texels, side = side_of(samples), channels = source.channels();
     const glm::dmat3 back = glm::transpose(options.turn);
     // Directions are linear along the face: middle + s right + t down.
     const Vec3d middle = back * cube_direction(CubePoint<double>{face, 0.5, 0.5});
-    const Vec3d right = back * cube_direction(CubePoint<double>{face, 1.0, 0.5}) - middle, down = back * cube_direction(CubePoint<double>{face, 0.5, 1.0}) - middle;
+    const Vec3d right = back * cube_direction(CubePoint<double>{face, 1.0, 0.5}) - middle,
+                down = back * cube_direction(CubePoint<double>{face, 0.5, 1.0}) - middle;
     const double scale = grid.edges ? 2.0 / std::max(1, n - 1) : 2.0 / n;
-    for_rows(high - low, 8, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Vec3d> looks;
-        std::vector<float> seen;
-        for (std::int64_t i = begin; i < end; ++i)
-            sample_row(source, low + int(i), n, side, [&](double at_x, double at_y) { return middle + (at_x - 0.5 * n) * scale * right + (at_y - 0.5 * n) * scale * down; },
-                       looks, seen, values + i * n * channels);
-    }, progress);
+    for_rows(
+        high - low, 8,
+        [&](std::int64_t begin, std::int64_t end) {
+            std::vector<Vec3d> looks;
+            std::vector<float> seen;
+            for (std::int64_t i = begin; i < end; ++i)
+                sample_row(
+                    source, low + int(i), n, side,
+                    [&](double at_x, double at_y) {
+                        return middle + (at_x - 0.5 * n) * scale * right + (at_y - 0.5 * n) * scale * down;
+                    },
+                    looks, seen, values + i * n * channels);
+        },
+        progress);
 }
 
-Image<float> sampled_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options, Samples samples,
-                             Progress* progress) {
+Image<float> sampled_picture(const Environment& source, Projection projection, int width, int height,
+                             const ResampleOptions& options, Samples samples, Progress* progress) {
     Image<float> image(width, height, source.channels());
     const glm::dmat3 back = glm::transpose(options.turn);
-    for_rows(height, 8, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Vec3d> looks;
-        std::vector<float> seen;
-        for (auto y = int(begin); y < int(end); ++y)
-            sample_row(source, y, width, side_of(samples), [&](double at_x, double at_y) { return back * picture_direction(projection, width, height, at_x, at_y); },
-                       looks, seen, image.row(y));
-    }, progress);
+    for_rows(
+        height, 8,
+        [&](std::int64_t begin, std::int64_t end) {
+            std::vector<Vec3d> looks;
+            std::vector<float> seen;
+            for (auto y = int(begin); y < int(end); ++y)
+                sample_row(
+                    source, y, width, side_of(samples),
+                    [&](double at_x, double at_y) {
+                        return back * picture_direction(projection, width, height, at_x, at_y);
+                    },
+                    looks, seen, image.row(y));
+        },
+        progress);
     return image;
 }
 
@@ -90,12 +104,15 @@ std::array<Frame, 6> join_frames(int n, int channels, const std::array<std::vect
                 for (int other = 0; other < 6; ++other) {
                     const PlanePoint at = FacePlane({n, true}, CubeFace(other)).project(d);
                     const double u = (at.x - 1) / 2, v = (at.y - 1) / 2; // texels from the first one's centre
-                    if (at.ma < 1 - 1e-9 || std::abs(u - 0.5 * (n - 1)) > 0.5 * n || std::abs(v - 0.5 * (n - 1)) > 0.5 * n) continue;
+                    if (at.ma < 1 - 1e-9 || std::abs(u - 0.5 * (n - 1)) > 0.5 * n ||
+                        std::abs(v - 0.5 * (n - 1)) > 0.5 * n)
+                        continue;
                     const int index = frame_index(n, int(std::lround(u)), int(std::lround(v)));
-                    for (int c = 0; c <= channels; ++c) sum[c] += frames[other][std::size_t(index) * (channels + 1) + c];
+                    for (int c = 0; c <= channels; ++c)
+                        sum[c] += frames[other][std::size_t(index) * (channels + 1) + c];
                 }
                 float* const value = &values[std::size_t(frame_index(n, x, y)) * channels];
-                for (int c = 0; c < channels; ++c) value[c] = static_cast<float>(sum[c] / sum[channels]);
+                for (int c = 0; c < channels; ++c) value[c] = float(sum[c] / sum[channels]);
             }
     }
     return joined;
@@ -107,13 +124,16 @@ std::array<Frame, 6> join_frames(int n, int channels, const std::array<std::vect
 void centre_edges(int n, int channels, Frame& frame) {
     for (int side = 0; side < 4; ++side) {
         const auto at = [&](int i) {
-            const int index = side == 0 ? frame_index(n, i, 0) : side == 1 ? frame_index(n, i, n - 1) : side == 2 ? frame_index(n, 0, i) : frame_index(n, n - 1, i);
+            const int index = side == 0   ? frame_index(n, i, 0)
+                              : side == 1 ? frame_index(n, i, n - 1)
+                              : side == 2 ? frame_index(n, 0, i)
+                                          : frame_index(n, n - 1, i);
             return &frame[std::size_t(index) * channels];
         };
         // From the ends inwards, so that neighbours still hold what they were given; the middle has nothing to move.
         for (int i = 1; 2 * i < n - 1; ++i)
             for (const int k : {i, n - 1 - i}) {
-                const float share = static_cast<float>(std::abs(2.0 * k / (n - 1) - 1) / 8);
+                const float share = float(std::abs(2.0 * k / (n - 1) - 1) / 8);
                 float *value = at(k), *inner = at(k < n - 1 - k ? k + 1 : k - 1);
                 for (int c = 0; c < channels; ++c) value[c] += share * (inner[c] - value[c]);
             }
@@ -124,7 +144,8 @@ void centre_edges(int n, int channels, Frame& frame) {
 void put_frame(const Frame& frame, int n, int channels, int low, int high, float* values) {
     for (int y = low; y < high; ++y)
         for (int x = 0; x < n; x += y == 0 || y == n - 1 || n == 1 ? 1 : n - 1)
-            std::copy_n(&frame[std::size_t(frame_index(n, x, y)) * channels], channels, values + (std::size_t(y - low) * n + x) * channels);
+            std::copy_n(&frame[std::size_t(frame_index(n, x, y)) * channels], channels,
+                        values + (std::size_t(y - low) * n + x) * channels);
 }
 
 /// Whether the texels that an edge-sampled lat-long has twice or more, its outer columns and rows, are equal.
@@ -144,11 +165,12 @@ Image<float> joined(const Image<float>& picture) {
     std::copy_n(picture.data(), picture.size(), copy.data());
     const int w = copy.width(), h = copy.height(), channels = copy.channels();
     for (int c = 0; c < channels; ++c) {
-        for (int y = 0; y < h; ++y) copy.at(0, y, c) = copy.at(w - 1, y, c) = 0.5f * (copy.at(0, y, c) + copy.at(w - 1, y, c));
+        for (int y = 0; y < h; ++y)
+            copy.at(0, y, c) = copy.at(w - 1, y, c) = 0.5f * (copy.at(0, y, c) + copy.at(w - 1, y, c));
         for (const int y : {0, h - 1}) {
             double sum = 0;
             for (int x = 0; x < w; ++x) sum += copy.at(x, y, c);
-            for (int x = 0; x < w; ++x) copy.at(x, y, c) = static_cast<float>(sum / w);
+            for (int x = 0; x < w; ++x) copy.at(x, y, c) = float(sum / w);
         }
     }
     return copy;
@@ -190,7 +212,7 @@ struct FaceJob {
     FaceGrid grid;
     ResampleOptions options;
     Samples samples;
-    Environment clean;               ///< the source with its shared texels joined, where they were not
+    Environment clean;           ///< the source with its shared texels joined, where they were not
     std::array<Frame, 6> frames; ///< what exact puts at the edges of edge-sampled faces
 
     const Environment& source() const noexcept { return clean.picture.empty() ? given : clean; }
@@ -205,14 +227,16 @@ FaceJob face_job(const Environment& source, const FaceGrid& grid, const Resample
     }
     if (!grid.edges) return job;
     std::array<std::vector<double>, 6> sums;
-    for (const CubeFace face : all_cube_faces) sums[int(face)] = FaceRain(job.source(), grid, face, options.turn).frame();
+    for (const CubeFace face : all_cube_faces)
+        sums[int(face)] = FaceRain(job.source(), grid, face, options.turn).frame();
     job.frames = join_frames(grid.texels, source.channels(), sums);
     for (Frame& frame : job.frames) centre_edges(grid.texels, source.channels(), frame);
     return job;
 }
 
 /// Rows [low, high) of a face; `rain`: of that face, for exact.
-void make_rows(const FaceJob& job, const FaceRain* rain, CubeFace face, int low, int high, float* values, Progress* progress) {
+void make_rows(const FaceJob& job, const FaceRain* rain, CubeFace face, int low, int high, float* values,
+               Progress* progress) {
     if (!rain) return sampled_rows(job.given, job.grid, face, job.options, job.samples, low, high, values, progress);
     rain->rows(low, high, values, progress);
     if (job.grid.edges) put_frame(job.frames[int(face)], job.grid.texels, job.given.channels(), low, high, values);
@@ -235,7 +259,8 @@ Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOpti
     return cube;
 }
 
-void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options, const std::array<TurnedFace, 6>& faces,
+void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options,
+               const std::array<TurnedFace, 6>& faces,
                const std::function<void(int k, int y, Image<float>& band)>& take, Progress* progress) {
     const FaceJob job = face_job(source, grid, options);
     const int n = grid.texels, channels = source.channels(), height = job.samples == Samples::exact ? 512 : 128;
@@ -248,22 +273,27 @@ void each_band(const Environment& source, const FaceGrid& grid, const ResampleOp
             Image<float> band(n, end - y, channels);
             // Upside down the last rows come first, backwards.
             const bool around = turns % 4 != 0;
-            make_rows(job, rain ? &*rain : nullptr, face, around ? n - end : y, around ? n - y : end, band.data(), progress);
+            make_rows(job, rain ? &*rain : nullptr, face, around ? n - end : y, around ? n - y : end, band.data(),
+                      progress);
             if (around) reverse_texels(band);
             take(k, y, band);
         }
     }
 }
 
-Image<float> to_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options, Progress* progress) {
-    const bool same = !source.is_cube() && source.projection == projection && source.picture.width() == width && source.picture.height() == height;
+Image<float> to_picture(const Environment& source, Projection projection, int width, int height,
+                        const ResampleOptions& options, Progress* progress) {
+    const bool same = !source.is_cube() && source.projection == projection && source.picture.width() == width &&
+                      source.picture.height() == height;
     const double density = std::sqrt(double(width) * height / (4 * pi));
     const Samples samples = resolve(source, density, same, options);
-    if (samples != Samples::exact) return sampled_picture(source, projection, width, height, options, samples, progress);
+    if (samples != Samples::exact)
+        return sampled_picture(source, projection, width, height, options, samples, progress);
     if (source.is_cube()) return gather_picture(source, projection, width, height, options.turn, progress);
     Environment between;
     const double finest = 1.5 * std::max(density, source.density());
-    between.cube = to_cube(source, {2 * int(std::ceil(finest * std::sqrt(4 * pi / 6) / 2)), false}, {Samples::exact}, progress);
+    between.cube =
+        to_cube(source, {2 * int(std::ceil(finest * std::sqrt(4 * pi / 6) / 2)), false}, {Samples::exact}, progress);
     return gather_picture(between, projection, width, height, options.turn, progress);
 }
 

@@ -11,9 +11,9 @@
 //
 // Between two pictures neither of which is a cube, exact goes through a cube that is finer than both.
 #pragma once
+#include "bake/environment/resample/overlap.h"
 #include "bake/environment/sky/environment.h"
 #include "bake/environment/sky/layout.h"
-#include "bake/environment/resample/overlap.h"
 #include <functional>
 #include <glm/mat3x3.hpp>
 
@@ -36,14 +36,16 @@ struct ResampleOptions {
 Samples resolve(const Environment& source, double density, bool same_lattice, const ResampleOptions& options);
 
 /// A cube, channels as in the source. In a cube with edge samples, texels that two or three faces share are equal.
-Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOptions& options = {}, Progress* progress = nullptr);
+Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOptions& options = {},
+             Progress* progress = nullptr);
 /// The faces of it, each turned by an even number of quarter turns, in bands of rows from the top down, so that a large
 /// cube need not be whole in memory: take(k, y, band) gets rows from y on of faces[k].
-void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options, const std::array<TurnedFace, 6>& faces,
+void each_band(const Environment& source, const FaceGrid& grid, const ResampleOptions& options,
+               const std::array<TurnedFace, 6>& faces,
                const std::function<void(int k, int y, Image<float>& band)>& take, Progress* progress = nullptr);
 /// A picture of the whole sky.
-Image<float> to_picture(const Environment& source, Projection projection, int width, int height, const ResampleOptions& options = {},
-                        Progress* progress = nullptr);
+Image<float> to_picture(const Environment& source, Projection projection, int width, int height,
+                        const ResampleOptions& options = {}, Progress* progress = nullptr);
 
 /// Turns by yaw (ahead moves to the right), then pitch (ahead moves up), then roll (the picture ahead turns clockwise).
 glm::dmat3 turn_of(double yaw_deg, double pitch_deg, double roll_deg) noexcept;

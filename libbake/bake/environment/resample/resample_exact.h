@@ -1,7 +1,7 @@
 // Resampling by overlap area (resample.h says what it does).
 #pragma once
-#include "bake/environment/sky/environment.h"
 #include "bake/environment/resample/overlap.h"
+#include "bake/environment/sky/environment.h"
 #include <glm/mat3x3.hpp>
 #include <memory>
 #include <vector>
@@ -29,7 +29,7 @@ private:
 int frame_index(int n, int x, int y) noexcept;
 
 /// A picture gathered from a cube.
-Image<float> gather_picture(const Environment& cube, Projection projection, int width, int height, const glm::dmat3& turn,
-                            Progress* progress);
+Image<float> gather_picture(const Environment& cube, Projection projection, int width, int height,
+                            const glm::dmat3& turn, Progress* progress);
 
 } // namespace bake

@@ -28,7 +28,8 @@ inline Four load(const float* texel, int channels) noexcept {
 /// extremum: along an axis the texel's values stay between its neighbours'. Van Leer, Towards the Ultimate Conservative
 /// Difference Scheme IV, JCP 1977.
 inline Four limited(Four before, Four behind) noexcept {
-    const Four central = 0.5f * (before + behind), size = least(magnitude(central), 2 * least(magnitude(before), magnitude(behind)));
+    const Four central = 0.5f * (before + behind),
+               size = least(magnitude(central), 2 * least(magnitude(before), magnitude(behind)));
     return before * behind > 0 ? Four(FourBits(size) | (FourBits(central) & std::int32_t(0x80000000))) : Four{};
 }
 
@@ -36,8 +37,10 @@ inline Four limited(Four before, Four behind) noexcept {
 /// leave the neighbours' range: Barth and Jespersen, The Design and Application of Upwind Schemes on Unstructured Meshes,
 /// AIAA 1989.
 inline void set_slopes(Slopes& s, Four before_x, Four behind_x, Four before_y, Four behind_y) noexcept {
-    const Four x = limited(before_x, behind_x), y = limited(before_y, behind_y), change = 0.5f * (magnitude(x) + magnitude(y));
-    const Four rise = most(most(-before_x, behind_x), most(-before_y, behind_y)), fall = most(most(before_x, -behind_x), most(before_y, -behind_y));
+    const Four x = limited(before_x, behind_x), y = limited(before_y, behind_y),
+               change = 0.5f * (magnitude(x) + magnitude(y));
+    const Four rise = most(most(-before_x, behind_x), most(-before_y, behind_y)),
+               fall = most(most(before_x, -behind_x), most(before_y, -behind_y));
     const Four room = most(Four{}, least(rise, fall));
     const Four scale = change > room ? room / change : Four{} + 1;
     const Four scaled_x = x * scale, scaled_y = y * scale;
@@ -60,15 +63,15 @@ Beyond beyond_edge(const Cube& cube, CubeFace face, int x, int y, bool across_s)
     const double stretch = n > 1 ? 1 / (1 - 1.0 / n) : 1;
     const int along = across_s ? y : x;
     const double t = (2 * along + 1.0) / n - 1, moved = 0.5 * n * t * (stretch - 1);
-    Beyond result{{}, static_cast<float>(0.5 * n * (stretch - (1 - 1.0 / n)))}; // from the outer texel's centre
+    Beyond result{{}, float(0.5 * n * (stretch - (1 - 1.0 / n)))}; // from the outer texel's centre
     // The slope along the edge is that of this face's own outer texels.
     const int low = std::max(along - 1, 0), high = std::min(along + 1, n - 1);
     const int own_x = std::clamp(x, 0, n - 1), own_y = std::clamp(y, 0, n - 1);
     const float* before = across_s ? &cube[face].at(own_x, low) : &cube[face].at(low, own_y);
     const float* after = across_s ? &cube[face].at(own_x, high) : &cube[face].at(high, own_y);
-    const float steps = static_cast<float>(std::max(1, high - low));
+    const float steps = float(std::max(1, high - low));
     for (int c = 0; c < channels; ++c)
-        result.value[c] = std::max(value[c] - static_cast<float>(moved) * (after[c] - before[c]) / steps, std::min(value[c], 0.0f));
+        result.value[c] = std::max(value[c] - float(moved) * (after[c] - before[c]) / steps, std::min(value[c], 0.0f));
     return result;
 }
 
@@ -79,9 +82,11 @@ void edge_sampled_slopes(const Image<float>& face, int x, int y, Slopes& s) noex
         s = {};
         return;
     }
-    const int x0 = std::clamp(x, 1, n - 1), x1 = std::clamp(x, 0, n - 2), y0 = std::clamp(y, 1, n - 1), y1 = std::clamp(y, 0, n - 2);
+    const int x0 = std::clamp(x, 1, n - 1), x1 = std::clamp(x, 0, n - 2), y0 = std::clamp(y, 1, n - 1),
+              y1 = std::clamp(y, 0, n - 2);
     const auto at = [&](int i, int j) { return load(&face.at(i, j), channels); };
-    set_slopes(s, at(x0, y) - at(x0 - 1, y), at(x1 + 1, y) - at(x1, y), at(x, y0) - at(x, y0 - 1), at(x, y1 + 1) - at(x, y1));
+    set_slopes(s, at(x0, y) - at(x0 - 1, y), at(x1 + 1, y) - at(x1, y), at(x, y0) - at(x, y0 - 1),
+               at(x, y1 + 1) - at(x, y1));
 }
 
 } // namespace
@@ -107,7 +112,8 @@ void face_slopes(const Cube& cube, bool edge_samples, CubeFace f, int x, int y, 
     if (edge_samples) return edge_sampled_slopes(face, x, y, s);
     const Four own = load(&face.at(x, y), channels);
     const auto at = [&](int i, int j) { return load(&face.at(i, j), channels); };
-    if (x > 0 && y > 0 && x + 1 < n && y + 1 < n) return set_slopes(s, own - at(x - 1, y), at(x + 1, y) - own, own - at(x, y - 1), at(x, y + 1) - own);
+    if (x > 0 && y > 0 && x + 1 < n && y + 1 < n)
+        return set_slopes(s, own - at(x - 1, y), at(x + 1, y) - own, own - at(x, y - 1), at(x, y + 1) - own);
     // The difference to the neighbour there, from here to it.
     const auto rise = [&](int i, int j, bool across_s) {
         if (i >= 0 && j >= 0 && i < n && j < n) return at(i, j) - own;

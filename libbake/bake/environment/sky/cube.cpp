@@ -27,7 +27,7 @@ Taps taps(int n, const Vec3d& d) noexcept {
     const CubePoint<double> at = cube_point(d);
     const double x = at.s * n - 0.5, y = at.t * n - 0.5;
     const double x_low = std::floor(x), y_low = std::floor(y);
-    const int x0 = static_cast<int>(x_low), y0 = static_cast<int>(y_low);
+    const int x0 = int(x_low), y0 = int(y_low);
     const double fx = x - x_low, fy = y - y_low;
     Taps found{{{at.face, x0, y0}, {at.face, x0 + 1, y0}, {at.face, x0, y0 + 1}, {at.face, x0 + 1, y0 + 1}},
                {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
@@ -36,10 +36,8 @@ Taps taps(int n, const Vec3d& d) noexcept {
     for (int i = 0; i < 4; ++i) {
         CubeTexel& texel = found.at[i];
         const bool across_s = texel.x < 0 || texel.x >= n, across_t = texel.y < 0 || texel.y >= n;
-        if (across_s && across_t)
-            corner = i;
-        else if (across_s || across_t)
-            texel = texel_across(n, texel.face, texel.x, texel.y);
+        if (across_s && across_t) corner = i;
+        else if (across_s || across_t) texel = texel_across(n, texel.face, texel.x, texel.y);
     }
     if (corner >= 0) {
         const double third = found.weight[corner] / 3;
@@ -104,12 +102,12 @@ CubeTexel texel_across(int n, CubeFace face, int x, int y) noexcept {
     const bool across_s = x < 0 || x >= n;
     // On the edge itself sc or tc is 1 in magnitude. The step folds round the edge: half a texel further, where the
     // centres of the neighbour's texels are, the old major axis has lost 1 / n.
-    const CubePoint<double> edge = across_s ? CubePoint<double>{face, x < 0 ? 0.0 : 1.0, t}
-                                            : CubePoint<double>{face, s, y < 0 ? 0.0 : 1.0};
+    const CubePoint<double> edge =
+        across_s ? CubePoint<double>{face, x < 0 ? 0.0 : 1.0, t} : CubePoint<double>{face, s, y < 0 ? 0.0 : 1.0};
     Vec3d d = cube_direction(edge);
-    d[static_cast<int>(face) / 2] *= 1 - 1.0 / n;
+    d[int(face) / 2] *= 1 - 1.0 / n;
     const CubePoint<double> there = cube_point(d);
-    const auto index = [n](double at) { return std::clamp(static_cast<int>(at * n), 0, n - 1); };
+    const auto index = [n](double at) { return std::clamp(int(at * n), 0, n - 1); };
     return {there.face, index(there.s), index(there.t)};
 }
 
@@ -122,20 +120,20 @@ void lookup(const Cube& cube, const Vec3d& d, float* value) noexcept {
     case 3: gather<3>(cube, found, sum); break;
     default: gather<4>(cube, found, sum); break;
     }
-    for (int c = 0; c < cube.channels(); ++c) value[c] = static_cast<float>(sum[c]);
+    for (int c = 0; c < cube.channels(); ++c) value[c] = float(sum[c]);
 }
 
 Vec3f lookup(const Cube& cube, const Vec3f& d) noexcept {
     double sum[3];
     gather<3>(cube, taps(cube.size(), Vec3d(d)), sum);
-    return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+    return {float(sum[0]), float(sum[1]), float(sum[2])};
 }
 
 Vec3f lookup(const CubeMips& mips, const Vec3f& d, float level) noexcept {
-    const float last = static_cast<float>(mips.size() - 1);
+    const float last = float(mips.size() - 1);
     const float at = level > 0 ? std::min(level, last) : 0.0f; // NaN gives 0
-    const int lower = static_cast<int>(at);
-    const float beyond = at - static_cast<float>(lower);
+    const int lower = int(at);
+    const float beyond = at - float(lower);
     const Vec3f fine = lookup(mips[lower], d);
     return beyond > 0 ? (1 - beyond) * fine + beyond * lookup(mips[lower + 1], d) : fine;
 }

@@ -19,8 +19,8 @@
 // The world is right-handed. world_to_cube is the only place where the two meet, so that pictures, and text in them,
 // are never mirrored.
 #pragma once
-#include "bake/picture/image.h"
 #include "bake/base/vec.h"
+#include "bake/picture/image.h"
 #include <array>
 #include <vector>
 
@@ -54,8 +54,8 @@ struct Cube {
     int size() const noexcept { return faces[0].width(); } ///< texels along an edge
     int channels() const noexcept { return faces[0].channels(); }
     bool empty() const noexcept { return faces[0].empty(); }
-    Image<float>& operator[](CubeFace face) noexcept { return faces[static_cast<int>(face)]; }
-    const Image<float>& operator[](CubeFace face) const noexcept { return faces[static_cast<int>(face)]; }
+    Image<float>& operator[](CubeFace face) noexcept { return faces[int(face)]; }
+    const Image<float>& operator[](CubeFace face) const noexcept { return faces[int(face)]; }
 };
 /// Six faces whose values are not set.
 Cube make_cube(int size, int channels);

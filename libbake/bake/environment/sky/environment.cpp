@@ -1,11 +1,10 @@
 #include "bake/environment/sky/environment.h"
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
 
 namespace bake {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 constexpr int batch = 128;
 constexpr double snap = 1e-9;
 
@@ -46,7 +45,8 @@ void picture_places(const Environment& sky, const Vec3d* d, int count, double* x
     }
 }
 
-template <int channels> void mix(const float* a, const float* b, const float* c, const float* d, float fx, float fy, float* out) noexcept {
+template <int channels>
+void mix(const float* a, const float* b, const float* c, const float* d, float fx, float fy, float* out) noexcept {
     for (int k = 0; k < channels; ++k) {
         const float top = a[k] + fx * (b[k] - a[k]), bottom = c[k] + fx * (d[k] - c[k]);
         out[k] = top + fy * (bottom - top);
@@ -60,9 +60,9 @@ struct Step {
 };
 Step step_of(double x) noexcept {
     // Without the library call that std::floor is on a plain x86-64; places are never below -2.
-    const int low = static_cast<int>(x + (snap + 4)) - 4;
+    const int low = int(x + (snap + 4)) - 4;
     const double beyond = x - low;
-    return {low, beyond > snap ? static_cast<float>(beyond) : 0.0f};
+    return {low, beyond > snap ? float(beyond) : 0.0f};
 }
 
 template <int channels> void sample_picture(const Environment& sky, const Vec3d* d, int count, float* out) noexcept {
@@ -93,7 +93,9 @@ template <int channels> void sample_edges(const Cube& cube, const Vec3d* d, int 
         const CubePoint<double> at = cube_point(d[i]);
         const Step sx = step_of(at.s * (n - 1)), sy = step_of(at.t * (n - 1));
         const Image<float>& face = cube[at.face];
-        const auto tap = [&](int dx, int dy) { return &face.at(std::min(sx.at + dx, n - 1), std::min(sy.at + dy, n - 1)); };
+        const auto tap = [&](int dx, int dy) {
+            return &face.at(std::min(sx.at + dx, n - 1), std::min(sy.at + dy, n - 1));
+        };
         mix<channels>(tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1), sx.beyond, sy.beyond, out + i * channels);
     }
 }

@@ -6,8 +6,8 @@
 namespace bake {
 
 struct Environment {
-    Cube cube;                  ///< six faces; empty: `picture`
-    bool edge_samples = false;  ///< the outer texels' centres lie on the faces' edges, as OpenEXR has it
+    Cube cube;                 ///< six faces; empty: `picture`
+    bool edge_samples = false; ///< the outer texels' centres lie on the faces' edges, as OpenEXR has it
     Image<float> picture;
     Projection projection = Projection::latlong;
 

@@ -20,9 +20,23 @@ Grid grid(CubeLayout layout, FaceOrder order) noexcept {
     using F = CubeFace;
     switch (layout) {
     case CubeLayout::hcross:
-        return {4, 3, {{{1, 0, {F::py, 0}}, {0, 1, {F::nx, 0}}, {1, 1, {F::pz, 0}}, {2, 1, {F::px, 0}}, {3, 1, {F::nz, 0}}, {1, 2, {F::ny, 0}}}}};
+        return {4,
+                3,
+                {{{1, 0, {F::py, 0}},
+                  {0, 1, {F::nx, 0}},
+                  {1, 1, {F::pz, 0}},
+                  {2, 1, {F::px, 0}},
+                  {3, 1, {F::nz, 0}},
+                  {1, 2, {F::ny, 0}}}}};
     case CubeLayout::vcross:
-        return {3, 4, {{{1, 0, {F::py, 0}}, {0, 1, {F::nx, 0}}, {1, 1, {F::pz, 0}}, {2, 1, {F::px, 0}}, {1, 2, {F::ny, 0}}, {1, 3, {F::nz, 2}}}}};
+        return {3,
+                4,
+                {{{1, 0, {F::py, 0}},
+                  {0, 1, {F::nx, 0}},
+                  {1, 1, {F::pz, 0}},
+                  {2, 1, {F::px, 0}},
+                  {1, 2, {F::ny, 0}},
+                  {1, 3, {F::nz, 2}}}}};
     case CubeLayout::strip:
     case CubeLayout::hstrip: break;
     }
@@ -33,7 +47,8 @@ Grid grid(CubeLayout layout, FaceOrder order) noexcept {
 }
 
 void copy(const Image<float>& from, int from_x, int from_y, Image<float>& to, int to_x, int to_y, int n) {
-    for (int y = 0; y < n; ++y) std::copy_n(&from.at(from_x, from_y + y), std::size_t(n) * from.channels(), &to.at(to_x, to_y + y));
+    for (int y = 0; y < n; ++y)
+        std::copy_n(&from.at(from_x, from_y + y), std::size_t(n) * from.channels(), &to.at(to_x, to_y + y));
 }
 
 } // namespace
@@ -69,8 +84,9 @@ Cube cut_faces(const Image<float>& picture, CubeLayout layout, FaceOrder order, 
     const Grid cells = grid(layout, order);
     const int n = picture.width() / cells.columns;
     if (n < 1 || n * cells.columns != picture.width() || n * cells.rows != picture.height())
-        throw Error(Refusal::unsuitable, file + ": is " + std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
-                                             "; this layout has " + std::to_string(cells.columns) + "x" + std::to_string(cells.rows) +
+        throw Error(Refusal::unsuitable, file + ": is " + std::to_string(picture.width()) + "x" +
+                                             std::to_string(picture.height()) + "; this layout has " +
+                                             std::to_string(cells.columns) + "x" + std::to_string(cells.rows) +
                                              " square faces; give another with --from");
     Cube cube = make_cube(n, picture.channels());
     for (const Cell& cell : cells.cells) {

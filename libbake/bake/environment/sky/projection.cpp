@@ -1,12 +1,11 @@
 #include "bake/environment/sky/projection.h"
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace bake {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Vec3d on_sphere(double u, double v) noexcept { // u, v in [0, 1] of a lat-long
     const double phi = (u - 0.5) * 2 * pi, theta = (0.5 - v) * pi;
@@ -52,9 +51,13 @@ Vec3d disc_direction(Projection projection, double u, double v) noexcept {
 Vec2d disc_point(Projection projection, const Vec3d& d) noexcept {
     const double across = std::hypot(d.x, d.y);
     // Of the ball: the normal lies half way between the ray to the camera, -Z, and d.
-    const double r = projection == Projection::ball ? std::sqrt(std::clamp((1 + d.z) / 2, 0.0, 1.0))
-                                                    : std::atan2(across, d.z) / pi;
-    if (across == 0) return {projection == Projection::ball && d.z > 0 ? 1.0 : projection == Projection::probe && d.z < 0 ? 1.0 : 0.0, 0.0};
+    const double r =
+        projection == Projection::ball ? std::sqrt(std::clamp((1 + d.z) / 2, 0.0, 1.0)) : std::atan2(across, d.z) / pi;
+    if (across == 0)
+        return {projection == Projection::ball && d.z > 0    ? 1.0
+                : projection == Projection::probe && d.z < 0 ? 1.0
+                                                             : 0.0,
+                0.0};
     return {d.x / across * r, d.y / across * r};
 }
 

@@ -11,11 +11,16 @@ struct Letter {
     std::uint8_t rows[7];
 };
 constexpr Letter letters[] = {
-    {'+', {0b00000, 0b00100, 0b00100, 0b11111, 0b00100, 0b00100, 0b00000}}, {'-', {0b00000, 0b00000, 0b00000, 0b11111, 0b00000, 0b00000, 0b00000}},
-    {'X', {0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001}}, {'Y', {0b10001, 0b10001, 0b01010, 0b00100, 0b00100, 0b00100, 0b00100}},
-    {'Z', {0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b10000, 0b11111}}, {'p', {0b00000, 0b00000, 0b11110, 0b10001, 0b11110, 0b10000, 0b10000}},
-    {'n', {0b00000, 0b00000, 0b10110, 0b11001, 0b10001, 0b10001, 0b10001}}, {'x', {0b00000, 0b00000, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001}},
-    {'y', {0b00000, 0b00000, 0b10001, 0b10001, 0b01111, 0b00001, 0b01110}}, {'z', {0b00000, 0b00000, 0b11111, 0b00010, 0b00100, 0b01000, 0b11111}},
+    {'+', {0b00000, 0b00100, 0b00100, 0b11111, 0b00100, 0b00100, 0b00000}},
+    {'-', {0b00000, 0b00000, 0b00000, 0b11111, 0b00000, 0b00000, 0b00000}},
+    {'X', {0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001}},
+    {'Y', {0b10001, 0b10001, 0b01010, 0b00100, 0b00100, 0b00100, 0b00100}},
+    {'Z', {0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b10000, 0b11111}},
+    {'p', {0b00000, 0b00000, 0b11110, 0b10001, 0b11110, 0b10000, 0b10000}},
+    {'n', {0b00000, 0b00000, 0b10110, 0b11001, 0b10001, 0b10001, 0b10001}},
+    {'x', {0b00000, 0b00000, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001}},
+    {'y', {0b00000, 0b00000, 0b10001, 0b10001, 0b01111, 0b00001, 0b01110}},
+    {'z', {0b00000, 0b00000, 0b11111, 0b00010, 0b00100, 0b01000, 0b11111}},
 };
 
 /// Whether the text, its letters 6 cells apart, covers the point (x, y) in cells from its upper left corner.
@@ -57,17 +62,21 @@ Cube label_sky(int n) {
                                      {0.35f, 0.06f, 0.35f}, {0.08f, 0.1f, 0.5f},   {0.4f, 0.38f, 0.05f}};
     Cube cube = make_cube(n, 3);
     for (const CubeFace face : all_cube_faces) {
-        const int index = static_cast<int>(face);
+        const int index = int(face);
         const auto direction = [&](float s, float t) { return cube_direction(CubePoint<float>{face, s, t}); };
         const Vec3f middle = direction(0.5f, 0.5f);
-        const char *self = axis_of(middle), *right = axis_of(direction(1, 0.5f) - middle), *down = axis_of(direction(0.5f, 1) - middle);
+        const char *self = axis_of(middle), *right = axis_of(direction(1, 0.5f) - middle),
+                   *down = axis_of(direction(0.5f, 1) - middle);
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 const double s = (x + 0.5) / n, t = (y + 0.5) / n;
                 const bool line = x * 8 % n < 8 || y * 8 % n < 8, corner = s < 1.0 / 16 && t < 1.0 / 16;
-                const bool text = covers_at(self, s, t, 0.5, 0.42, 0.045) || covers_at(cube_face_names[index], s, t, 0.5, 0.7, 0.018) ||
-                                  covers_at(right, s, t, 0.86, 0.42, 0.014) || covers_at(down, s, t, 0.5, 0.93, 0.014) ||
-                                  covers_arrow((s - 0.8) / 0.16, (t - 0.5) / 0.16) || covers_arrow((t - 0.8) / 0.16 + 0.25, (s - 0.42) / 0.16);
+                const bool text = covers_at(self, s, t, 0.5, 0.42, 0.045) ||
+                                  covers_at(cube_face_names[index], s, t, 0.5, 0.7, 0.018) ||
+                                  covers_at(right, s, t, 0.86, 0.42, 0.014) ||
+                                  covers_at(down, s, t, 0.5, 0.93, 0.014) ||
+                                  covers_arrow((s - 0.8) / 0.16, (t - 0.5) / 0.16) ||
+                                  covers_arrow((t - 0.8) / 0.16 + 0.25, (s - 0.42) / 0.16);
                 const float shade = (text || corner ? 1.0f : line ? 1.6f : 1.0f) * ((x + y) % 2 ? 1.0f : 0.96f);
                 const float* colour = text || corner ? white : colours[index];
                 for (int c = 0; c < 3; ++c) cube[face].at(x, y, c) = colour[c] * shade;

@@ -171,7 +171,8 @@ double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const 
     // Most pieces need few cuts, a few need many: those not done start again with eight times as many.
     for (std::size_t round = 32;; round *= 8) {
         const double limit2 = std::max(gap2 * farthest.distance2, least2);
-        const auto done = std::partition(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.upper2 > limit2; });
+        const auto done =
+            std::partition(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.upper2 > limit2; });
         for (auto i = done; i != pieces.end(); ++i) upper2 = std::max(upper2, i->upper2);
         pieces.erase(done, pieces.end());
         const std::size_t most = pieces.empty() ? 0 : std::min(round, left / pieces.size());

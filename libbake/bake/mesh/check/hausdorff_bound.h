@@ -32,8 +32,8 @@ struct Piece {
 };
 
 struct BoundOptions {
-    double gap = 0.01;   ///< good enough: upper <= (1 + gap) lower ...
-    double nothing = 0;  ///< ... or upper <= this, in object units
+    double gap = 0.01;  ///< good enough: upper <= (1 + gap) lower ...
+    double nothing = 0; ///< ... or upper <= this, in object units
     std::size_t most_cuts = 0;
 };
 

@@ -271,8 +271,8 @@ MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
         }
         // The middle of what both boxes hold.
         for (int k = 0; k < 3; ++k)
-            result.first_place[k] = 0.5 * (double(std::max(low(c[0])[k], low(c[1])[k])) +
-                                           double(std::min(high(c[0])[k], high(c[1])[k])));
+            result.first_place[k] =
+                0.5 * (double(std::max(low(c[0])[k], low(c[1])[k])) + double(std::min(high(c[0])[k], high(c[1])[k])));
     }
 
     std::vector<Shell> shells = closed_shells(mesh, corners, tree, component, result.components);

@@ -14,8 +14,9 @@ struct MeshAudit {
     bool available = false; ///< false in a build without CGAL: the rest is then unset
 
     std::size_t self_intersections = 0; ///< pairs of triangles that meet beyond a shared edge or vertex
-    std::array<std::uint32_t, 2> first_faces = {no_index, no_index}; ///< of such a pair, the one with the lowest numbers
-    Vec3d first_place{0};                                           ///< near where they meet
+    std::array<std::uint32_t, 2> first_faces = {no_index,
+                                                no_index}; ///< of such a pair, the one with the lowest numbers
+    Vec3d first_place{0};                                  ///< near where they meet
 
     bool closed = false; ///< a manifold without boundary, faces turned alike
     /// Closed, every outer shell looks outwards and every inner wall inwards, and no two faces cut each other.

@@ -128,10 +128,8 @@ std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& ma
         }
         const bool majority_odd = odd * 2 > patch.size();
         for (const Index f : patch) turned[f] = orientable && (turned[f] != 0) != majority_odd;
-        if (orientable)
-            topology.flipped_faces += majority_odd ? patch.size() - odd : odd;
-        else
-            topology.unorientable_edges += disagreeing / 2; // each was met from both sides
+        if (orientable) topology.flipped_faces += majority_odd ? patch.size() - odd : odd;
+        else topology.unorientable_edges += disagreeing / 2; // each was met from both sides
     }
     return turned;
 }

@@ -8,15 +8,15 @@ namespace bake {
 /// three corners has no edges.
 struct Topology {
     std::size_t edges = 0;
-    std::size_t boundary_edges = 0;         ///< edges of one face
-    std::size_t boundary_loops = 0;         ///< closed chains of boundary edges
-    std::size_t nonmanifold_edges = 0;      ///< edges of three faces or more
-    std::size_t nonmanifold_vertices = 0;   ///< positions on such an edge, or whose faces form more than one fan
-    std::size_t components = 0;             ///< sets of faces connected through edges
-    std::size_t closed_components = 0;      ///< those without boundary, non-manifold edge or flipped face
-    std::size_t inside_out_components = 0;  ///< closed ones whose faces look inwards (negative volume)
-    std::size_t flipped_faces = 0;          ///< faces turned against the majority of the faces they hang together with
-    std::size_t unorientable_edges = 0;     ///< edges that cannot agree however faces are turned (Moebius strip)
+    std::size_t boundary_edges = 0;        ///< edges of one face
+    std::size_t boundary_loops = 0;        ///< closed chains of boundary edges
+    std::size_t nonmanifold_edges = 0;     ///< edges of three faces or more
+    std::size_t nonmanifold_vertices = 0;  ///< positions on such an edge, or whose faces form more than one fan
+    std::size_t components = 0;            ///< sets of faces connected through edges
+    std::size_t closed_components = 0;     ///< those without boundary, non-manifold edge or flipped face
+    std::size_t inside_out_components = 0; ///< closed ones whose faces look inwards (negative volume)
+    std::size_t flipped_faces = 0;         ///< faces turned against the majority of the faces they hang together with
+    std::size_t unorientable_edges = 0;    ///< edges that cannot agree however faces are turned (Moebius strip)
 };
 
 struct MeshCheckOptions {
@@ -31,18 +31,18 @@ struct MeshCheck {
     double diagonal = 0;
     double area = 0;
 
-    Topology topology;                     ///< as the file's indices have it
-    std::size_t coincident_positions = 0;  ///< positions bit-equal to one before them: the file is not welded there
-    Topology welded;                       ///< with bit-equal positions taken as one
+    Topology topology;                    ///< as the file's indices have it
+    std::size_t coincident_positions = 0; ///< positions bit-equal to one before them: the file is not welded there
+    Topology welded;                      ///< with bit-equal positions taken as one
 
     std::size_t unused_positions = 0;
-    std::size_t repeated_corners = 0;    ///< faces that use one position twice
-    std::size_t duplicate_faces = 0;     ///< faces over the positions of a face before them, turned any way
-    std::size_t zero_area_faces = 0;     ///< faces all of whose triangles have at most zero_area * diagonal^2
-    std::size_t faces_without_uv = 0;    ///< faces with a corner that has none
+    std::size_t repeated_corners = 0; ///< faces that use one position twice
+    std::size_t duplicate_faces = 0;  ///< faces over the positions of a face before them, turned any way
+    std::size_t zero_area_faces = 0;  ///< faces all of whose triangles have at most zero_area * diagonal^2
+    std::size_t faces_without_uv = 0; ///< faces with a corner that has none
     std::size_t faces_without_normal = 0;
-    std::size_t bad_normals = 0;         ///< corners with a normal of length zero
-    std::size_t opposed_normals = 0;     ///< corners whose normal lies more than 90 degrees off their face's
+    std::size_t bad_normals = 0;     ///< corners with a normal of length zero
+    std::size_t opposed_normals = 0; ///< corners whose normal lies more than 90 degrees off their face's
 };
 
 /// Largest entry of faces_of_size.

@@ -121,7 +121,8 @@ Sampled sample_all(const Side& a, const Side& b, std::size_t samples, NearestPla
             first = std::min(first, place);
         }
     }
-    const double wanted = std::max(area / double(std::max<std::size_t>(samples, 1)), std::numeric_limits<double>::min());
+    const double wanted =
+        std::max(area / double(std::max<std::size_t>(samples, 1)), std::numeric_limits<double>::min());
     nearest.position.assign(owner.size(), no_index);
     nearest.inside.resize(a.tree.size());
     std::vector<Sampled> parts((a.tree.size() + grain - 1) / grain);

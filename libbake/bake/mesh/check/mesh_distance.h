@@ -15,7 +15,7 @@ struct MeshDistanceOptions {
     std::size_t samples = 250000;     ///< points of equal area per way; each triangle has at least one
     double gap = 0.01;                ///< refine until upper <= (1 + gap) lower ...
     double nothing = 1e-7;            ///< ... or upper <= nothing * diagonal of both, which is a float's rounding
-    std::size_t most_cuts = 20000000;  ///< per way; more are not made, and the gap stays as it then is
+    std::size_t most_cuts = 20000000; ///< per way; more are not made, and the gap stays as it then is
 };
 
 /// Angles between normals, degrees, over the area.
@@ -34,7 +34,7 @@ struct OneWayDistance {
 };
 
 struct MeshDistance {
-    OneWayDistance there, back; ///< from a to b, from b to a
+    OneWayDistance there, back;  ///< from a to b, from b to a
     double lower = 0, upper = 0; ///< of the symmetric Hausdorff distance
     double diagonal = 0;         ///< of the box of both
     bool shading = false;        ///< both have normals somewhere

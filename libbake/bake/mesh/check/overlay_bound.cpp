@@ -7,7 +7,7 @@ namespace {
 
 using Polygon = OverlayRoom::Polygon;
 
-constexpr std::size_t most_near = 24;  // more triangles than that are laid over a quarter of the piece each
+constexpr std::size_t most_near = 24; // more triangles than that are laid over a quarter of the piece each
 constexpr std::size_t most_open = 256;
 constexpr int deepest = 8;
 

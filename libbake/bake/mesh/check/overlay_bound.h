@@ -18,7 +18,7 @@ struct OverlayRoom {
 /// along the outlines of the triangles near it, seen along its normal, those in `first` before others; each part must
 /// be within the limit of the one triangle over it, which is a question of its corners alone because the distance to
 /// one triangle is convex. False says nothing; room.open then holds parts for which it could not be shown.
-bool overlay_within(const TriangleTree& other, const std::array<Vec3d, 3>& p,
-                    const std::array<std::uint32_t, 4>& first, double limit2, OverlayRoom& room);
+bool overlay_within(const TriangleTree& other, const std::array<Vec3d, 3>& p, const std::array<std::uint32_t, 4>& first,
+                    double limit2, OverlayRoom& room);
 
 } // namespace bake

@@ -1,9 +1,9 @@
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/mesh/gltf/io.h"
-#include "bake/mesh/mesh_corner.h"
+#include "bake/base/error.h"
 #include "bake/mesh/file/obj.h"
 #include "bake/mesh/file/ply.h"
-#include "bake/base/error.h"
+#include "bake/mesh/gltf/io.h"
+#include "bake/mesh/mesh_corner.h"
 #include <filesystem>
 #include <new>
 
@@ -17,9 +17,11 @@ std::string ending(const std::string& path) { return std::filesystem::path(path)
 Format format_of(const std::string& path) {
     std::string lower = ending(path);
     for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower == ".obj" ? Format::obj : lower == ".ply" ? Format::ply
-           : lower == ".glb" || lower == ".gltf" ? Format::gltf : Format::unknown;
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return lower == ".obj"                       ? Format::obj
+           : lower == ".ply"                     ? Format::ply
+           : lower == ".glb" || lower == ".gltf" ? Format::gltf
+                                                 : Format::unknown;
 }
 
 Error unknown_format(Refusal refusal, const std::string& path) {

@@ -1,11 +1,11 @@
 // OBJ is read in two passes over pieces of the file, each pass in parallel: the first counts, so that the arrays are
 // allocated once and every piece knows its place in them (and what a negative index is relative to); the second reads.
+#include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
-#include "bake/mesh/file/obj.h"
+#include "bake/base/parallel.h"
 #include "bake/base/text_line.h"
 #include "bake/base/text_number.h"
-#include "bake/base/error.h"
-#include "bake/base/parallel.h"
+#include "bake/mesh/file/obj.h"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -61,7 +61,7 @@ Keyword read_keyword(const char*& p) noexcept {
 
 /// Words of [p, end), up to a comment. p is behind the keyword: at a blank or at the end.
 std::size_t count_words(const char* p, const char* end) noexcept {
-    if (std::memchr(p, '#', static_cast<std::size_t>(end - p)))
+    if (std::memchr(p, '#', std::size_t(end - p)))
         for (const char* s = p; s < end; ++s)
             if (is_blank(s[0]) && s[1] == '#') {
                 end = s;
@@ -71,8 +71,7 @@ std::size_t count_words(const char* p, const char* end) noexcept {
     while (p < end) { // in blocks that one byte can count, so that the compiler counts sixteen at a time
         const auto length = std::min<std::ptrdiff_t>(end - p, 256);
         std::uint8_t starts = 0;
-        for (std::ptrdiff_t i = 0; i < length; ++i)
-            starts += static_cast<std::uint8_t>(is_blank(p[i]) & !ends_number(p[i + 1]));
+        for (std::ptrdiff_t i = 0; i < length; ++i) starts += std::uint8_t(is_blank(p[i]) & !ends_number(p[i + 1]));
         words += starts;
         p += length;
     }
@@ -85,7 +84,7 @@ bool at_end(const char* p) noexcept { return *p == '\n' || *p == '#'; }
 std::string_view word_at(const char* p) noexcept {
     const char* end = p;
     while (!ends_number(*end)) ++end;
-    return {p, static_cast<std::size_t>(end - p)};
+    return {p, std::size_t(end - p)};
 }
 
 /// Between `least` and `most` finite numbers into out, which holds zeros; what follows them is ignored.
@@ -118,8 +117,8 @@ std::string number_fault(const char* p, int least, const std::string& what) {
 /// One index of a face corner, resolved against the `before` elements above the line and the `total` of the file.
 /// no_index when it is 0 or out of range.
 std::uint32_t resolve(std::int64_t index, std::size_t before, std::size_t total) noexcept {
-    const std::int64_t i = index < 0 ? static_cast<std::int64_t>(before) + index : index - 1;
-    return i >= 0 && i < static_cast<std::int64_t>(total) ? static_cast<std::uint32_t>(i) : no_index;
+    const std::int64_t i = index < 0 ? std::int64_t(before) + index : index - 1;
+    return i >= 0 && i < std::int64_t(total) ? std::uint32_t(i) : no_index;
 }
 
 struct Corner {
@@ -221,7 +220,8 @@ std::string read_tag(const char* p, std::size_t positions, Piece& piece) {
         const bool read = counts == "1/0/0" && read_position(a);
         skip_blanks(p);
         if (!read || !at_end(p) || a < 0 || a > 2)
-            return "not a boundary rule; write t interpolateboundary 1/0/0 n, n being 0 (none), 1 (edge and corner) or 2 "
+            return "not a boundary rule; write t interpolateboundary 1/0/0 n, n being 0 (none), 1 (edge and corner) or "
+                   "2 "
                    "(edge only)";
         piece.boundary = a == 0   ? SubdivisionTags::Boundary::none
                          : a == 1 ? SubdivisionTags::Boundary::edge_and_corner
@@ -294,7 +294,7 @@ Piece read_piece(const char* begin, const char* end, Counts done, const Counts& 
             if (corners < 3 && !piece.fault_at)
                 fail(line, "face of " + std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
                                "; a face needs at least 3, so remove the line or complete it");
-            mesh.face_begin[++done.faces] = static_cast<std::uint32_t>(done.corners);
+            mesh.face_begin[++done.faces] = std::uint32_t(done.corners);
             break;
         }
         case Keyword::group: piece.groups.push_back({done.faces, read_name(p, line.end)}); break;
@@ -317,10 +317,10 @@ void assign_names(std::vector<Piece>& pieces, std::vector<NameChange> Piece::*ch
     const auto close_run = [&](std::size_t until) {
         if (until > since && !current.empty()) {
             if (face_name.empty()) face_name.assign(faces, no_index);
-            const auto [found, added] = known.try_emplace(current, static_cast<std::uint32_t>(names.size()));
+            const auto [found, added] = known.try_emplace(current, std::uint32_t(names.size()));
             if (added) names.push_back(current);
-            std::fill(face_name.begin() + static_cast<std::ptrdiff_t>(since),
-                      face_name.begin() + static_cast<std::ptrdiff_t>(until), found->second);
+            std::fill(face_name.begin() + std::ptrdiff_t(since), face_name.begin() + std::ptrdiff_t(until),
+                      found->second);
         }
         since = until;
     };
@@ -360,9 +360,8 @@ Mesh read_obj(const std::string& path) {
     const std::vector<const char*> bounds = split_lines(begin, end, std::size_t(1) << 18);
     const std::size_t pieces = bounds.size() - 1;
     std::vector<Counts> place(pieces + 1);
-    for_rows(static_cast<std::int64_t>(pieces), 1, [&](std::int64_t i, std::int64_t) {
-        place[static_cast<std::size_t>(i)] =
-            count_piece(bounds[static_cast<std::size_t>(i)], bounds[static_cast<std::size_t>(i) + 1]);
+    for_rows(std::int64_t(pieces), 1, [&](std::int64_t i, std::int64_t) {
+        place[std::size_t(i)] = count_piece(bounds[std::size_t(i)], bounds[std::size_t(i) + 1]);
     });
     Counts total;
     for (Counts& counts : place) {
@@ -381,8 +380,8 @@ Mesh read_obj(const std::string& path) {
     Mesh mesh;
     allocate(total, mesh);
     std::vector<Piece> found(pieces);
-    for_rows(static_cast<std::int64_t>(pieces), 1, [&](std::int64_t row, std::int64_t) {
-        const auto i = static_cast<std::size_t>(row);
+    for_rows(std::int64_t(pieces), 1, [&](std::int64_t row, std::int64_t) {
+        const auto i = std::size_t(row);
         found[i] = read_piece(bounds[i], bounds[i + 1], place[i], total, mesh);
     });
     bool any_uv = false, any_normal = false;

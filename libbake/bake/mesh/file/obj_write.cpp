@@ -1,6 +1,6 @@
 #include "bake/base/block_writer.h"
-#include "bake/mesh/file/obj.h"
 #include "bake/base/text_number.h"
+#include "bake/mesh/file/obj.h"
 #include <algorithm>
 #include <charconv>
 

@@ -1,7 +1,7 @@
-#include "bake/mesh/file/ply_body.h"
+#include "bake/base/error.h"
 #include "bake/base/text_line.h"
 #include "bake/base/text_number.h"
-#include "bake/base/error.h"
+#include "bake/mesh/file/ply_body.h"
 #include <cmath>
 
 namespace bake {
@@ -27,14 +27,14 @@ struct Rows {
                 refuse("the file ends after " + std::to_string(row) + " of " + std::to_string(element.rows) +
                        " rows of " + shown(element.name));
             p = next;
-            next = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(file.end() + 1 - p))) + 1;
+            next = static_cast<const char*>(std::memchr(p, '\n', std::size_t(file.end() + 1 - p))) + 1;
             skip_blanks(p);
         } while (*p == '\n');
     }
     std::string word() const {
         const char* end = p;
         while (!ends_number(*end)) ++end;
-        return shown({p, static_cast<std::size_t>(end - p)});
+        return shown({p, std::size_t(end - p)});
     }
     void need_word(const PlyProperty& property) {
         skip_blanks(p);
@@ -76,12 +76,12 @@ struct Rows {
 };
 
 void read_vertices(Rows& rows, const PlyElement& element, const PlyLayout& layout, Mesh& mesh) {
-    const auto count = static_cast<std::size_t>(element.rows);
+    const auto count = std::size_t(element.rows);
     resize_vertices(layout, count, mesh);
     // Per property, where its values go.
     std::vector<PlyColumn> target(element.properties.size(), PlyColumn{nullptr, 0});
     for (std::size_t c = 0; c < layout.columns.size(); ++c)
-        if (layout.columns[c] >= 0) target[static_cast<std::size_t>(layout.columns[c])] = column_of(mesh, c);
+        if (layout.columns[c] >= 0) target[std::size_t(layout.columns[c])] = column_of(mesh, c);
     for (std::size_t row = 0; row < count; ++row) {
         rows.start_row(element, row);
         for (std::size_t i = 0; i < target.size(); ++i) {
@@ -97,25 +97,25 @@ void read_indices(Rows& rows, const PlyProperty& property, std::uint64_t vertice
     if (corners < 3) rows.refuse("face of " + std::to_string(corners) + " corners, a face needs at least 3");
     for (std::int64_t i = 0; i < corners; ++i) {
         const std::int64_t index = rows.integer(property);
-        if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+        if (index < 0 || std::uint64_t(index) >= vertices)
             rows.refuse("index " + std::to_string(index) + " of " + std::to_string(vertices) + " vertices");
-        mesh.corner_position.push_back(static_cast<std::uint32_t>(index));
+        mesh.corner_position.push_back(std::uint32_t(index));
     }
     if (mesh.corners() >= no_index)
         throw Error(Refusal::unsuitable, rows.path + ": more than 2^32 - 2 corners; split the mesh");
-    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners()));
+    mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
 }
 
 void read_faces(Rows& rows, const PlyElement& element, const PlyLayout& layout, std::uint64_t vertices, PlyBody& body) {
-    body.mesh.face_begin.reserve(static_cast<std::size_t>(element.rows) + 1);
+    body.mesh.face_begin.reserve(std::size_t(element.rows) + 1);
     std::vector<float> texcoord;
     for (std::uint64_t row = 0; row < element.rows; ++row) {
         rows.start_row(element, row);
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
-            if (static_cast<int>(i) == layout.indices) {
+            if (int(i) == layout.indices) {
                 read_indices(rows, property, vertices, body.mesh);
-            } else if (static_cast<int>(i) == layout.texcoord) {
+            } else if (int(i) == layout.texcoord) {
                 texcoord.clear();
                 for (std::int64_t n = rows.count(property); n > 0; --n) texcoord.push_back(rows.number(property));
             } else {
@@ -139,13 +139,13 @@ PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const Ply
                        const std::string& path) {
     PlyBody body;
     Rows rows{file, path, header.body};
-    const std::uint64_t vertices = header.elements[static_cast<std::size_t>(layout.vertex)].rows;
+    const std::uint64_t vertices = header.elements[std::size_t(layout.vertex)].rows;
     for (std::size_t i = 0; i < header.elements.size(); ++i) {
         const PlyElement& element = header.elements[i];
         if (element.properties.empty() || element.rows == 0) continue;
-        if (static_cast<int>(i) == layout.vertex) {
+        if (int(i) == layout.vertex) {
             read_vertices(rows, element, layout, body.mesh);
-        } else if (static_cast<int>(i) == layout.face) {
+        } else if (int(i) == layout.face) {
             read_faces(rows, element, layout, vertices, body);
         } else {
             for (std::uint64_t row = 0; row < element.rows; ++row) {

@@ -1,7 +1,7 @@
-#include "bake/mesh/file/ply_body.h"
-#include "bake/base/text_line.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/text_line.h"
+#include "bake/mesh/file/ply_body.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -69,17 +69,15 @@ template <class OnList> const char* walk_row(const char* p, const char* end, con
     for (std::size_t i = 0; i < shape.lists.size(); ++i) {
         const RowShape::List& list = shape.lists[i];
         const std::size_t count_size = size_of(list.count_type);
-        if (static_cast<std::size_t>(end - p) < list.skip + count_size) return nullptr;
+        if (std::size_t(end - p) < list.skip + count_size) return nullptr;
         p += list.skip;
-        const auto count =
-            with_type(list.count_type, [&]<class T>() { return static_cast<std::int64_t>(load<T>(p, shape.swap)); });
+        const auto count = with_type(list.count_type, [&]<class T>() { return std::int64_t(load<T>(p, shape.swap)); });
         p += count_size;
-        if (count < 0 || static_cast<std::uint64_t>(count) > static_cast<std::size_t>(end - p) / list.item)
-            return nullptr;
-        on_list(i, p, static_cast<std::size_t>(count));
-        p += static_cast<std::size_t>(count) * list.item;
+        if (count < 0 || std::uint64_t(count) > std::size_t(end - p) / list.item) return nullptr;
+        on_list(i, p, std::size_t(count));
+        p += std::size_t(count) * list.item;
     }
-    return static_cast<std::size_t>(end - p) < shape.tail ? nullptr : p + shape.tail;
+    return std::size_t(end - p) < shape.tail ? nullptr : p + shape.tail;
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
@@ -95,11 +93,9 @@ template <class OnList> const char* walk_row(const char* p, const char* end, con
 void read_column(const char* from, std::size_t stride, std::size_t rows, PlyType type, bool swap, PlyColumn out) {
     with_type(type, [&]<class T>() {
         if (swap)
-            for (std::size_t i = 0; i < rows; ++i)
-                out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, true));
+            for (std::size_t i = 0; i < rows; ++i) out.first[i * out.stride] = float(load<T>(from + i * stride, true));
         else
-            for (std::size_t i = 0; i < rows; ++i)
-                out.first[i * out.stride] = static_cast<float>(load<T>(from + i * stride, false));
+            for (std::size_t i = 0; i < rows; ++i) out.first[i * out.stride] = float(load<T>(from + i * stride, false));
     });
 }
 
@@ -108,9 +104,9 @@ std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool sw
                          std::uint32_t* out) {
     return with_type(type, [&]<class T>() -> std::size_t {
         for (std::size_t i = 0; i < count; ++i) {
-            const auto index = static_cast<std::int64_t>(load<T>(p + i * sizeof(T), swap));
-            if (index < 0 || static_cast<std::uint64_t>(index) >= vertices) return i;
-            out[i] = static_cast<std::uint32_t>(index);
+            const auto index = std::int64_t(load<T>(p + i * sizeof(T), swap));
+            if (index < 0 || std::uint64_t(index) >= vertices) return i;
+            out[i] = std::uint32_t(index);
         }
         return count;
     });
@@ -120,14 +116,14 @@ constexpr std::size_t grain = 8192; // rows of a block
 
 const char* read_vertices(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
                           const PlyLayout& layout, const std::string& path, Mesh& mesh) {
-    const auto count = static_cast<std::size_t>(element.rows);
+    const auto count = std::size_t(element.rows);
     resize_vertices(layout, count, mesh);
     std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
         std::size_t& bad = first_bad[first / grain];
         for (std::size_t c = 0; c < layout.columns.size(); ++c) {
             if (layout.columns[c] < 0) continue;
-            const auto property = static_cast<std::size_t>(layout.columns[c]);
+            const auto property = std::size_t(layout.columns[c]);
             PlyColumn out = column_of(mesh, c);
             out.first += first * out.stride;
             read_column(address(property), shape.tail, rows, element.properties[property].type, shape.swap, out);
@@ -136,9 +132,9 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
         }
     };
     if (shape.lists.empty()) { // all there, as the caller has seen
-        for_rows(static_cast<std::int64_t>(count), grain, [&](std::int64_t begin, std::int64_t last) {
-            const char* const row = p + static_cast<std::size_t>(begin) * shape.tail;
-            read_rows(static_cast<std::size_t>(begin), static_cast<std::size_t>(last - begin),
+        for_rows(std::int64_t(count), grain, [&](std::int64_t begin, std::int64_t last) {
+            const char* const row = p + std::size_t(begin) * shape.tail;
+            read_rows(std::size_t(begin), std::size_t(last - begin),
                       [&](std::size_t property) { return row + shape.place[property].offset; });
         });
         p += count * shape.tail;
@@ -179,9 +175,9 @@ const char* read_face(const char* p, const char* end, const PlyElement& element,
     const char* uv_items = nullptr;
     std::size_t uv_values = 0;
     const char* const next = walk_row(p, end, shape, [&](std::size_t list, const char* items, std::size_t count) {
-        const auto property = static_cast<int>(shape.lists[list].property);
+        const auto property = int(shape.lists[list].property);
         if (property == layout.indices) {
-            const PlyType type = element.properties[static_cast<std::size_t>(property)].type;
+            const PlyType type = element.properties[std::size_t(property)].type;
             if (read_indices(items, count, type, shape.swap, vertices, &mesh.corner_position[corner]) < count)
                 fault = "has an index outside its " + std::to_string(vertices) + " vertices";
             corner += count;
@@ -196,7 +192,7 @@ const char* read_face(const char* p, const char* end, const PlyElement& element,
     if (uv_values != 0 && uv_values != 2 * corners)
         fault = "has " + std::to_string(uv_values) + " texcoord for " + std::to_string(corners) + " corners";
     if (uv_values == 0 || !fault.empty()) return next;
-    const PlyType type = element.properties[static_cast<std::size_t>(layout.texcoord)].type;
+    const PlyType type = element.properties[std::size_t(layout.texcoord)].type;
     float* const out = &body.texcoord[first].x;
     read_column(uv_items, size_of(type), uv_values, type, shape.swap, {out, 1});
     if (!std::all_of(out, out + uv_values, [](float v) { return std::isfinite(v); }))
@@ -206,7 +202,7 @@ const char* read_face(const char* p, const char* end, const PlyElement& element,
 
 const char* read_faces(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
                        const PlyLayout& layout, std::uint64_t vertices, const std::string& path, PlyBody& body) {
-    const auto faces = static_cast<std::size_t>(element.rows);
+    const auto faces = std::size_t(element.rows);
     Mesh& mesh = body.mesh;
     mesh.face_begin.resize(faces + 1);
     // Where a row starts is known only from the row before: one thread finds the blocks, all read them.
@@ -216,21 +212,21 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
         if (f % grain == 0) blocks.push_back({p, corners, {}, {}});
         std::size_t size = 0;
         p = walk_row(p, end, shape, [&](std::size_t list, const char*, std::size_t count) {
-            if (static_cast<int>(shape.lists[list].property) == layout.indices) size = count;
+            if (int(shape.lists[list].property) == layout.indices) size = count;
         });
         if (!p) refuse_short(path, element, f);
         if (size < 3)
             refuse(path,
                    "face " + std::to_string(f) + " has " + std::to_string(size) + " corners and needs at least 3");
         corners += size;
-        mesh.face_begin[f + 1] = static_cast<std::uint32_t>(corners);
+        mesh.face_begin[f + 1] = std::uint32_t(corners);
     }
     if (corners >= no_index) throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 corners; split the mesh");
     mesh.corner_position.resize(corners);
     if (layout.texcoord >= 0) body.texcoord.resize(corners);
 
-    for_rows(static_cast<std::int64_t>(faces), grain, [&](std::int64_t begin, std::int64_t last) {
-        Block& block = blocks[static_cast<std::size_t>(begin) / grain];
+    for_rows(std::int64_t(faces), grain, [&](std::int64_t begin, std::int64_t last) {
+        Block& block = blocks[std::size_t(begin) / grain];
         const char* row = block.begin;
         std::size_t corner = block.corner;
         for (std::int64_t f = begin; f < last && block.fault.empty(); ++f) {
@@ -254,22 +250,22 @@ PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const Pl
     PlyBody body;
     const bool file_is_big = header.format == PlyFormat::big_endian;
     const bool swap = file_is_big != (std::endian::native == std::endian::big);
-    const std::uint64_t vertices = header.elements[static_cast<std::size_t>(layout.vertex)].rows;
+    const std::uint64_t vertices = header.elements[std::size_t(layout.vertex)].rows;
     const char* p = header.body;
     for (std::size_t i = 0; i < header.elements.size(); ++i) {
         const PlyElement& element = header.elements[i];
         const RowShape shape = shape_of(element, swap);
         if (element.properties.empty() || element.rows == 0) continue;
         if (shape.lists.empty()) {
-            const std::size_t rows = static_cast<std::size_t>(file.end() - p) / shape.tail;
+            const std::size_t rows = std::size_t(file.end() - p) / shape.tail;
             if (rows < element.rows) refuse_short(path, element, rows);
         }
-        if (static_cast<int>(i) == layout.vertex) {
+        if (int(i) == layout.vertex) {
             p = read_vertices(p, file.end(), element, shape, layout, path, body.mesh);
-        } else if (static_cast<int>(i) == layout.face) {
+        } else if (int(i) == layout.face) {
             p = read_faces(p, file.end(), element, shape, layout, vertices, path, body);
         } else if (shape.lists.empty()) {
-            p += static_cast<std::size_t>(element.rows) * shape.tail;
+            p += std::size_t(element.rows) * shape.tail;
         } else {
             for (std::uint64_t row = 0; row < element.rows; ++row) {
                 p = walk_row(p, file.end(), shape, [](std::size_t, const char*, std::size_t) {});

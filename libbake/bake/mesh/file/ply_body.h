@@ -1,17 +1,17 @@
 // What the readers of ascii and binary PLY share: where each value of a row goes.
 #pragma once
-#include "bake/mesh/mesh.h"
 #include "bake/mesh/file/ply_header.h"
+#include "bake/mesh/mesh.h"
 #include <utility>
 
 namespace bake {
 
 /// Properties of the header that a mesh is made of, by their index in their element; -1 where there is none.
 struct PlyLayout {
-    int vertex = -1, face = -1;      ///< elements
-    std::vector<int> columns;        ///< of the vertex: x y z nx ny nz u v tx ty tz tw, then those of the attributes
+    int vertex = -1, face = -1; ///< elements
+    std::vector<int> columns;   ///< of the vertex: x y z nx ny nz u v tx ty tz tw, then those of the attributes
     std::vector<std::pair<std::string, int>> attributes; ///< name and components
-    int indices = -1, texcoord = -1; ///< lists of the face
+    int indices = -1, texcoord = -1;                     ///< lists of the face
 };
 
 /// What the body of a PLY holds.

@@ -1,7 +1,7 @@
 #include "bake/mesh/file/ply_header.h"
+#include "bake/base/error.h"
 #include "bake/base/text_line.h"
 #include "bake/base/text_number.h"
-#include "bake/base/error.h"
 #include <algorithm>
 #include <optional>
 
@@ -32,7 +32,7 @@ std::vector<std::string_view> words_of(const char* p) {
     for (skip_blanks(p); *p != '\n'; skip_blanks(p)) {
         const char* const word = p;
         while (!ends_number(*p)) ++p;
-        words.emplace_back(word, static_cast<std::size_t>(p - word));
+        words.emplace_back(word, std::size_t(p - word));
     }
     return words;
 }
@@ -58,7 +58,7 @@ std::string read_declaration(const std::vector<std::string_view>& words, PlyHead
         if (rows < 0) return "an element needs a name and a count of 0 or more";
         if (header.elements.size() == most_declarations) return "more elements than any mesh has";
         element.name = words[1];
-        element.rows = static_cast<std::uint64_t>(rows);
+        element.rows = std::uint64_t(rows);
         for (const PlyElement& other : header.elements)
             if (other.name == element.name) return "a second element " + shown(element.name);
         header.elements.push_back(std::move(element));
@@ -102,7 +102,7 @@ std::size_t size_of(PlyType type) noexcept {
 
 int find_property(const PlyElement& element, const char* name) noexcept {
     for (std::size_t i = 0; i < element.properties.size(); ++i)
-        if (element.properties[i].name == name) return static_cast<int>(i);
+        if (element.properties[i].name == name) return int(i);
     return -1;
 }
 
@@ -120,7 +120,7 @@ PlyHeader read_ply_header(const FileBytes& file, const std::string& path) {
             refuse(std::max<std::size_t>(1, line),
                    line == 0 ? "an empty file, not a PLY" : "the header has no end_header");
         const auto words = words_of(p);
-        p = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(stop - p))) + 1;
+        p = static_cast<const char*>(std::memchr(p, '\n', std::size_t(stop - p))) + 1;
         if (line == 0) {
             if (words.size() != 1 || words[0] != "ply") refuse(1, "does not begin with 'ply'");
         } else if (words.empty()) {
@@ -144,7 +144,7 @@ PlyHeader read_ply_header(const FileBytes& file, const std::string& path) {
     if (!format_known) refuse(line + 1, "the header names no format");
 
     // What cannot be there is refused before memory is asked for it.
-    auto left = static_cast<std::uint64_t>(file.end() - header.body) + (header.format == PlyFormat::ascii);
+    auto left = std::uint64_t(file.end() - header.body) + (header.format == PlyFormat::ascii);
     for (const PlyElement& element : header.elements) {
         const std::uint64_t least = least_bytes(element, header.format);
         if (least > 0 && element.rows > left / least)

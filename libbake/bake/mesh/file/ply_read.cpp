@@ -1,9 +1,9 @@
+#include "bake/base/error.h"
+#include "bake/base/text_line.h"
 #include "bake/mesh/distinct_corners.h"
-#include "bake/mesh/number_distinct.h"
 #include "bake/mesh/file/ply.h"
 #include "bake/mesh/file/ply_body.h"
-#include "bake/base/text_line.h"
-#include "bake/base/error.h"
+#include "bake/mesh/number_distinct.h"
 #include <algorithm>
 
 namespace bake {
@@ -11,7 +11,7 @@ namespace {
 
 /// Names of one vector's components differ in their last digit alone: "flow_0", "flow_1".
 bool continues_vector(const std::string& name, const std::string& vector, int component) {
-    return component < 4 && name == vector + '_' + static_cast<char>('0' + component);
+    return component < 4 && name == vector + '_' + char('0' + component);
 }
 
 /// Float properties of other names are attributes; integers (colours, flags) are skipped.
@@ -19,14 +19,15 @@ void take_attributes(const PlyElement& vertex, PlyLayout& layout) {
     for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
         const PlyProperty& property = vertex.properties[i];
         const bool real = property.type == PlyType::float32 || property.type == PlyType::float64;
-        const auto column = static_cast<int>(i);
-        if (!real || property.is_list || std::count(layout.columns.begin(), layout.columns.begin() + 12, column)) continue;
+        const auto column = int(i);
+        if (!real || property.is_list || std::count(layout.columns.begin(), layout.columns.begin() + 12, column))
+            continue;
         std::string vector = property.name;
         int components = 1;
         if (vector.size() > 2 && vector.ends_with("_0")) {
             vector.resize(vector.size() - 2);
             const auto next = [&] {
-                const std::size_t k = i + static_cast<std::size_t>(components);
+                const std::size_t k = i + std::size_t(components);
                 return k < vertex.properties.size() && vertex.properties[k].type == property.type &&
                        !vertex.properties[k].is_list && continues_vector(vertex.properties[k].name, vector, components);
             };
@@ -34,7 +35,7 @@ void take_attributes(const PlyElement& vertex, PlyLayout& layout) {
         }
         layout.attributes.emplace_back(components > 1 ? vector : property.name, components);
         for (int k = 0; k < components; ++k) layout.columns.push_back(column + k);
-        i += static_cast<std::size_t>(components) - 1;
+        i += std::size_t(components) - 1;
     }
 }
 
@@ -54,14 +55,14 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     PlyLayout layout;
     layout.columns.assign(12, -1);
     for (std::size_t i = 0; i < header.elements.size(); ++i) {
-        if (header.elements[i].name == "vertex") layout.vertex = static_cast<int>(i);
-        if (header.elements[i].name == "face") layout.face = static_cast<int>(i);
+        if (header.elements[i].name == "vertex") layout.vertex = int(i);
+        if (header.elements[i].name == "face") layout.face = int(i);
     }
     if (layout.vertex < 0) refuse("has no vertices");
-    const PlyElement& vertex = header.elements[static_cast<std::size_t>(layout.vertex)];
+    const PlyElement& vertex = header.elements[std::size_t(layout.vertex)];
     const auto scalar = [&vertex](const char* name) {
         const int i = find_property(vertex, name);
-        return i >= 0 && !vertex.properties[static_cast<std::size_t>(i)].is_list ? i : -1;
+        return i >= 0 && !vertex.properties[std::size_t(i)].is_list ? i : -1;
     };
     const auto take = [&](std::size_t column, std::initializer_list<const char*> names) {
         for (const char* name : names)
@@ -75,17 +76,16 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     take(8, {"tx", "ty", "tz", "tw"});
     take_attributes(vertex, layout);
 
-    if (layout.face < 0 || header.elements[static_cast<std::size_t>(layout.face)].rows == 0) return layout;
-    const PlyElement& face = header.elements[static_cast<std::size_t>(layout.face)];
+    if (layout.face < 0 || header.elements[std::size_t(layout.face)].rows == 0) return layout;
+    const PlyElement& face = header.elements[std::size_t(layout.face)];
     layout.indices = find_property(face, "vertex_indices");
     if (layout.indices < 0) layout.indices = find_property(face, "vertex_index");
     if (layout.indices < 0) refuse("its faces have no vertex_indices");
-    const PlyProperty& indices = face.properties[static_cast<std::size_t>(layout.indices)];
+    const PlyProperty& indices = face.properties[std::size_t(layout.indices)];
     if (!indices.is_list || indices.type == PlyType::float32 || indices.type == PlyType::float64)
         refuse("its vertex_indices are not a list of integers");
     layout.texcoord = find_property(face, "texcoord");
-    if (layout.texcoord >= 0 && !face.properties[static_cast<std::size_t>(layout.texcoord)].is_list)
-        layout.texcoord = -1;
+    if (layout.texcoord >= 0 && !face.properties[std::size_t(layout.texcoord)].is_list) layout.texcoord = -1;
     return layout;
 }
 
@@ -114,9 +114,8 @@ PlyColumn column_of(Mesh& mesh, std::size_t c) noexcept {
     if (c < 8) return {&mesh.uvs.data()->x + (c - 6), 2};
     if (c < 12) return {&mesh.tangents.data()->x + (c - 8), 4};
     std::size_t k = c - 12, a = 0;
-    for (; k >= static_cast<std::size_t>(mesh.attributes[a].components); ++a)
-        k -= static_cast<std::size_t>(mesh.attributes[a].components);
-    return {mesh.attributes[a].values.data() + k, static_cast<std::size_t>(mesh.attributes[a].components)};
+    for (; k >= std::size_t(mesh.attributes[a].components); ++a) k -= std::size_t(mesh.attributes[a].components);
+    return {mesh.attributes[a].values.data() + k, std::size_t(mesh.attributes[a].components)};
 }
 
 void resize_vertices(const PlyLayout& layout, std::size_t count, Mesh& mesh) {
@@ -125,14 +124,14 @@ void resize_vertices(const PlyLayout& layout, std::size_t count, Mesh& mesh) {
     if (layout.columns[6] >= 0) mesh.uvs.resize(count);
     if (layout.columns[8] >= 0) mesh.tangents.resize(count);
     for (const auto& [name, components] : layout.attributes)
-        mesh.attributes.push_back({name, components, std::vector<float>(count * static_cast<std::size_t>(components))});
+        mesh.attributes.push_back({name, components, std::vector<float>(count * std::size_t(components))});
 }
 
 Mesh read_ply(const std::string& path) {
     const FileBytes file = read_file(path);
     const PlyHeader header = read_ply_header(file, path);
     const PlyLayout layout = layout_of(header, path);
-    if (header.elements[static_cast<std::size_t>(layout.vertex)].rows >= no_index)
+    if (header.elements[std::size_t(layout.vertex)].rows >= no_index)
         throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 vertices; split the mesh");
     PlyBody body = header.format == PlyFormat::ascii ? read_ply_ascii(file, header, layout, path)
                                                      : read_ply_binary(file, header, layout, path);
@@ -141,7 +140,7 @@ Mesh read_ply(const std::string& path) {
     if (!body.texcoord.empty()) weld_texcoord(body);
     else if (!mesh.uvs.empty()) mesh.corner_uv = mesh.corner_position;
     if (!mesh.tangents.empty()) spread(mesh, mesh.tangents, 1);
-    for (Attribute& a : mesh.attributes) spread(mesh, a.values, static_cast<std::size_t>(a.components));
+    for (Attribute& a : mesh.attributes) spread(mesh, a.values, std::size_t(a.components));
     return std::move(body.mesh);
 }
 

@@ -1,7 +1,7 @@
 #include "bake/base/block_writer.h"
-#include "bake/mesh/mesh_corner.h"
-#include "bake/mesh/file/ply.h"
 #include "bake/base/text_number.h"
+#include "bake/mesh/file/ply.h"
+#include "bake/mesh/mesh_corner.h"
 
 namespace bake {
 namespace {
@@ -16,7 +16,8 @@ std::uint32_t largest_face(const Mesh& mesh) noexcept {
 std::string property_name(std::string name) {
     for (char& c : name)
         if (is_blank(c) || static_cast<unsigned char>(c) < 0x20) c = '_';
-    for (const char* known : {"", "x", "y", "z", "nx", "ny", "nz", "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty", "tz", "tw"})
+    for (const char* known :
+         {"", "x", "y", "z", "nx", "ny", "nz", "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty", "tz", "tw"})
         if (name == known) return '_' + name;
     return name;
 }
@@ -50,7 +51,7 @@ void write_ply(const std::string& path, const Mesh& mesh) {
     const DistinctCorners vertices = distinct_corners(mesh); // a vertex of PLY has one value of each kind
     const bool wide = largest_face(mesh) > 255;
     std::size_t floats = std::size_t(3) + (normals ? 3 : 0) + (uvs ? 2 : 0) + (tangents ? 4 : 0);
-    for (const Attribute& a : mesh.attributes) floats += static_cast<std::size_t>(a.components);
+    for (const Attribute& a : mesh.attributes) floats += std::size_t(a.components);
 
     BlockWriter out(path);
     out.write(header_of(mesh, vertices.first.size(), wide));
@@ -64,7 +65,7 @@ void write_ply(const std::string& path, const Mesh& mesh) {
         if (uvs) put(uv_at(mesh, c));
         if (tangents) put(mesh.tangents[c]);
         for (const Attribute& a : mesh.attributes) {
-            const auto n = static_cast<std::size_t>(a.components);
+            const auto n = std::size_t(a.components);
             for (std::size_t k = 0; k < n; ++k) put_bytes(to, a.values[c * n + k]);
         }
     });
@@ -78,7 +79,7 @@ void write_ply(const std::string& path, const Mesh& mesh) {
             for (std::size_t f = first; f < last; ++f) {
                 const std::uint32_t begin = mesh.face_begin[f], end = mesh.face_begin[f + 1];
                 if (wide) put_bytes(to, end - begin);
-                else *to++ = static_cast<char>(end - begin);
+                else *to++ = char(end - begin);
                 for (std::uint32_t c = begin; c < end; ++c) put_bytes(to, vertices.corner[c]);
             }
         });

@@ -21,8 +21,8 @@ template <class T> T load(const std::uint8_t* p) noexcept {
 
 template <class T> float to_float(T value, bool normalized) noexcept {
     if constexpr (std::is_integral_v<T>)
-        if (normalized) return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()), -1.0f);
-    return static_cast<float>(value);
+        if (normalized) return std::max(float(value) / float(std::numeric_limits<T>::max()), -1.0f);
+    return float(value);
 }
 
 /// Calls f.operator()<T>() with the type that `type` names.
@@ -41,12 +41,12 @@ template <class F> void with_type(GltfType type, F&& f) {
 /// Calls put(element, its bytes) for all of them, then again for those that are replaced.
 template <class Put> void each_element(const GltfAccessor& a, Put&& put) {
     if (!a.bytes.empty())
-        for_rows(static_cast<std::int64_t>(a.count), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
-            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                put(i, a.bytes.data() + i * a.stride);
+        for_rows(std::int64_t(a.count), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
+            for (auto i = std::size_t(begin); i < std::size_t(end); ++i) put(i, a.bytes.data() + i * a.stride);
         });
-    const std::size_t element = size_of(a.type) * static_cast<std::size_t>(a.components);
-    for (std::size_t i = 0; i < a.sparse_index.size(); ++i) put(a.sparse_index[i], a.sparse_values.data() + i * element);
+    const std::size_t element = size_of(a.type) * std::size_t(a.components);
+    for (std::size_t i = 0; i < a.sparse_index.size(); ++i)
+        put(a.sparse_index[i], a.sparse_values.data() + i * element);
 }
 
 } // namespace
@@ -64,7 +64,7 @@ std::size_t size_of(GltfType type) noexcept {
 }
 
 bool read_floats(const GltfAccessor& a, float* out) {
-    const auto components = static_cast<std::size_t>(a.components);
+    const auto components = std::size_t(a.components);
     if (a.bytes.empty()) std::fill_n(out, a.count * components, 0.0f);
     std::atomic<bool> finite = true;
     with_type(a.type, [&]<class T>() {
@@ -82,7 +82,7 @@ bool read_floats(const GltfAccessor& a, float* out) {
 void read_indices(const GltfAccessor& a, std::uint32_t* out) {
     if (a.bytes.empty()) std::fill_n(out, a.count, 0u);
     with_type(a.type, [&]<class T>() {
-        each_element(a, [&](std::size_t i, const std::uint8_t* p) { out[i] = static_cast<std::uint32_t>(load<T>(p)); });
+        each_element(a, [&](std::size_t i, const std::uint8_t* p) { out[i] = std::uint32_t(load<T>(p)); });
     });
 }
 

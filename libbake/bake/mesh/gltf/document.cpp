@@ -1,6 +1,6 @@
 #include "bake/mesh/gltf/document.h"
-#include "bake/base/text_line.h"
 #include "bake/base/error.h"
+#include "bake/base/text_line.h"
 #include <bit>
 #include <cstring>
 #include <filesystem>
@@ -44,11 +44,11 @@ Chunks split_glb(const FileBytes& file, const std::string& path) {
         const std::size_t size = little_endian(p);
         const std::uint32_t type = little_endian(p + 4);
         p += 8;
-        if (size > static_cast<std::size_t>(end - p)) refuse(path, "has a chunk that reaches behind the end of the file");
+        if (size > std::size_t(end - p)) refuse(path, "has a chunk that reaches behind the end of the file");
         if (chunk == 0 && type != json_type) refuse(path, "does not begin with JSON");
         if (chunk == 0) chunks.json = bytes(p, size);
         if (chunk == 1 && type == binary_type) chunks.binary = bytes(p, size), chunks.has_binary = true;
-        p += std::min((size + 3) / 4 * 4, static_cast<std::size_t>(end - p));
+        p += std::min((size + 3) / 4 * 4, std::size_t(end - p));
     }
     return chunks;
 }
@@ -77,7 +77,8 @@ json parse(std::span<const std::uint8_t> text, const std::string& path) {
         return parsed;
     } catch (const json::exception& error) {
         const std::string why = error.what(); // "[json.exception.parse_error.101] parse error at line 1, ..."
-        refuse(path, "is not a glTF: " + shown(why.substr(why.find("] ") == std::string::npos ? 0 : why.find("] ") + 2)));
+        refuse(path,
+               "is not a glTF: " + shown(why.substr(why.find("] ") == std::string::npos ? 0 : why.find("] ") + 2)));
     }
 }
 
@@ -99,11 +100,11 @@ bool decode_base64(std::string_view text, std::vector<std::uint8_t>& out) {
     for (const char c : text) {
         const int digit = base64_digit(c);
         if (digit < 0) return false;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        bits = bits << 6 | std::uint32_t(digit);
         held += 6;
         if (held < 8) continue;
         held -= 8;
-        out.push_back(static_cast<std::uint8_t>(bits >> held));
+        out.push_back(std::uint8_t(bits >> held));
     }
     return true;
 }
@@ -131,13 +132,14 @@ std::string file_of_uri(const std::string& uri, const std::string& what, const s
             return k < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[k])) != 0;
         };
         if (uri[i] == '%' && hex(i + 1) && hex(i + 2)) {
-            name += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            name += char(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
             i += 2;
         } else {
             name += uri[i];
         }
     }
-    const bool control = std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    const bool control =
+        std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
     if (name.empty() || control || name.find("://") != std::string::npos || std::filesystem::path(name).is_absolute())
         refuse(path, what + " is at " + shown(name) + ", which is no file beside it");
     return name;
@@ -168,9 +170,9 @@ void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const 
         found = bytes(out.beside.back().begin(), out.beside.back().size);
     }
     if (length->get<std::uint64_t>() > found.size())
-        refuse(path, what + " has " + std::to_string(found.size()) + " of " + std::to_string(length->get<std::uint64_t>()) +
-                         " bytes");
-    out.buffers.push_back(found.first(static_cast<std::size_t>(length->get<std::uint64_t>())));
+        refuse(path, what + " has " + std::to_string(found.size()) + " of " +
+                         std::to_string(length->get<std::uint64_t>()) + " bytes");
+    out.buffers.push_back(found.first(std::size_t(length->get<std::uint64_t>())));
 }
 
 void read_image(const json& object, std::size_t i, const std::string& path, GltfDocument& out) {
@@ -212,7 +214,8 @@ GltfDocument read_gltf_document(const std::string& path) {
     const auto asset = parsed.find("asset");
     const std::string version = asset != parsed.end() && asset->is_object() ? text_of(*asset, "version") : "";
     if (version.rfind("2.", 0) != 0)
-        refuse(path, version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
+        refuse(path,
+               version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
     const auto each = [&](const char* key, auto&& work) {
         const auto list = parsed.find(key);
         if (list == parsed.end()) return;

@@ -7,12 +7,12 @@
 namespace bake {
 
 struct GltfDocument {
-    std::string json;                                      ///< all but the buffers and the images
-    std::vector<std::span<const std::uint8_t>> buffers;    ///< of the length that the JSON names
-    std::vector<GltfImage> images;                         ///< bytes as yet empty where image_view is not -1
-    std::vector<std::int64_t> image_view;                  ///< per image: the bufferView that holds it, or -1
+    std::string json;                                   ///< all but the buffers and the images
+    std::vector<std::span<const std::uint8_t>> buffers; ///< of the length that the JSON names
+    std::vector<GltfImage> images;                      ///< bytes as yet empty where image_view is not -1
+    std::vector<std::int64_t> image_view;               ///< per image: the bufferView that holds it, or -1
 
-    FileBytes file;                                        ///< what the spans point into
+    FileBytes file; ///< what the spans point into
     std::vector<FileBytes> beside;
     std::vector<std::vector<std::uint8_t>> decoded;
 };

@@ -16,7 +16,9 @@ struct Placement {
 };
 
 Placement placement_of(const GltfNode& node) {
-    const auto column = [&node](int c) { return Vec3d(node.to_world[4 * c], node.to_world[4 * c + 1], node.to_world[4 * c + 2]); };
+    const auto column = [&node](int c) {
+        return Vec3d(node.to_world[4 * c], node.to_world[4 * c + 1], node.to_world[4 * c + 2]);
+    };
     Placement place{Mat3(column(0), column(1), column(2)), Mat3(1), column(3), false, false};
     const Mat3& m = place.linear;
     place.moves_only = m == Mat3(1);
@@ -45,7 +47,7 @@ void turn_values(std::vector<Vec>& values, const std::vector<Vec>& source, std::
             taken[i] = true;
             values[i] = apply(source[i]);
         } else {
-            copies[i] = static_cast<std::uint32_t>(values.size());
+            copies[i] = std::uint32_t(values.size());
             values.push_back(apply(source[i]));
         }
     }
@@ -66,7 +68,7 @@ void turn_faces(Mesh& mesh, std::size_t first_face, std::size_t end_face) {
     if (!mesh.corner_normal.empty()) reverse(mesh.corner_normal.data(), 1);
     if (!mesh.corner_uv.empty()) reverse(mesh.corner_uv.data(), 1);
     if (!mesh.tangents.empty()) reverse(mesh.tangents.data(), 1);
-    for (Attribute& a : mesh.attributes) reverse(a.values.data(), static_cast<std::size_t>(a.components));
+    for (Attribute& a : mesh.attributes) reverse(a.values.data(), std::size_t(a.components));
 }
 
 void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
@@ -75,10 +77,10 @@ void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
     for (const GltfNode& node : nodes) {
         const std::string name = node.name.empty() ? "node_" + std::to_string(&node - nodes.data()) : node.name;
         const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
-        const auto group = static_cast<std::uint32_t>(found - mesh.groups.begin());
+        const auto group = std::uint32_t(found - mesh.groups.begin());
         if (found == mesh.groups.end()) mesh.groups.push_back(name);
-        std::fill(mesh.face_group.begin() + static_cast<std::ptrdiff_t>(node.first_face),
-                  mesh.face_group.begin() + static_cast<std::ptrdiff_t>(node.end_face), group);
+        std::fill(mesh.face_group.begin() + std::ptrdiff_t(node.first_face),
+                  mesh.face_group.begin() + std::ptrdiff_t(node.end_face), group);
     }
 }
 
@@ -86,8 +88,9 @@ void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
 
 Mesh flatten(Gltf gltf) {
     Mesh mesh = std::move(gltf.mesh);
-    const bool moved = std::any_of(gltf.nodes.begin(), gltf.nodes.end(),
-                                   [](const GltfNode& n) { return !std::equal(n.to_world, n.to_world + 16, GltfNode().to_world); });
+    const bool moved = std::any_of(gltf.nodes.begin(), gltf.nodes.end(), [](const GltfNode& n) {
+        return !std::equal(n.to_world, n.to_world + 16, GltfNode().to_world);
+    });
     name_groups(gltf.nodes, mesh);
     if (!moved) return mesh;
     const std::vector<Vec3f> positions = mesh.positions, normals = mesh.normals;
@@ -99,8 +102,9 @@ Mesh flatten(Gltf gltf) {
                     [&](const Vec3f& p) { return Vec3f(place.linear * Vec3d(p) + place.move); });
         // Also where nothing turns: the node may share its normals with one that does.
         if (!mesh.corner_normal.empty())
-            turn_values(mesh.normals, normals, normal_taken, mesh.corner_normal, begin, end,
-                        [&](const Vec3f& n) { return place.moves_only ? n : Vec3f(unit_or_zero(place.normal * Vec3d(n))); });
+            turn_values(mesh.normals, normals, normal_taken, mesh.corner_normal, begin, end, [&](const Vec3f& n) {
+                return place.moves_only ? n : Vec3f(unit_or_zero(place.normal * Vec3d(n)));
+            });
         if (place.moves_only) continue;
         for (std::uint32_t c = begin; c < end && !mesh.tangents.empty(); ++c) {
             Vec4f& t = mesh.tangents[c];

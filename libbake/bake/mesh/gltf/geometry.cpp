@@ -23,29 +23,29 @@ std::vector<GltfPart> parts_of(const Mesh& mesh, std::size_t first_face, std::si
         const std::pair pair(name_at(mesh.face_material, f), name_at(mesh.face_group, f));
         if (!parts.empty() && parts.size() == 1 && parts[0].material == pair.first && parts[0].group == pair.second) {
             parts[0].triangles += triangles_of(mesh, f); // the usual case, without a look-up
-            if (!parts[0].faces.empty()) parts[0].faces.push_back(static_cast<std::uint32_t>(f));
+            if (!parts[0].faces.empty()) parts[0].faces.push_back(std::uint32_t(f));
             continue;
         }
         const auto [found, added] = known.try_emplace(pair, parts.size());
         if (added) parts.push_back({pair.first, pair.second, 0, {}});
         if (parts.size() == 2 && added)
-            for (std::size_t k = first_face; k < f; ++k) parts[0].faces.push_back(static_cast<std::uint32_t>(k));
+            for (std::size_t k = first_face; k < f; ++k) parts[0].faces.push_back(std::uint32_t(k));
         parts[found->second].triangles += triangles_of(mesh, f);
-        if (parts.size() > 1) parts[found->second].faces.push_back(static_cast<std::uint32_t>(f));
+        if (parts.size() > 1) parts[found->second].faces.push_back(std::uint32_t(f));
     }
     return parts;
 }
 
 Bounds bounds_of(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
-    const auto rows = static_cast<std::int64_t>(corners.size());
-    const auto at = [&](std::int64_t i) { return mesh.positions[mesh.corner_position[corners[static_cast<std::size_t>(i)]]]; };
+    const auto rows = std::int64_t(corners.size());
+    const auto at = [&](std::int64_t i) { return mesh.positions[mesh.corner_position[corners[std::size_t(i)]]]; };
     if (corners.empty()) return {};
-    std::vector<Bounds> boxes(static_cast<std::size_t>((rows + grain - 1) / grain), Bounds{at(0), at(0)});
+    std::vector<Bounds> boxes(std::size_t((rows + grain - 1) / grain), Bounds{at(0), at(0)});
     for_rows(rows, grain, [&](std::int64_t begin, std::int64_t end) {
         Bounds box = boxes[0];
         box = {at(begin), at(begin)};
         for (std::int64_t i = begin; i < end; ++i) box = {glm::min(box.min, at(i)), glm::max(box.max, at(i))};
-        boxes[static_cast<std::size_t>(begin / grain)] = box;
+        boxes[std::size_t(begin / grain)] = box;
     });
     Bounds all = boxes[0];
     for (const Bounds& box : boxes) all = {glm::min(all.min, box.min), glm::max(all.max, box.max)};
@@ -137,7 +137,7 @@ void write_uvs(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node)
 }
 
 void write_attribute(BlockWriter& out, const Attribute& attribute, bool flip_v, const GltfNodeGeometry& node) {
-    const auto n = static_cast<std::size_t>(attribute.components);
+    const auto n = std::size_t(attribute.components);
     write_fixed_rows(out, node.vertices.first.size(), 4 * n, [&](char* to, std::size_t i) {
         const float* const value = attribute.values.data() + node.vertices.first[i] * n;
         for (std::size_t k = 0; k < n; ++k) put_bytes(to, flip_v && k == 1 ? 1 - value[k] : value[k]);
@@ -173,11 +173,11 @@ void write_indices(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& n
                     for (const Triangle& triangle : triangles)
                         for (const std::uint32_t c : triangle.corner) {
                             const std::uint32_t index = node.vertices.corner[c - first_corner];
-                            *to++ = static_cast<char>(index);
-                            *to++ = static_cast<char>(index >> 8);
+                            *to++ = char(index);
+                            *to++ = char(index >> 8);
                             if (narrow) continue;
-                            *to++ = static_cast<char>(index >> 16);
-                            *to++ = static_cast<char>(index >> 24);
+                            *to++ = char(index >> 16);
+                            *to++ = char(index >> 24);
                         }
                     i += run;
                 }

@@ -10,16 +10,16 @@ namespace bake {
 /// A picture as the file has it: not decoded.
 struct GltfImage {
     std::string name, mime_type;
-    std::string uri;                  ///< name of a file beside the .gltf; empty: embedded
-    std::vector<std::uint8_t> bytes;  ///< encoded; none where that file is not there
+    std::string uri;                 ///< name of a file beside the .gltf; empty: embedded
+    std::vector<std::uint8_t> bytes; ///< encoded; none where that file is not there
 
     bool operator==(const GltfImage&) const = default;
 };
 
 /// Numbers of OpenGL, as in the file.
 struct GltfSampler {
-    int wrap_u = 10497, wrap_v = 10497;     ///< 10497 repeat, 33071 clamp, 33648 mirror
-    int min_filter = 0, mag_filter = 0;     ///< 0: the viewer's choice
+    int wrap_u = 10497, wrap_v = 10497; ///< 10497 repeat, 33071 clamp, 33648 mirror
+    int min_filter = 0, mag_filter = 0; ///< 0: the viewer's choice
 
     bool operator==(const GltfSampler&) const = default;
 };
@@ -87,7 +87,8 @@ Mesh flatten(Gltf gltf);
 
 /// What had to be changed so that the file keeps to the format.
 struct GltfWritten {
-    std::size_t mended_normals = 0;  ///< vertices whose normal was not unit: scaled, or that of their face where none was
+    std::size_t mended_normals =
+        0; ///< vertices whose normal was not unit: scaled, or that of their face where none was
     std::size_t mended_tangents = 0; ///< the same of tangents: scaled, or any perpendicular to the normal
     std::size_t dropped_images = 0;  ///< without bytes, or neither PNG nor JPEG: left out with their textures
     std::size_t moved_nodes = 0;     ///< whose matrix is no move, turn and stretch: written in world space

@@ -9,21 +9,22 @@ namespace {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
 }
 
-std::optional<GltfTexture> texture_of(const tinygltf::Model& model, std::size_t images, int index, int uv_set, double scale,
-                                      const std::string& path) {
+std::optional<GltfTexture> texture_of(const tinygltf::Model& model, std::size_t images, int index, int uv_set,
+                                      double scale, const std::string& path) {
     if (index < 0) return {};
-    if (static_cast<std::size_t>(index) >= model.textures.size())
+    if (std::size_t(index) >= model.textures.size())
         refuse(path, "asks for texture " + std::to_string(index) + " of " + std::to_string(model.textures.size()));
-    const tinygltf::Texture& from = model.textures[static_cast<std::size_t>(index)];
+    const tinygltf::Texture& from = model.textures[std::size_t(index)];
     if (from.source < 0) return {}; // of an extension's format
-    if (static_cast<std::size_t>(from.source) >= images)
+    if (std::size_t(from.source) >= images)
         refuse(path, "asks for image " + std::to_string(from.source) + " of " + std::to_string(images));
     if (uv_set < 0) refuse(path, "asks for the uv set " + std::to_string(uv_set));
-    GltfTexture out{static_cast<std::uint32_t>(from.source), static_cast<std::uint32_t>(uv_set), scale, {}};
+    GltfTexture out{std::uint32_t(from.source), std::uint32_t(uv_set), scale, {}};
     if (from.sampler < 0) return out;
-    if (static_cast<std::size_t>(from.sampler) >= model.samplers.size())
-        refuse(path, "asks for sampler " + std::to_string(from.sampler) + " of " + std::to_string(model.samplers.size()));
-    const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(from.sampler)];
+    if (std::size_t(from.sampler) >= model.samplers.size())
+        refuse(path,
+               "asks for sampler " + std::to_string(from.sampler) + " of " + std::to_string(model.samplers.size()));
+    const tinygltf::Sampler& sampler = model.samplers[std::size_t(from.sampler)];
     const auto wrap = [](int code) { return code == 33071 || code == 33648 ? code : 10497; };
     const auto filter = [](int code) { return code == 9728 || code == 9729 ? code : 0; };
     const int least = sampler.minFilter;
@@ -46,13 +47,13 @@ GltfMaterial material_of(const tinygltf::Model& model, const tinygltf::Material&
     out.base_color = texture(pbr.baseColorTexture);
     out.metallic_roughness = texture(pbr.metallicRoughnessTexture);
     for (std::size_t i = 0; i < 4 && pbr.baseColorFactor.size() == 4; ++i)
-        out.base_color_factor[static_cast<int>(i)] = static_cast<float>(pbr.baseColorFactor[i]);
+        out.base_color_factor[int(i)] = float(pbr.baseColorFactor[i]);
     for (std::size_t i = 0; i < 3 && from.emissiveFactor.size() == 3; ++i)
-        out.emissive_factor[static_cast<int>(i)] = static_cast<float>(from.emissiveFactor[i]);
-    out.metallic = static_cast<float>(pbr.metallicFactor);
-    out.roughness = static_cast<float>(pbr.roughnessFactor);
+        out.emissive_factor[int(i)] = float(from.emissiveFactor[i]);
+    out.metallic = float(pbr.metallicFactor);
+    out.roughness = float(pbr.roughnessFactor);
     if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") out.alpha_mode = from.alphaMode;
-    out.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+    out.alpha_cutoff = float(from.alphaCutoff);
     out.double_sided = from.doubleSided;
     return out;
 }
@@ -61,7 +62,8 @@ GltfMaterial material_of(const tinygltf::Model& model, const tinygltf::Material&
 
 std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size_t images, const std::string& path) {
     std::vector<GltfMaterial> out;
-    for (const tinygltf::Material& material : model.materials) out.push_back(material_of(model, material, images, path));
+    for (const tinygltf::Material& material : model.materials)
+        out.push_back(material_of(model, material, images, path));
     return out;
 }
 

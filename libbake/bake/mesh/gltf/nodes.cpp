@@ -25,7 +25,8 @@ Transform local_transform(const std::vector<double>& matrix, const std::vector<d
     double x = 0, y = 0, z = 0, w = 1;
     if (rotation.size() == 4) {
         const double length = std::hypot(std::hypot(rotation[0], rotation[1]), std::hypot(rotation[2], rotation[3]));
-        if (length > 0) x = rotation[0] / length, y = rotation[1] / length, z = rotation[2] / length, w = rotation[3] / length;
+        if (length > 0)
+            x = rotation[0] / length, y = rotation[1] / length, z = rotation[2] / length, w = rotation[3] / length;
     }
     const double turn[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),
                             2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
@@ -41,7 +42,8 @@ Transform local_transform(const std::vector<double>& matrix, const std::vector<d
 std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes, const std::vector<int>& roots,
                                        const std::string& path) {
     const auto refuse = [&path](int node, const std::string& why) {
-        throw Error(Refusal::unreadable, path + ": its node " + std::to_string(node) + " " + why + "; export the file again");
+        throw Error(Refusal::unreadable,
+                    path + ": its node " + std::to_string(node) + " " + why + "; export the file again");
     };
     struct Visit {
         int node;
@@ -50,11 +52,12 @@ std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes,
     std::vector<GltfPlacement> out;
     std::vector<bool> met(nodes.size());
     std::vector<Visit> open; // a stack: chains of nodes may be longer than ours of calls
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) open.push_back({*root, local_transform({}, {}, {}, {})});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        open.push_back({*root, local_transform({}, {}, {}, {})});
     while (!open.empty()) {
         const Visit visit = open.back();
         open.pop_back();
-        const auto i = static_cast<std::size_t>(visit.node);
+        const auto i = std::size_t(visit.node);
         if (visit.node < 0 || i >= nodes.size()) refuse(visit.node, "is not one of " + std::to_string(nodes.size()));
         if (met[i]) refuse(visit.node, "is met twice: nodes are to be a tree");
         met[i] = true;
@@ -62,7 +65,7 @@ std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes,
         if (nodes[i].mesh >= 0) {
             GltfPlacement place{i, {}};
             for (std::size_t k = 0; k < 16; ++k) {
-                place.to_world[k] = static_cast<float>(to_world[k]);
+                place.to_world[k] = float(to_world[k]);
                 if (!std::isfinite(place.to_world[k])) refuse(visit.node, "has a transform that is not finite");
             }
             out.push_back(place);

@@ -1,10 +1,10 @@
+#include "bake/base/error.h"
+#include "bake/base/text_line.h"
 #include "bake/mesh/gltf/accessor.h"
 #include "bake/mesh/gltf/document.h"
 #include "bake/mesh/gltf/material.h"
 #include "bake/mesh/gltf/nodes.h"
 #include "bake/mesh/gltf/vertices.h"
-#include "bake/base/text_line.h"
-#include "bake/base/error.h"
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -27,7 +27,7 @@ tinygltf::Model parse(const GltfDocument& document, const std::string& path) {
     bool read = false;
     try {
         read = loader.LoadASCIIFromString(&model, &fault, &ignored, document.json.data(),
-                                          static_cast<unsigned>(document.json.size()), "");
+                                          unsigned(document.json.size()), "");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
@@ -51,15 +51,15 @@ void refuse_extensions(const tinygltf::Model& model, const std::string& path) {
 /// The bytes of a view; `what` names who wants them.
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, const tinygltf::Model& model, std::int64_t index,
                                          const std::string& what, const std::string& path) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.bufferViews.size())
+    if (index < 0 || std::size_t(index) >= model.bufferViews.size())
         refuse(path, what + " asks for bufferView " + std::to_string(index) + " of " +
                          std::to_string(model.bufferViews.size()));
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
+    const tinygltf::BufferView& view = model.bufferViews[std::size_t(index)];
     const std::string name = "its bufferView " + std::to_string(index);
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= document.buffers.size())
+    if (view.buffer < 0 || std::size_t(view.buffer) >= document.buffers.size())
         refuse(path, name + " asks for buffer " + std::to_string(view.buffer) + " of " +
                          std::to_string(document.buffers.size()));
-    const std::span<const std::uint8_t> buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
+    const std::span<const std::uint8_t> buffer = document.buffers[std::size_t(view.buffer)];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
         refuse(path, name + " reaches behind the " + std::to_string(buffer.size()) + " bytes of its buffer");
     return buffer.subspan(view.byteOffset, view.byteLength);
@@ -77,9 +77,10 @@ std::span<const std::uint8_t> elements(std::span<const std::uint8_t> bytes, std:
 
 GltfAccessor accessor_of(const GltfDocument& document, const tinygltf::Model& model, int index, const std::string& use,
                          const std::string& path) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-        refuse(path, use + " asks for accessor " + std::to_string(index) + " of " + std::to_string(model.accessors.size()));
-    const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
+    if (index < 0 || std::size_t(index) >= model.accessors.size())
+        refuse(path,
+               use + " asks for accessor " + std::to_string(index) + " of " + std::to_string(model.accessors.size()));
+    const tinygltf::Accessor& from = model.accessors[std::size_t(index)];
     const std::string what = "its accessor " + std::to_string(index) + " (" + use + ")";
     GltfAccessor out;
     out.type = static_cast<GltfType>(from.componentType);
@@ -87,14 +88,13 @@ GltfAccessor accessor_of(const GltfDocument& document, const tinygltf::Model& mo
     out.normalized = from.normalized;
     out.count = from.count;
     const std::size_t component = size_of(out.type);
-    if (component == 0 || out.components < 1 || out.components > 4)
-        refuse(path, what + " has a type that no mesh has");
+    if (component == 0 || out.components < 1 || out.components > 4) refuse(path, what + " has a type that no mesh has");
     if (out.count >= no_index)
         throw Error(Refusal::unsuitable, path + ": " + what + " has more than 2^32 - 2 elements; split the mesh");
-    const std::size_t size = component * static_cast<std::size_t>(out.components);
+    const std::size_t size = component * std::size_t(out.components);
     if (from.bufferView >= 0) {
         const auto bytes = view_bytes(document, model, from.bufferView, what, path);
-        const std::size_t stride = model.bufferViews[static_cast<std::size_t>(from.bufferView)].byteStride;
+        const std::size_t stride = model.bufferViews[std::size_t(from.bufferView)].byteStride;
         out.stride = stride == 0 ? size : stride;
         if (out.stride < size) refuse(path, what + " has elements that overlap");
         out.bytes = elements(bytes, from.byteOffset, out.count, size, out.stride, what, path);
@@ -106,22 +106,22 @@ GltfAccessor accessor_of(const GltfDocument& document, const tinygltf::Model& mo
     if (!from.sparse.isSparse) return out;
     const auto& sparse = from.sparse;
     const auto type = static_cast<GltfType>(sparse.indices.componentType);
-    if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > out.count || sparse.indices.byteOffset < 0 ||
+    if (sparse.count < 0 || std::size_t(sparse.count) > out.count || sparse.indices.byteOffset < 0 ||
         sparse.values.byteOffset < 0 ||
         (type != GltfType::uint8 && type != GltfType::uint16 && type != GltfType::uint32))
         refuse(path, what + " has sparse values that make no sense");
-    const auto count = static_cast<std::size_t>(sparse.count);
+    const auto count = std::size_t(sparse.count);
     GltfAccessor indices{.type = type, .count = count};
     indices.stride = size_of(type);
     indices.bytes = elements(view_bytes(document, model, sparse.indices.bufferView, what, path),
-                             static_cast<std::size_t>(sparse.indices.byteOffset), count, indices.stride, indices.stride,
-                             what, path);
+                             std::size_t(sparse.indices.byteOffset), count, indices.stride, indices.stride, what, path);
     out.sparse_values = elements(view_bytes(document, model, sparse.values.bufferView, what, path),
-                                 static_cast<std::size_t>(sparse.values.byteOffset), count, size, size, what, path);
+                                 std::size_t(sparse.values.byteOffset), count, size, size, what, path);
     out.sparse_index.resize(count);
     read_indices(indices, out.sparse_index.data());
     for (const std::uint32_t i : out.sparse_index)
-        if (i >= out.count) refuse(path, what + " has a sparse index outside its " + std::to_string(out.count) + " elements");
+        if (i >= out.count)
+            refuse(path, what + " has a sparse index outside its " + std::to_string(out.count) + " elements");
     return out;
 }
 
@@ -152,7 +152,7 @@ std::string attribute_name(const std::string& semantic) {
     if (semantic.size() < 2 || semantic[0] != '_') return {};
     std::string name = semantic.substr(1);
     for (char& c : name)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     return name;
 }
 
@@ -166,10 +166,10 @@ std::optional<Primitive> primitive_of(const GltfDocument& document, const tinygl
     Primitive out;
     out.mode = from.mode < 0 ? TINYGLTF_MODE_TRIANGLES : from.mode;
     if (from.material >= 0) {
-        if (static_cast<std::size_t>(from.material) >= model.materials.size())
+        if (std::size_t(from.material) >= model.materials.size())
             refuse(path, "asks for material " + std::to_string(from.material) + " of " +
                              std::to_string(model.materials.size()));
-        out.material = static_cast<std::uint32_t>(from.material);
+        out.material = std::uint32_t(from.material);
     }
     if (from.extras.Has("group") && from.extras.Get("group").IsString())
         out.group = from.extras.Get("group").Get<std::string>();
@@ -178,7 +178,8 @@ std::optional<Primitive> primitive_of(const GltfDocument& document, const tinygl
     out.attributes = from.attributes;
     out.position = accessor_of(document, model, position->second, "POSITION", path);
     const auto expect = [&](const GltfAccessor& a, const std::string& use, int least, int most) {
-        if (a.components < least || a.components > most) refuse(path, "its " + use + " has " + std::to_string(a.components) + " components");
+        if (a.components < least || a.components > most)
+            refuse(path, "its " + use + " has " + std::to_string(a.components) + " components");
         if (a.count != out.position.count)
             refuse(path, "its " + use + " has " + std::to_string(a.count) + " elements for " +
                              std::to_string(out.position.count) + " positions");
@@ -200,11 +201,13 @@ std::optional<Primitive> primitive_of(const GltfDocument& document, const tinygl
     if (out.indexed) {
         out.indices = accessor_of(document, model, from.indices, "indices", path);
         if (out.indices.components != 1 || out.indices.normalized ||
-            (out.indices.type != GltfType::uint8 && out.indices.type != GltfType::uint16 && out.indices.type != GltfType::uint32))
+            (out.indices.type != GltfType::uint8 && out.indices.type != GltfType::uint16 &&
+             out.indices.type != GltfType::uint32))
             refuse(path, "has indices that are no unsigned integers");
     }
     if (out.mode == TINYGLTF_MODE_TRIANGLES && out.index_count() % 3 != 0)
-        refuse(path, "has a list of triangles of " + std::to_string(out.index_count()) + " indices, which is no multiple of 3");
+        refuse(path, "has a list of triangles of " + std::to_string(out.index_count()) +
+                         " indices, which is no multiple of 3");
     return out;
 }
 
@@ -258,12 +261,12 @@ void append(const Primitive& primitive, bool flip_v, const std::string& path, Gl
     }
     std::vector<float> values;
     for (const auto& [name, accessor] : primitive.values) {
-        const auto components = static_cast<std::size_t>(accessor.components);
+        const auto components = std::size_t(accessor.components);
         values.resize(count * components);
         take(accessor, values.data(), shown(name));
         if (starts_with(name, "TEXCOORD_")) flip(values.data(), values.size());
         Attribute& to = attribute_named(out, name, accessor.components);
-        const auto width = static_cast<std::size_t>(to.components);
+        const auto width = std::size_t(to.components);
         to.values.resize(first * width, default_value(name));
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t k = 0; k < width; ++k)
@@ -279,33 +282,33 @@ std::vector<GltfSourceNode> nodes_of(const tinygltf::Model& model, std::vector<i
     std::vector<GltfSourceNode> nodes;
     for (const tinygltf::Node& from : model.nodes) {
         GltfSourceNode node{from.name, from.mesh, from.children, {}};
-        if (from.mesh >= 0 && static_cast<std::size_t>(from.mesh) >= model.meshes.size())
+        if (from.mesh >= 0 && std::size_t(from.mesh) >= model.meshes.size())
             refuse(path, "asks for mesh " + std::to_string(from.mesh) + " of " + std::to_string(model.meshes.size()));
         node.transform = local_transform(from.matrix, from.translation, from.rotation, from.scale);
         nodes.push_back(std::move(node));
     }
     if (model.nodes.empty())
         for (std::size_t i = 0; i < model.meshes.size(); ++i)
-            nodes.push_back({model.meshes[i].name, static_cast<int>(i), {}, local_transform({}, {}, {}, {})});
+            nodes.push_back({model.meshes[i].name, int(i), {}, local_transform({}, {}, {}, {})});
     if (!model.nodes.empty() && !model.scenes.empty()) {
         const int scene = std::max(0, model.defaultScene);
-        if (static_cast<std::size_t>(scene) >= model.scenes.size())
+        if (std::size_t(scene) >= model.scenes.size())
             refuse(path, "asks for scene " + std::to_string(scene) + " of " + std::to_string(model.scenes.size()));
-        roots = model.scenes[static_cast<std::size_t>(scene)].nodes;
+        roots = model.scenes[std::size_t(scene)].nodes;
         return nodes;
     }
     std::vector<bool> child(nodes.size());
     for (const GltfSourceNode& node : nodes)
         for (const int c : node.children)
-            if (c >= 0 && static_cast<std::size_t>(c) < nodes.size()) child[static_cast<std::size_t>(c)] = true;
+            if (c >= 0 && std::size_t(c) < nodes.size()) child[std::size_t(c)] = true;
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (!child[i]) roots.push_back(static_cast<int>(i));
+        if (!child[i]) roots.push_back(int(i));
     return nodes;
 }
 
 /// A mesh that many nodes place takes more memory than its file: known before any is asked for.
 void refuse_too_large(std::size_t triangles, const std::string& path) {
-    const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto memory = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
     const std::size_t least_bytes = 3 * (sizeof(std::uint32_t) + sizeof(Vec3f)); // per triangle
     if (triangles >= no_index / 3 || triangles > memory / least_bytes)
         throw Error(Refusal::unsuitable, path + ": its nodes place " + std::to_string(triangles) +
@@ -318,7 +321,8 @@ void refuse_beyond_floats(const GltfVertices& vertices, const GltfNode& node, co
     for (const Vec3f& p : vertices.positions) most = glm::max(most, glm::abs(Vec3d(p)));
     for (int row = 0; row < 3; ++row) {
         double sum = std::abs(double(node.to_world[12 + row]));
-        for (int column = 0; column < 3; ++column) sum += std::abs(double(node.to_world[4 * column + row])) * most[column];
+        for (int column = 0; column < 3; ++column)
+            sum += std::abs(double(node.to_world[4 * column + row])) * most[column];
         if (sum > double(std::numeric_limits<float>::max()))
             refuse(path, "its node " + shown(node.name) + " places a position beyond all floats");
     }
@@ -356,19 +360,19 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
     const std::vector<GltfPlacement> placed = place_nodes(nodes, roots, path);
     std::size_t total = 0;
     for (const GltfPlacement& place : placed) {
-        total += triangles[static_cast<std::size_t>(nodes[place.node].mesh)];
+        total += triangles[std::size_t(nodes[place.node].mesh)];
         refuse_too_large(total, path);
     }
     for (const GltfPlacement& place : placed) {
         const GltfSourceNode& node = nodes[place.node];
         GltfVertices vertices;
         std::map<std::map<std::string, int>, std::uint32_t> first_vertex;
-        for (const Primitive& primitive : meshes[static_cast<std::size_t>(node.mesh)]) {
+        for (const Primitive& primitive : meshes[std::size_t(node.mesh)]) {
             const std::vector<std::uint32_t> index = triangles_of(primitive, path);
             if (index.empty()) continue;
             if (vertices.positions.size() + primitive.position.count >= no_index) refuse_too_large(no_index, path);
             const auto [first, added] =
-                first_vertex.try_emplace(primitive.attributes, static_cast<std::uint32_t>(vertices.positions.size()));
+                first_vertex.try_emplace(primitive.attributes, std::uint32_t(vertices.positions.size()));
             if (added) append(primitive, options.flip_v, path, vertices);
             for (const std::uint32_t i : index) vertices.corners.push_back(first->second + i);
             vertices.face_material.resize(vertices.corners.size() / 3, primitive.material);

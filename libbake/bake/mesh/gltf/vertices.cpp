@@ -19,7 +19,7 @@ Used used_vertices(const GltfVertices& vertices) {
     for (const std::uint32_t v : vertices.corners) used.place[v] = 0;
     for (std::uint32_t v = 0; v < used.place.size(); ++v)
         if (used.place[v] == 0) {
-            used.place[v] = static_cast<std::uint32_t>(used.vertex.size());
+            used.place[v] = std::uint32_t(used.vertex.size());
             used.vertex.push_back(v);
         }
     return used;
@@ -48,7 +48,7 @@ void append_values(const GltfVertices& vertices, std::span<const std::uint32_t> 
     std::vector<std::uint32_t> index(distinct.first.size(), no_index); // of those that are there, in the mesh
     for (std::size_t i = 0; i < distinct.first.size(); ++i) {
         if (!there(distinct.first[i])) continue;
-        index[i] = static_cast<std::uint32_t>(values.size());
+        index[i] = std::uint32_t(values.size());
         values.push_back(value(distinct.first[i]));
     }
     corner_value.reserve(corners_before + vertices.corners.size());
@@ -58,21 +58,21 @@ void append_values(const GltfVertices& vertices, std::span<const std::uint32_t> 
 /// Values of the corners of all faces, the new ones being the last; those before, that have none, get `missing`.
 void append_attribute(const Attribute& from, const std::vector<std::uint32_t>& corners, std::size_t corners_before,
                       std::vector<Attribute>& attributes) {
-    auto found = std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == from.name; });
+    auto found =
+        std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == from.name; });
     if (found == attributes.end()) found = attributes.insert(attributes.end(), {from.name, from.components, {}});
     const float missing = default_value(from.name);
     if (found->components < from.components) {
-        std::vector<float> wide(found->values.size() / static_cast<std::size_t>(found->components) *
-                                    static_cast<std::size_t>(from.components),
+        std::vector<float> wide(found->values.size() / std::size_t(found->components) * std::size_t(from.components),
                                 missing);
         for (std::size_t i = 0; i < found->values.size(); ++i) {
-            const auto narrow = static_cast<std::size_t>(found->components);
-            wide[i / narrow * static_cast<std::size_t>(from.components) + i % narrow] = found->values[i];
+            const auto narrow = std::size_t(found->components);
+            wide[i / narrow * std::size_t(from.components) + i % narrow] = found->values[i];
         }
         found->values = std::move(wide);
         found->components = from.components;
     }
-    const auto width = static_cast<std::size_t>(found->components), narrow = static_cast<std::size_t>(from.components);
+    const auto width = std::size_t(found->components), narrow = std::size_t(from.components);
     found->values.resize(corners_before * width, missing);
     found->values.reserve((corners_before + corners.size()) * width);
     for (const std::uint32_t v : corners)
@@ -89,7 +89,7 @@ Attribute& attribute_named(GltfVertices& vertices, const std::string& name, int 
         if (a.name != name) continue;
         if (a.components < components) {
             std::vector<Attribute> wide;
-            std::vector<std::uint32_t> all(a.values.size() / static_cast<std::size_t>(a.components));
+            std::vector<std::uint32_t> all(a.values.size() / std::size_t(a.components));
             for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
             wide.push_back({name, components, {}});
             append_attribute(a, all, 0, wide);
@@ -104,7 +104,7 @@ Attribute& attribute_named(GltfVertices& vertices, const std::string& name, int 
 std::uint32_t group_named(Mesh& mesh, const std::string& name) {
     if (name.empty()) return no_index;
     const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
-    const auto place = static_cast<std::uint32_t>(found - mesh.groups.begin());
+    const auto place = std::uint32_t(found - mesh.groups.begin());
     if (found == mesh.groups.end()) mesh.groups.push_back(name);
     return place;
 }
@@ -128,15 +128,14 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
     if (!vertices.normals.empty()) vertices.normals.resize(all);
     if (!vertices.uvs.empty()) vertices.uvs.resize(all);
     if (!vertices.tangents.empty()) vertices.tangents.resize(all, Vec4f(0, 0, 0, 1));
-    for (Attribute& a : vertices.attributes)
-        a.values.resize(all * static_cast<std::size_t>(a.components), default_value(a.name));
+    for (Attribute& a : vertices.attributes) a.values.resize(all * std::size_t(a.components), default_value(a.name));
 
     const Used used = used_vertices(vertices);
     const auto position = [&](std::uint32_t i) { return vertices.positions[used.vertex[i]]; };
     const Numbered welded = number_distinct(
         used.vertex.size(), [&](std::uint32_t i) { return hash_of(0, position(i)); },
         [&](std::uint32_t i, std::uint32_t j) { return position(i) == position(j); });
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto first = std::uint32_t(mesh.positions.size());
     for (const std::uint32_t i : welded.first) mesh.positions.push_back(position(i));
     std::vector<std::uint32_t> corner_position(vertices.corners.size()); // from 0 on
     for (std::size_t c = 0; c < corner_position.size(); ++c)
@@ -145,8 +144,8 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
     for (const std::uint32_t p : corner_position) mesh.corner_position.push_back(first + p);
     append_values(vertices, corner_position, welded.first.size(), vertices.normals, vertices.has_normal, corners_before,
                   mesh.normals, mesh.corner_normal);
-    append_values(vertices, corner_position, welded.first.size(), vertices.uvs, vertices.has_uv, corners_before, mesh.uvs,
-                  mesh.corner_uv);
+    append_values(vertices, corner_position, welded.first.size(), vertices.uvs, vertices.has_uv, corners_before,
+                  mesh.uvs, mesh.corner_uv);
 
     const std::size_t corners = mesh.corners();
     if (!vertices.tangents.empty() || !mesh.tangents.empty()) {
@@ -155,10 +154,11 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
         for (const std::uint32_t v : vertices.corners)
             mesh.tangents.push_back(vertices.tangents.empty() ? Vec4f(0, 0, 0, 1) : vertices.tangents[v]);
     }
-    for (const Attribute& a : vertices.attributes) append_attribute(a, vertices.corners, corners_before, mesh.attributes);
-    for (Attribute& a : mesh.attributes) a.values.resize(corners * static_cast<std::size_t>(a.components), default_value(a.name));
+    for (const Attribute& a : vertices.attributes)
+        append_attribute(a, vertices.corners, corners_before, mesh.attributes);
+    for (Attribute& a : mesh.attributes) a.values.resize(corners * std::size_t(a.components), default_value(a.name));
 
-    for (std::size_t c = corners_before + 3; c <= corners; c += 3) mesh.face_begin.push_back(static_cast<std::uint32_t>(c));
+    for (std::size_t c = corners_before + 3; c <= corners; c += 3) mesh.face_begin.push_back(std::uint32_t(c));
     const auto append_names = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
         const bool any = std::any_of(from.begin(), from.end(), [](std::uint32_t i) { return i != no_index; });
         if (!any && to.empty()) return;

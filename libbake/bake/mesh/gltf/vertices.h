@@ -10,10 +10,10 @@ struct GltfVertices {
     std::vector<Vec3f> positions, normals;
     std::vector<Vec2f> uvs;
     std::vector<Vec4f> tangents;
-    std::vector<Attribute> attributes;      ///< values per vertex
-    std::vector<bool> has_normal, has_uv;   ///< per vertex
+    std::vector<Attribute> attributes;    ///< values per vertex
+    std::vector<bool> has_normal, has_uv; ///< per vertex
 
-    std::vector<std::uint32_t> corners;     ///< three vertices of each triangle
+    std::vector<std::uint32_t> corners; ///< three vertices of each triangle
     std::vector<std::uint32_t> face_material, face_group;
 };
 

@@ -1,6 +1,6 @@
-#include "bake/mesh/gltf/geometry.h"
 #include "bake/base/error.h"
 #include "bake/base/version.h"
+#include "bake/mesh/gltf/geometry.h"
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -35,7 +35,8 @@ std::string mime_type_of(const GltfImage& image) {
 std::string percent_encoded(const std::string& name) {
     std::string out;
     for (const char c : name) {
-        const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || std::strchr("-._~", c);
+        const bool plain =
+            (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || std::strchr("-._~", c);
         if (plain && c != 0) out += c;
         else {
             const auto code = static_cast<unsigned char>(c);
@@ -61,7 +62,8 @@ std::vector<Semantic> semantics_of(const Mesh& mesh) {
         for (bool found = true; found;) {
             found = false;
             for (const Attribute& a : mesh.attributes)
-                if (a.name == kind + std::to_string(count) && a.components >= least && a.components <= most && !taken.count(a.name)) {
+                if (a.name == kind + std::to_string(count) && a.components >= least && a.components <= most &&
+                    !taken.count(a.name)) {
                     out.push_back({a.name, &a, kind[0] == 'T'});
                     taken.insert(a.name);
                     ++count, found = true;
@@ -76,7 +78,7 @@ std::vector<Semantic> semantics_of(const Mesh& mesh) {
         std::string name = "_";
         for (const char c : a.name) {
             const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z');
-            name += plain ? c : c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : '_';
+            name += plain ? c : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : '_';
         }
         while (!taken.insert(name).second) name += '_';
         out.push_back({name, &a, false});
@@ -118,7 +120,8 @@ struct Layout {
         bytes += pieces.back().padded;
         return root["bufferViews"].size() - 1;
     }
-    std::size_t accessor(std::size_t buffer_view, std::size_t offset, int component, std::size_t count, const char* type) {
+    std::size_t accessor(std::size_t buffer_view, std::size_t offset, int component, std::size_t count,
+                         const char* type) {
         json object = {{"bufferView", buffer_view}, {"componentType", component}, {"count", count}, {"type", type}};
         if (offset != 0) object["byteOffset"] = offset;
         root["accessors"].push_back(std::move(object));
@@ -129,13 +132,13 @@ struct Layout {
 constexpr int array_buffer = 34962, element_array_buffer = 34963, float_type = 5126;
 
 /// Adds one mesh; what it points to must live until it is written. Its place among the meshes.
-std::size_t add_mesh(Layout& layout, const Mesh& mesh, const GltfNodeGeometry& node, const std::vector<Semantic>& semantics,
-                     const std::string& name, GltfWritten& done) {
+std::size_t add_mesh(Layout& layout, const Mesh& mesh, const GltfNodeGeometry& node,
+                     const std::vector<Semantic>& semantics, const std::string& name, GltfWritten& done) {
     const std::size_t count = node.vertices.first.size();
     json attributes;
     const auto add = [&](const std::string& semantic, int components, std::function<void(BlockWriter&)> write) {
         static const char* const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-        const std::size_t view = layout.view(4 * static_cast<std::size_t>(components) * count, array_buffer, std::move(write));
+        const std::size_t view = layout.view(4 * std::size_t(components) * count, array_buffer, std::move(write));
         attributes[semantic] = layout.accessor(view, 0, float_type, count, types[components - 1]);
     };
     add("POSITION", 3, [&](BlockWriter& out) { write_positions(out, mesh, node); });
@@ -155,8 +158,9 @@ std::size_t add_mesh(Layout& layout, const Mesh& mesh, const GltfNodeGeometry& n
     json primitives;
     std::size_t offset = 0;
     for (const GltfPart& part : node.parts) {
-        json primitive = {{"attributes", attributes},
-                          {"indices", layout.accessor(view, offset, size == 2 ? 5123 : 5125, 3 * part.triangles, "SCALAR")}};
+        json primitive = {
+            {"attributes", attributes},
+            {"indices", layout.accessor(view, offset, size == 2 ? 5123 : 5125, 3 * part.triangles, "SCALAR")}};
         if (part.material != no_index) primitive["material"] = part.material;
         if (part.group != no_index) primitive["extras"] = {{"group", utf8(mesh.groups[part.group])}};
         primitives.push_back(std::move(primitive));
@@ -194,12 +198,14 @@ Images add_images(Layout& layout, const Gltf& gltf, const std::string& path, boo
         } else {
             const std::string ending = mime_type == "image/png" ? ".png" : ".jpg";
             std::string name = fs::path(image.uri).filename().string();
-            if (name.empty()) name = fs::path(path).stem().string() + "_image" + std::to_string(out.number.size() - 1) + ending;
-            while (!taken.insert(name).second) name = fs::path(name).stem().string() + "_" + fs::path(name).extension().string();
+            if (name.empty())
+                name = fs::path(path).stem().string() + "_image" + std::to_string(out.number.size() - 1) + ending;
+            while (!taken.insert(name).second)
+                name = fs::path(name).stem().string() + "_" + fs::path(name).extension().string();
             object["uri"] = percent_encoded(name);
             out.beside.emplace_back(name, &image);
         }
-        out.number.back() = layout.root.contains("images") ? static_cast<std::uint32_t>(layout.root["images"].size()) : 0;
+        out.number.back() = layout.root.contains("images") ? std::uint32_t(layout.root["images"].size()) : 0;
         layout.root["images"].push_back(std::move(object));
     }
     return out;
@@ -215,7 +221,8 @@ std::size_t place_of(json& list, json object) {
 /// The texture's info where it can be written: its image is there, and so are the uvs that it asks for.
 void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, const Images& images, std::uint32_t uv_sets,
                  const char* key, const char* scale, json& to) {
-    if (!texture || texture->image >= images.number.size() || images.number[texture->image] == no_index || texture->uv_set >= uv_sets)
+    if (!texture || texture->image >= images.number.size() || images.number[texture->image] == no_index ||
+        texture->uv_set >= uv_sets)
         return;
     const GltfSampler& s = texture->sampler;
     json sampler = {{"wrapS", s.wrap_u}, {"wrapT", s.wrap_v}};
@@ -229,7 +236,8 @@ void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, cons
     to[key] = std::move(info);
 }
 
-void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, const Images& images, std::uint32_t uv_sets) {
+void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, const Images& images,
+                   std::uint32_t uv_sets) {
     for (const GltfMaterial& from : materials) {
         json pbr = json::object(), object = json::object();
         if (!from.name.empty()) object["name"] = utf8(from.name);
@@ -272,8 +280,8 @@ void write_glb(const std::string& path, Layout& layout) {
     const std::size_t length = 12 + 8 + text.size() + 8 + layout.bytes;
     if (length > 0xffffffffu) refuse(path, "a .glb holds no more than 4 GiB; write a .gltf or a .ply");
     BlockWriter out(path);
-    out.write("glTF" + little_endian({2, static_cast<std::uint32_t>(length), static_cast<std::uint32_t>(text.size()), 0x4e4f534a}));
-    out.write(text + little_endian({static_cast<std::uint32_t>(layout.bytes), 0x004e4942}));
+    out.write("glTF" + little_endian({2, std::uint32_t(length), std::uint32_t(text.size()), 0x4e4f534a}));
+    out.write(text + little_endian({std::uint32_t(layout.bytes), 0x004e4942}));
     write_pieces(out, layout);
     out.commit();
 }
@@ -299,10 +307,12 @@ bool is_identity(const GltfNode& node) { return std::equal(node.to_world, node.t
 GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& mesh) {
     refuse_unless_finite(mesh, path);
     std::string ending = fs::path(path).extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
     const bool binary = ending == ".glb";
     std::vector<GltfNode> nodes = gltf.nodes;
-    if (nodes.empty()) nodes.push_back({fs::path(path).stem().string(), 0, mesh.faces(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}});
+    if (nodes.empty())
+        nodes.push_back(
+            {fs::path(path).stem().string(), 0, mesh.faces(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}});
     std::erase_if(nodes, [](const GltfNode& node) { return node.first_face == node.end_face; });
     if (nodes.empty()) refuse(path, "the mesh has no faces, and glTF holds no mesh without triangles");
 
@@ -326,7 +336,8 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
     std::uint32_t uv_sets = mesh.corner_uv.empty() ? 0 : 1;
     for (const Semantic& s : semantics) uv_sets += s.flip_v ? 1 : 0;
     std::vector<GltfMaterial> materials = gltf.materials;
-    for (std::size_t i = materials.size(); i < mesh.materials.size(); ++i) materials.push_back({.name = mesh.materials[i]});
+    for (std::size_t i = materials.size(); i < mesh.materials.size(); ++i)
+        materials.push_back({.name = mesh.materials[i]});
     add_materials(layout, materials, images, uv_sets);
     layout.root["buffers"][0]["byteLength"] = layout.bytes;
     if (binary) write_glb(path, layout);
@@ -348,12 +359,10 @@ GltfWritten write_gltf(const std::string& path, const Gltf& gltf) {
     for (GltfNode& node : moved.nodes)
         if (shears(node)) std::copy_n(GltfNode().to_world, 16, node.to_world);
     GltfWritten done = write_scene(path, moved, moved.mesh);
-    done.moved_nodes = static_cast<std::size_t>(std::count_if(gltf.nodes.begin(), gltf.nodes.end(), shears));
+    done.moved_nodes = std::size_t(std::count_if(gltf.nodes.begin(), gltf.nodes.end(), shears));
     return done;
 }
 
-GltfWritten write_gltf(const std::string& path, const Mesh& mesh) {
-    return write_scene(path, {}, mesh);
-}
+GltfWritten write_gltf(const std::string& path, const Mesh& mesh) { return write_scene(path, {}, mesh); }
 
 } // namespace bake

@@ -9,7 +9,8 @@ void CellFitter::sample(std::uint32_t cell, const Vec2d& density) {
     const std::uint32_t number = cells_.patch(cell);
     samples_.quad = cells_.complex().patches[cell].sides() == 4;
     const auto count = [&](const Vec2d& from, const Vec2d& to, double finer) {
-        return std::uint32_t(std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, double(most_samples)));
+        return std::uint32_t(
+            std::clamp(std::ceil(finer * texels_along(patch_, number, from, to)), 8 * finer, double(most_samples)));
     };
     if (samples_.quad) {
         samples_.across = count(cells_.at(cell, 0, 2, 1, 2), cells_.at(cell, 2, 2, 1, 2), density.x);
@@ -18,7 +19,8 @@ void CellFitter::sample(std::uint32_t cell, const Vec2d& density) {
         const Vec2d corner[3] = {cells_.at(cell, 0, 1, 0, 1), cells_.at(cell, 1, 1, 0, 1), cells_.at(cell, 0, 1, 1, 1)};
         const double finer = std::max(density.x, density.y);
         samples_.across = samples_.up =
-            std::max({count(corner[0], corner[1], finer), count(corner[1], corner[2], finer), count(corner[2], corner[0], finer)});
+            std::max({count(corner[0], corner[1], finer), count(corner[1], corner[2], finer),
+                      count(corner[2], corner[0], finer)});
     }
     samples_.take(patch_, cells_, cell);
 }
@@ -37,14 +39,16 @@ PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t m
     const std::uint32_t stride_up = std::max(1u, samples_.up / 12), stride_across = std::max(1u, samples_.across / 12);
     for (std::uint32_t j = stride_up / 2; j < samples_.up; j += stride_up) {
         line.clear();
-        for (std::uint32_t i = 0; i <= (samples_.quad ? samples_.across : samples_.across - j); ++i) line.push_back(samples_(i, j));
+        for (std::uint32_t i = 0; i <= (samples_.quad ? samples_.across : samples_.across - j); ++i)
+            line.push_back(samples_(i, j));
         if (line.size() < 3) continue;
         const std::uint32_t part = samples_.across / std::uint32_t(line.size() - 1); // a triangle's lines get shorter
         rates.across = std::max(rates.across, std::min(most, part * rate_within(line, error, most)));
     }
     for (std::uint32_t i = stride_across / 2; i < samples_.across; i += stride_across) {
         line.clear();
-        for (std::uint32_t j = 0; j <= (samples_.quad ? samples_.up : samples_.up - i); ++j) line.push_back(samples_(i, j));
+        for (std::uint32_t j = 0; j <= (samples_.quad ? samples_.up : samples_.up - i); ++j)
+            line.push_back(samples_(i, j));
         if (line.size() < 3) continue;
         const std::uint32_t part = samples_.up / std::uint32_t(line.size() - 1);
         rates.up = std::max(rates.up, std::min(most, part * rate_within(line, error, most)));
@@ -55,12 +59,16 @@ PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t m
 
 // Compares how far the sample lies from the chords of its row and of its column over a face with these bounds, in
 // samples; both where neither is much the larger.
-void CellFitter::add_directions(Misfit& to, std::uint32_t i, std::uint32_t j, const Vec2d& low, const Vec2d& high) const {
+void CellFitter::add_directions(Misfit& to, std::uint32_t i, std::uint32_t j, const Vec2d& low,
+                                const Vec2d& high) const {
     const auto bend = [&](bool up) {
-        const std::uint32_t at = up ? j : i, end = samples_.quad ? (up ? samples_.up : samples_.across) : samples_.across - (up ? i : j);
-        const auto before = std::min(at, std::uint32_t(std::ceil(std::max(0.0, low[up] - 1e-9)))), after = std::clamp(std::uint32_t(high[up] + 1e-9), at, end);
+        const std::uint32_t at = up ? j : i,
+                            end = samples_.quad ? (up ? samples_.up : samples_.across) : samples_.across - (up ? i : j);
+        const auto before = std::min(at, std::uint32_t(std::ceil(std::max(0.0, low[up] - 1e-9)))),
+                   after = std::clamp(std::uint32_t(high[up] + 1e-9), at, end);
         if (before == at || after == at) return 0.0;
-        const Vec3d &a = up ? samples_(i, before) : samples_(before, j), &b = up ? samples_(i, after) : samples_(after, j);
+        const Vec3d &a = up ? samples_(i, before) : samples_(before, j),
+                    &b = up ? samples_(i, after) : samples_(after, j);
         return glm::length(samples_(i, j) - glm::mix(a, b, double(at - before) / (after - before)));
     };
     const double across = bend(false), up = bend(true);
@@ -120,7 +128,8 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     return out;
 }
 
-CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, double error, std::uint32_t most, const Vec2d& density, bool again) {
+CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, double error, std::uint32_t most,
+                                const Vec2d& density, bool again) {
     for (Vec2d finer = density;;) {
         sample(cell, finer);
         PatchRates rates = again ? start : first_try(start, error, most);
@@ -133,20 +142,26 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, dou
                 // Steps are large: half of the last one may do.
                 PatchRates less = rates;
                 less.across = (failed.across + rates.across) / 2, less.up = (failed.up + rates.up) / 2;
-                if (tried && (less.across < rates.across || less.up < rates.up) && !misfit(cell, fitted(less), error).any()) rates = less;
+                if (tried && (less.across < rates.across || less.up < rates.up) &&
+                    !misfit(cell, fitted(less), error).any())
+                    rates = less;
                 return {rates.across, rates.up, false, finer};
             }
             failed = rates, tried = true;
             if (!found.inside && !inside) inside_fits = rates, inside = true;
             // A lattice this much finer would have helped: then not the sides alone are coarse, but what they bound.
-            if (!found.inside && (rates.across >= 2 * inside_fits.across + 2 || rates.up >= 2 * inside_fits.up + 2)) inside_fits = rates;
+            if (!found.inside && (rates.across >= 2 * inside_fits.across + 2 || rates.up >= 2 * inside_fits.up + 2))
+                inside_fits = rates;
             if (rates.across >= most && rates.up >= most) return {rates.across, rates.up, false, finer};
             // Along the border a finer lattice helps a little; then coarser sides must follow.
             bool coarser_side = false;
-            for (int i = 0; i < rates.sides; ++i) coarser_side |= rates.side[i] < (i % 2 == 0 ? inside_fits.across : inside_fits.up);
+            for (int i = 0; i < rates.sides; ++i)
+                coarser_side |= rates.side[i] < (i % 2 == 0 ? inside_fits.across : inside_fits.up);
             if (inside && coarser_side && rates.across + rates.up > inside_fits.across + inside_fits.up)
                 return {inside_fits.across, inside_fits.up, true, finer};
-            const auto finer_rate = [&](std::uint32_t rate) { return std::min(most, std::max(rate + 1, rate + rate / 4)); };
+            const auto finer_rate = [&](std::uint32_t rate) {
+                return std::min(most, std::max(rate + 1, rate + rate / 4));
+            };
             if (found.across || rates.up >= most || !samples_.quad) rates.across = finer_rate(rates.across);
             if (found.up || failed.across >= most || !samples_.quad) rates.up = finer_rate(rates.up);
         }
@@ -158,7 +173,8 @@ std::uint32_t CellFitter::uniform(std::uint32_t cell, std::uint32_t least, doubl
     for (Vec2d finer(1);;) {
         sample(cell, finer);
         for (;; rate += std::max(1u, rate / 12)) {
-            const PatchRates rates{.sides = samples_.quad ? 4 : 3, .side = {rate, rate, rate, rate}, .across = rate, .up = rate};
+            const PatchRates rates{
+                .sides = samples_.quad ? 4 : 3, .side = {rate, rate, rate, rate}, .across = rate, .up = rate};
             if (make_denser(finer, rates)) break;
             if (rate >= most || !misfit(cell, rates, error).any()) return rate;
         }

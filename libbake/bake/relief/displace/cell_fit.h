@@ -14,14 +14,18 @@ struct CellSamples {
     void take(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell) {
         st.clear();
         for (std::uint32_t j = 0; j <= up; ++j)
-            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i) st.push_back(cells.at(cell, i, across, j, up));
+            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i)
+                st.push_back(cells.at(cell, i, across, j, up));
         const auto points = patch.points(cells.patch(cell), st);
         at.assign(std::size_t(across + 1) * (up + 1), Vec3d(0));
         std::size_t next = 0;
         for (std::uint32_t j = 0; j <= up; ++j)
-            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i) at[std::size_t(j) * (across + 1) + i] = points[next++];
+            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i)
+                at[std::size_t(j) * (across + 1) + i] = points[next++];
     }
-    const Vec3d& operator()(std::uint32_t i, std::uint32_t j) const noexcept { return at[std::size_t(j) * (across + 1) + i]; }
+    const Vec3d& operator()(std::uint32_t i, std::uint32_t j) const noexcept {
+        return at[std::size_t(j) * (across + 1) + i];
+    }
 };
 
 /// Which faces stay too far from the samples.
@@ -35,19 +39,23 @@ struct Misfit {
 /// faces get as small, and lattices are tried against the samples until the faces stay near enough.
 class CellFitter {
 public:
-    CellFitter(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells) : patch_(surface, blend), cells_(cells) {}
+    CellFitter(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells)
+        : patch_(surface, blend), cells_(cells) {}
 
     /// The lattice with which the cell's faces are within `error`, given its sides; whether the sides are too coarse.
     struct Fit {
         std::uint32_t across, up;
         bool sides_too_coarse = false;
-        Vec2d density{1};   ///< samples per texel that it took, across and up
+        Vec2d density{1}; ///< samples per texel that it took, across and up
     };
     /// Begins with `density` samples per texel and, where `again`, with the lattice that `rates` has.
-    Fit fit(std::uint32_t cell, const PatchRates& rates, double error, std::uint32_t most, const Vec2d& density, bool again);
+    Fit fit(std::uint32_t cell, const PatchRates& rates, double error, std::uint32_t most, const Vec2d& density,
+            bool again);
     /// The first uniform rate from `least` on that is within `error`.
     std::uint32_t uniform(std::uint32_t cell, std::uint32_t least, double error, std::uint32_t most);
-    double error(std::uint32_t cell, const PatchRates& rates) { return cell_error(patch_, cells_, cell, rates, HUGE_VAL).max(); }
+    double error(std::uint32_t cell, const PatchRates& rates) {
+        return cell_error(patch_, cells_, cell, rates, HUGE_VAL).max();
+    }
 
 private:
     void sample(std::uint32_t cell, const Vec2d& density);

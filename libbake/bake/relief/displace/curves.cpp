@@ -21,7 +21,8 @@ bool chords_within(std::span<const Vec3d> curve, std::uint32_t rate, double erro
 
 } // namespace
 
-std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to, std::uint32_t count) {
+std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to,
+                         std::uint32_t count) {
     std::vector<Vec2d> st(count + 1);
     for (std::uint32_t k = 0; k <= count; ++k) st[k] = glm::mix(from, to, double(k) / count);
     const auto at = patch.points(number, st);
@@ -42,7 +43,8 @@ std::uint32_t rate_within(std::span<const Vec3d> curve, double error, std::uint3
     for (; rate <= count / 2 && rate < most; rate = std::max(rate + 1, rate + rate / 8))
         if (chords_within(curve, rate, error)) return rate;
     double bend = 0;
-    for (std::uint32_t k = 1; k < count; ++k) bend = std::max(bend, glm::length(curve[k - 1] - 2.0 * curve[k] + curve[k + 1]));
+    for (std::uint32_t k = 1; k < count; ++k)
+        bend = std::max(bend, glm::length(curve[k - 1] - 2.0 * curve[k] + curve[k + 1]));
     const double segments = std::ceil(count * std::sqrt(bend / (8 * error)));
     return std::uint32_t(std::clamp(segments, double(std::min(rate, most)), double(most)));
 }

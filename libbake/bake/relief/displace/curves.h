@@ -5,7 +5,8 @@
 namespace bake {
 
 /// The displaced surface along a straight line of a patch, at k / count.
-std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to, std::uint32_t count);
+std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to,
+                         std::uint32_t count);
 
 /// Texels of the height that a line of a patch crosses.
 double texels_along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to);

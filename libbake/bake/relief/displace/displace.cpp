@@ -24,10 +24,11 @@ DisplaceCount count_of(const DisplaceLayout& layout, const BaseSurface& base, bo
                   layout.faces * ((mesh.face_material.empty() ? 0 : 4) + (mesh.face_group.empty() ? 0 : 4)) +
                   (margin ? layout.points * 4 : 0);
     // The tables that say where everything lies, and what threads work with.
-    count.bytes += std::uint64_t(complex.patches.size()) * (16 + (layout.cells->split() > 1 ? sizeof(PatchComplex::Patch) : 0)) +
-                   std::uint64_t(complex.edges) * 16 + std::uint64_t(complex.vertices) * 8 +
-                   (layout.edge_meetings.sides.size() + layout.vertex_meetings.sides.size()) * (sizeof(MeetingSide) + 16) +
-                   std::uint64_t(thread_count()) * (4 << 20);
+    count.bytes +=
+        std::uint64_t(complex.patches.size()) * (16 + (layout.cells->split() > 1 ? sizeof(PatchComplex::Patch) : 0)) +
+        std::uint64_t(complex.edges) * 16 + std::uint64_t(complex.vertices) * 8 +
+        (layout.edge_meetings.sides.size() + layout.vertex_meetings.sides.size()) * (sizeof(MeetingSide) + 16) +
+        std::uint64_t(thread_count()) * (4 << 20);
     return count;
 }
 
@@ -52,7 +53,9 @@ struct Plan {
 /// Throws when the plan needs more memory than there may be.
 void refuse_too_large(const BaseSurface& base, const DisplaceOptions& options, const DisplaceCount& count) {
     const std::uint64_t limit = options.max_bytes ? options.max_bytes : machine_memory();
-    const auto fits = [&](const DisplaceCount& c) { return c.bytes <= limit && std::max(c.points, c.corners) < no_index; };
+    const auto fits = [&](const DisplaceCount& c) {
+        return c.bytes <= limit && std::max(c.points, c.corners) < no_index;
+    };
     if (fits(count)) return;
     std::string mend = "allow more with --max-memory";
     if (options.rates.rule == Rates::Rule::uniform) {
@@ -61,11 +64,14 @@ void refuse_too_large(const BaseSurface& base, const DisplaceOptions& options, c
             const Plan coarser(base, uniform_rates(level), options.margin);
             if (fits(coarser.count)) break;
         }
-        mend += level >= 0 ? " or take --levels " + std::to_string(level) : std::string(" or a coarser mesh: not even --levels 0 fits");
+        mend += level >= 0 ? " or take --levels " + std::to_string(level)
+                           : std::string(" or a coarser mesh: not even --levels 0 fits");
     } else mend += options.rates.rule == Rates::Rule::error ? " or a larger --max-error" : " or a larger --edge-px";
-    throw Error(Refusal::unsuitable, "displacement: needs " + in_megabytes(count.bytes) + " for " + std::to_string(count.points) +
-                                         " points and " + std::to_string(count.faces) + " faces, more than " +
-                                         (count.bytes <= limit ? "indices hold" : "the " + in_megabytes(limit) + " it may use") + "; " + mend);
+    throw Error(Refusal::unsuitable,
+                "displacement: needs " + in_megabytes(count.bytes) + " for " + std::to_string(count.points) +
+                    " points and " + std::to_string(count.faces) + " faces, more than " +
+                    (count.bytes <= limit ? "indices hold" : "the " + in_megabytes(limit) + " it may use") + "; " +
+                    mend);
 }
 
 void write_faces(const Plan& plan, const Mesh& base, Mesh& mesh) {
@@ -81,11 +87,12 @@ void write_faces(const Plan& plan, const Mesh& base, Mesh& mesh) {
     for (std::uint32_t c = 0; c < plan.cells.count(); ++c) {
         const std::uint64_t own = layout.face_first[c + 1] - layout.face_first[c];
         const PatchRates r = layout.of_cell(c);
-        if (own >= 2 * faces_per_job && pattern(r) == PatchPattern::lattice && r.sides == 4 && own == std::uint64_t(r.across) * r.up &&
-            layout.corner_first[c + 1] - layout.corner_first[c] == 4 * own) {
+        if (own >= 2 * faces_per_job && pattern(r) == PatchPattern::lattice && r.sides == 4 &&
+            own == std::uint64_t(r.across) * r.up && layout.corner_first[c + 1] - layout.corner_first[c] == 4 * own) {
             if (c > first) jobs.push_back({first, c, 0, 0});
             const auto band = std::uint32_t(std::max<std::uint64_t>(1, faces_per_job / r.across));
-            for (std::uint32_t row = 0; row < r.up; row += band) jobs.push_back({c, c + 1, row, std::min(r.up, row + band)});
+            for (std::uint32_t row = 0; row < r.up; row += band)
+                jobs.push_back({c, c + 1, row, std::min(r.up, row + band)});
             first = c + 1;
         } else if (layout.face_first[c + 1] - layout.face_first[first] >= faces_per_job || c - first >= 4096) {
             jobs.push_back({first, c + 1, 0, 0});
@@ -107,7 +114,9 @@ void write_faces(const Plan& plan, const Mesh& base, Mesh& mesh) {
                 else emit_faces(r, ring, layout.inner_first[c], writer);
                 const std::uint32_t face = complex.patches[c].face;
                 const auto name = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
-                    if (!from.empty()) std::fill(to.begin() + std::int64_t(layout.face_first[c] + skipped), to.begin() + std::int64_t(writer.faces()), from[face]);
+                    if (!from.empty())
+                        std::fill(to.begin() + std::int64_t(layout.face_first[c] + skipped),
+                                  to.begin() + std::int64_t(writer.faces()), from[face]);
                 };
                 name(base.face_material, mesh.face_material);
                 name(base.face_group, mesh.face_group);
@@ -133,7 +142,9 @@ void normals_from_faces(Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
             for (std::uint32_t k = 0; k < count; ++k) {
                 const std::uint32_t number = mesh.corner_normal[first + k];
                 if (!wanted[number]) continue;
-                const auto at = [&](std::uint32_t i) { return Vec3d(mesh.positions[mesh.corner_position[first + i % count]]); };
+                const auto at = [&](std::uint32_t i) {
+                    return Vec3d(mesh.positions[mesh.corner_position[first + i % count]]);
+                };
                 const Vec3d a = at(k + 1) - at(k), b = at(k + count - 1) - at(k);
                 const double weight = glm::dot(a, a) * glm::dot(b, b);
                 if (weight > 0) shares[begin / grain].push_back({number, glm::cross(a, b) / weight});
@@ -145,7 +156,8 @@ void normals_from_faces(Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
     std::sort(sorted.begin(), sorted.end());
     sum.assign(sorted.size(), Vec3d(0));
     for (const auto& chunk : shares)
-        for (const Share& s : chunk) sum[std::lower_bound(sorted.begin(), sorted.end(), s.number) - sorted.begin()] += s.n;
+        for (const Share& s : chunk)
+            sum[std::lower_bound(sorted.begin(), sorted.end(), s.number) - sorted.begin()] += s.n;
     for (std::size_t i = 0; i < sorted.size(); ++i) mesh.normals[sorted[i]] = Vec3f(unit_or_zero(sum[i]));
 }
 
@@ -166,13 +178,18 @@ Mesh make_arrays(const DisplaceLayout& layout, const Mesh& base, bool with_margi
         switch (which) {
         case 0: size_in_huge_pages(mesh.corner_position, layout.corners); break;
         case 1: size_in_huge_pages(mesh.corner_normal, layout.corners); break;
-        case 2: if (layout.has_uv) size_in_huge_pages(mesh.corner_uv, layout.corners); break;
+        case 2:
+            if (layout.has_uv) size_in_huge_pages(mesh.corner_uv, layout.corners);
+            break;
         case 3: size_in_huge_pages(mesh.positions, layout.points); break;
         case 4: size_in_huge_pages(mesh.normals, layout.normals); break;
         case 5: size_in_huge_pages(mesh.uvs, layout.uvs); break;
         case 6: size_in_huge_pages(mesh.face_begin, layout.faces + 1); break;
-        case 7: if (!base.face_material.empty()) size_in_huge_pages(mesh.face_material, layout.faces); break;
-        default: if (!base.face_group.empty()) size_in_huge_pages(mesh.face_group, layout.faces);
+        case 7:
+            if (!base.face_material.empty()) size_in_huge_pages(mesh.face_material, layout.faces);
+            break;
+        default:
+            if (!base.face_group.empty()) size_in_huge_pages(mesh.face_group, layout.faces);
         }
     });
     if (with_margin) margin.resize(layout.points);
@@ -207,7 +224,8 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
     std::optional<SeamedRelief> scene;
     // Uniform rates are refused before anything else is made.
     if (!uniform) scene = seamed(base, relief, options.seam);
-    const RatePlan rates = uniform ? uniform_rates(options.rates.levels) : plan_rates(scene->surface, scene->blend, options.rates);
+    const RatePlan rates =
+        uniform ? uniform_rates(options.rates.levels) : plan_rates(scene->surface, scene->blend, options.rates);
     const Plan plan(base, rates, options.margin);
     refuse_too_large(base, options, plan.count);
     if (uniform) scene = seamed(base, relief, options.seam);

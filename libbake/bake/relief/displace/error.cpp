@@ -35,7 +35,8 @@ double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, cons
     const double vb = d5 * d2 - d1 * d6;
     if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return glm::length(ap - d2 / (d2 - d6) * ac);
     const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && d4 - d3 + d5 - d6 > 0) return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && d4 - d3 + d5 - d6 > 0)
+        return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
     const double all = va + vb + vc; // of the squared area; below this it is rounding, and says nothing
     if (!(all > 1e-14 * glm::dot(ab, ab) * glm::dot(ac, ac)))
         return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
@@ -49,10 +50,10 @@ constexpr std::size_t batch = 4096;
 /// Compares faces as they come, many at a time.
 class Comparison {
 public:
-    Comparison(DisplacedPatch& patch, std::uint32_t number, std::span<const Vec2d> places, std::span<const Vec3d> points,
-              std::span<const Vec2d> texels, std::uint32_t first_inside, double enough)
-        : patch_(patch), number_(number), places_(places), points_(points), texels_(texels), first_inside_(first_inside),
-          enough_(enough) {}
+    Comparison(DisplacedPatch& patch, std::uint32_t number, std::span<const Vec2d> places,
+               std::span<const Vec3d> points, std::span<const Vec2d> texels, std::uint32_t first_inside, double enough)
+        : patch_(patch), number_(number), places_(places), points_(points), texels_(texels),
+          first_inside_(first_inside), enough_(enough) {}
 
     void add(std::span<const std::uint32_t> corner) {
         if (error_.max() > enough_) return;
@@ -60,13 +61,16 @@ public:
         double longest = 0;
         for (int k = 0; k < sides; ++k)
             longest = std::max(longest, glm::length(texels_[corner[(k + 1) % sides]] - texels_[corner[k]]));
-        Face face{{corner[0], corner[1], corner[2], corner[sides - 1]}, int(std::clamp(std::ceil(longest), 2.0, 64.0)), sides};
+        Face face{{corner[0], corner[1], corner[2], corner[sides - 1]},
+                  int(std::clamp(std::ceil(longest), 2.0, 64.0)),
+                  sides};
         const auto place = [&](int k) { return places_[corner[k]]; };
         for (int j = 0; j <= face.cuts; ++j)
             for (int i = 0; i <= (sides == 4 ? face.cuts : face.cuts - j); ++i) {
                 if (is_corner(face, i, j)) continue;
                 const double x = double(i) / face.cuts, y = double(j) / face.cuts;
-                st_.push_back(sides == 4 ? (1 - y) * ((1 - x) * place(0) + x * place(1)) + y * ((1 - x) * place(3) + x * place(2))
+                st_.push_back(sides == 4 ? (1 - y) * ((1 - x) * place(0) + x * place(1)) +
+                                               y * ((1 - x) * place(3) + x * place(2))
                                          : (1 - x - y) * place(0) + x * place(1) + y * place(2));
             }
         faces_.push_back(face);
@@ -105,7 +109,8 @@ private:
                     if (f.sides == 3) distance = distance_to_triangle(p, a, b, c);
                     else {
                         distance = i >= j ? distance_to_triangle(p, a, b, c) : distance_to_triangle(p, a, c, d);
-                        distance = std::max(distance, i + j <= f.cuts ? distance_to_triangle(p, a, b, d) : distance_to_triangle(p, b, c, d));
+                        distance = std::max(distance, i + j <= f.cuts ? distance_to_triangle(p, a, b, d)
+                                                                      : distance_to_triangle(p, b, c, d));
                     }
                     worst = std::max(worst, distance);
                     error_.square_sum += distance * distance;
@@ -130,10 +135,12 @@ private:
 
 } // namespace
 
-CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& r, double enough) {
+CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& r,
+                     double enough) {
     std::vector<Vec2d> places;
     CellRing border;
-    const std::uint32_t inside = border.number(cells, cell, r, [&](const Vec2d& place, const Vec2d&) { places.push_back(place); });
+    const std::uint32_t inside =
+        border.number(cells, cell, r, [&](const Vec2d& place, const Vec2d&) { places.push_back(place); });
     const std::uint32_t number = cells.patch(cell);
     std::vector<Vec3d> points(places.size());
     std::vector<Vec2d> texels(places.size());

@@ -33,14 +33,16 @@ struct CellRing {
 
     /// Numbers the lattice's points from 0, the border around and then inside, and calls put(place on the patch, place in the
     /// cell) for each. The first number inside.
-    template <class Put> std::uint32_t number(const PatchCells& cells, std::uint32_t cell, const PatchRates& r, const Put& put) {
+    template <class Put>
+    std::uint32_t number(const PatchCells& cells, std::uint32_t cell, const PatchRates& r, const Put& put) {
         static constexpr Vec2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
         const Vec2d* const corner = r.sides == 4 ? square : triangle;
         std::uint32_t next = 0;
         for (int i = 0; i < r.sides; ++i) {
             side[i].clear();
             for (std::uint32_t k = 0; k < r.side[i]; ++k, ++next) {
-                put(cells.on_side(cell, i, k, r.side[i]), glm::mix(corner[i], corner[(i + 1) % r.sides], double(k) / r.side[i]));
+                put(cells.on_side(cell, i, k, r.side[i]),
+                    glm::mix(corner[i], corner[(i + 1) % r.sides], double(k) / r.side[i]));
                 side[i].push_back({next, next, next});
             }
         }
@@ -66,7 +68,8 @@ struct CellError {
 };
 
 /// Of one cell at fitted rates. Stops early, with what it has found, once `enough` is exceeded.
-CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& rates, double enough);
+CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& rates,
+                     double enough);
 
 double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept;
 /// Distance of a point from a triangle, of no area too. Ericson, Real-Time Collision Detection, 2005, 5.1.5.

@@ -99,7 +99,8 @@ DisplaceLayout make_layout(const PatchCells& cells, const CellRates& rates, bool
     for (const std::uint32_t e : poles) layout.edge_first[e] = 0;
     layout.inner_first.resize(complex.patches.size());
     for_rows(cells.count(), grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto c = std::uint32_t(begin); c < end; ++c) layout.inner_first[c] = is_collapsed(complex.patches[c]) ? 0 : inner_points(layout.of_cell(c));
+        for (auto c = std::uint32_t(begin); c < end; ++c)
+            layout.inner_first[c] = is_collapsed(complex.patches[c]) ? 0 : inner_points(layout.of_cell(c));
     });
     layout.points = number(layout.inner_first, number(layout.edge_first, complex.vertices));
 
@@ -114,7 +115,8 @@ DisplaceLayout make_layout(const PatchCells& cells, const CellRates& rates, bool
     const auto one = [](std::uint32_t) { return 1u; };
     const auto inside_edge = [&](std::uint32_t e) { return rates.of_edge(e) - 1; };
     layout.normals = extra(layout.vertex_meetings, layout.vertex_normals, &Meeting::normal_groups, layout.points, one);
-    layout.normals = extra(layout.edge_meetings, layout.edge_normals, &Meeting::normal_groups, layout.normals, inside_edge);
+    layout.normals =
+        extra(layout.edge_meetings, layout.edge_normals, &Meeting::normal_groups, layout.normals, inside_edge);
     if (has_uv) {
         layout.uvs = extra(layout.vertex_meetings, layout.vertex_uvs, &Meeting::uv_groups, layout.points, one);
         layout.uvs = extra(layout.edge_meetings, layout.edge_uvs, &Meeting::uv_groups, layout.uvs, inside_edge);
@@ -137,8 +139,8 @@ DisplaceLayout make_layout(const PatchCells& cells, const CellRates& rates, bool
             bool at_pole = false;
             for (int i = 0; i < r.sides; ++i) at_pole |= is_point(complex.patches[c], i);
             FaceCounter count;
-            if (is_collapsed(complex.patches[c])) {}
-            else if (!at_pole && pattern(r) == PatchPattern::lattice) {
+            if (is_collapsed(complex.patches[c])) {
+            } else if (!at_pole && pattern(r) == PatchPattern::lattice) {
                 count.faces = std::uint64_t(r.across) * r.up;
                 count.corners = std::uint64_t(r.sides) * count.faces;
             } else emit_faces(r, builder.ring(layout, c, r), layout.inner_first[c], count);

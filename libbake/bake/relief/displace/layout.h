@@ -10,9 +10,9 @@ namespace bake {
 
 /// Segments of every edge, and of the lattice in every cell.
 struct CellRates {
-    std::uint32_t uniform = 0;                ///< all of them, when not 0
-    std::vector<std::uint16_t> edge;          ///< else edges
-    std::vector<std::uint16_t> across, up;    ///< else cells
+    std::uint32_t uniform = 0;             ///< all of them, when not 0
+    std::vector<std::uint16_t> edge;       ///< else edges
+    std::vector<std::uint16_t> across, up; ///< else cells
     std::uint32_t of_edge(std::uint32_t e) const noexcept { return uniform ? uniform : edge[e]; }
 };
 
@@ -23,10 +23,10 @@ struct DisplaceLayout {
     MeetingTable edge_meetings, vertex_meetings;
     std::vector<std::uint32_t> edge_owner, vertex_owner;
 
-    std::vector<std::uint32_t> edge_first;   ///< number of an edge's first inner point; of its first uv at a pole
-    std::vector<std::uint32_t> inner_first;  ///< cells
+    std::vector<std::uint32_t> edge_first;  ///< number of an edge's first inner point; of its first uv at a pole
+    std::vector<std::uint32_t> inner_first; ///< cells
     std::vector<std::uint32_t> face_first, corner_first; ///< cells + 1
-    std::vector<std::uint32_t> edge_normals, edge_uvs;     ///< edge meetings: first number of the groups after the owner's
+    std::vector<std::uint32_t> edge_normals, edge_uvs; ///< edge meetings: first number of the groups after the owner's
     std::vector<std::uint32_t> vertex_normals, vertex_uvs; ///< vertex meetings, likewise
     std::uint64_t points = 0, normals = 0, uvs = 0, faces = 0, corners = 0;
 

@@ -6,7 +6,8 @@ namespace {
 
 /// Gathers the sides of the chosen vertices or edges. `number` gives that of side or corner i of a patch, no_index for
 /// none of interest.
-template <class Number> MeetingTable gather(const PatchComplex& complex, std::vector<std::uint32_t> of, const Number& number) {
+template <class Number>
+MeetingTable gather(const PatchComplex& complex, std::vector<std::uint32_t> of, const Number& number) {
     MeetingTable table;
     for (std::uint32_t v = 0; v < of.size(); ++v)
         if (of[v] != no_index) {
@@ -95,7 +96,8 @@ void group_around_vertex(const PatchComplex& complex, MeetingTable& table, Meeti
         if (!complex.crease[a.edge]) normal.join(a.side, b.side);
     }
     m.uv_groups = uv.number([&](std::uint32_t i, std::uint32_t g) { table.sides[m.first + i].uv_group = g; });
-    m.normal_groups = normal.number([&](std::uint32_t i, std::uint32_t g) { table.sides[m.first + i].normal_group = g; });
+    m.normal_groups =
+        normal.number([&](std::uint32_t i, std::uint32_t g) { table.sides[m.first + i].normal_group = g; });
 }
 
 } // namespace
@@ -130,7 +132,8 @@ MeetingTable vertex_meetings(const PatchComplex& complex) {
         for (int i = 0; i < patch.sides() && !is_collapsed(patch); ++i)
             if (is_point(patch, i) || complex.seam[patch.edge[i]] || complex.crease[patch.edge[i]])
                 of[patch.vertex[i]] = of[patch.vertex[(i + 1) % patch.sides()]] = 0;
-    MeetingTable table = gather(complex, std::move(of), [](const PatchComplex::Patch& p, int i) { return p.vertex[i]; });
+    MeetingTable table =
+        gather(complex, std::move(of), [](const PatchComplex::Patch& p, int i) { return p.vertex[i]; });
     for (Meeting& m : table.meetings) group_around_vertex(complex, table, m);
     return table;
 }

@@ -8,14 +8,14 @@ namespace bake {
 /// groups are numbered from 0 in the order of their lowest cell.
 struct MeetingSide {
     std::uint32_t cell;
-    std::uint8_t place;         ///< corner or side of the cell
-    bool reversed;              ///< the side runs against its edge
+    std::uint8_t place; ///< corner or side of the cell
+    bool reversed;      ///< the side runs against its edge
     std::uint32_t uv_group, normal_group;
 };
 
 /// One vertex or edge, with all its sides in the order of their cells.
 struct Meeting {
-    std::uint32_t which; ///< number of the vertex or edge
+    std::uint32_t which;       ///< number of the vertex or edge
     std::uint32_t first, last; ///< in sides
     std::uint32_t uv_groups, normal_groups;
 };

@@ -13,7 +13,8 @@ std::pair<std::uint32_t, std::uint32_t> PatchCells::row_and_place(std::uint32_t 
     return {j, local - j * (2 * split_ - j)};
 }
 
-Vec2d PatchCells::at(std::uint32_t cell, std::uint32_t i, std::uint32_t m, std::uint32_t j, std::uint32_t n) const noexcept {
+Vec2d PatchCells::at(std::uint32_t cell, std::uint32_t i, std::uint32_t m, std::uint32_t j,
+                     std::uint32_t n) const noexcept {
     const auto part = [&](std::uint32_t whole, std::uint32_t k, std::uint32_t rate, bool back) {
         return (double(whole) * rate + (back ? -double(k) : double(k))) / (double(split_) * rate);
     };
@@ -65,7 +66,10 @@ void PatchCells::refine() {
         if (is_collapsed(patch)) {
             // Its cells are points: they hold the place of what is numbered by patch.
             for (std::uint32_t c = 0; c < K * K; ++c, next_edge += 4) {
-                PatchComplex::Patch cell{{patch.vertex[0], patch.vertex[0], patch.vertex[0], no_index}, {next_edge, next_edge + 1, next_edge + 2, no_index}, {}, patch.face};
+                PatchComplex::Patch cell{{patch.vertex[0], patch.vertex[0], patch.vertex[0], no_index},
+                                         {next_edge, next_edge + 1, next_edge + 2, no_index},
+                                         {},
+                                         patch.face};
                 if (sides == 4) cell.vertex[3] = patch.vertex[0], cell.edge[3] = next_edge + 3;
                 out.patches.push_back(cell);
             }
@@ -117,11 +121,12 @@ void PatchCells::refine() {
             for (std::uint32_t j = 0; j < K; ++j)
                 for (std::uint32_t i = 0; i + j < K; ++i) {
                     const bool on0 = j == 0, on1 = i + j + 1 == K, on2 = i == 0;
-                    out.patches.push_back({{vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), no_index},
-                                           {on0 ? side_edge(0, i) : inner(i, j - 1, 0), on1 ? side_edge(1, j) : inner(i, j, 1),
-                                            on2 ? side_edge(2, K - 1 - j) : inner(i - 1, j, 2), no_index},
-                                           {on0 && patch.reversed[0], on1 && patch.reversed[1], on2 && patch.reversed[2], false},
-                                           patch.face});
+                    out.patches.push_back(
+                        {{vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), no_index},
+                         {on0 ? side_edge(0, i) : inner(i, j - 1, 0), on1 ? side_edge(1, j) : inner(i, j, 1),
+                          on2 ? side_edge(2, K - 1 - j) : inner(i - 1, j, 2), no_index},
+                         {on0 && patch.reversed[0], on1 && patch.reversed[1], on2 && patch.reversed[2], false},
+                         patch.face});
                     if (on1) continue;
                     // Corners (1,1), (0,1), (1,0) of the lattice square.
                     out.patches.push_back({{vertex(i + 1, j + 1), vertex(i, j + 1), vertex(i + 1, j), no_index},
@@ -169,7 +174,8 @@ bool detail::sides_cancel(const PatchComplex::Patch& patch) noexcept {
         cancelled = false;
         for (int k = 0; k < count && !cancelled; ++k) {
             const int next = (k + 1) % count;
-            if (patch.edge[left[k]] != patch.edge[left[next]] || patch.reversed[left[k]] == patch.reversed[left[next]]) continue;
+            if (patch.edge[left[k]] != patch.edge[left[next]] || patch.reversed[left[k]] == patch.reversed[left[next]])
+                continue;
             int kept = 0;
             for (int m = 0; m < count; ++m)
                 if (m != k && m != next) left[kept++] = left[m];

@@ -52,7 +52,8 @@ inline bool is_collapsed(const PatchComplex::Patch& patch) noexcept {
     const auto& e = patch.edge;
     const auto& v = patch.vertex;
     const bool quad = patch.sides() == 4;
-    const bool repeats = e[0] == e[1] || e[1] == e[2] || e[2] == e[0] || (quad && (e[3] == e[0] || e[3] == e[1] || e[3] == e[2]));
+    const bool repeats =
+        e[0] == e[1] || e[1] == e[2] || e[2] == e[0] || (quad && (e[3] == e[0] || e[3] == e[1] || e[3] == e[2]));
     return repeats ? detail::sides_cancel(patch) : v[0] == v[1] && v[1] == v[2] && (!quad || v[2] == v[3]);
 }
 

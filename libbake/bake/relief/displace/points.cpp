@@ -78,7 +78,8 @@ void write_batch(const Target& to, std::uint32_t patch, Scratch& s, PointTally& 
         const SurfacePoint& point = s.points[k];
         ReliefValue value = heights ? bake::along_normal(point, to.surface.height(point.uv)) : s.values[k];
         if (blended) to.blend.add(patch, s.st[k], point, value);
-        const DisplacedPoint d = heights ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);
+        const DisplacedPoint d =
+            heights ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);
         const double b = to.surface.height_of(point, value);
         tally.height(b);
         if (point.jet.n == Vec3d(0)) tally.no_normal += to.surface.uses_normal();
@@ -143,7 +144,8 @@ std::vector<Job> split_into_jobs(const DisplaceLayout& layout) {
             if (c > first) jobs.push_back({first, c, 0, 0});
             first = c + 1, points = 0;
             const std::uint32_t rows = (r.sides == 4 ? r.up : r.across), band = std::max(1u, points_per_job / r.across);
-            for (std::uint32_t row = 0; row < rows; row += band) jobs.push_back({c, c + 1, row, std::min(rows, row + band)});
+            for (std::uint32_t row = 0; row < rows; row += band)
+                jobs.push_back({c, c + 1, row, std::min(rows, row + band)});
             continue;
         }
         points += own;
@@ -164,7 +166,8 @@ void run(const Job& job, const Target& to, Scratch& s, PointTally& tally) {
         const bool whole = job.row_end == 0;
         const bool collapsed = is_collapsed(to.layout.cells->complex().patches[cell]);
         if (whole || job.row == 0) gather_border(to.layout, cell, r, s);
-        if (!collapsed) gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
+        if (!collapsed)
+            gather_inside(to.layout, cell, r, whole ? 1 : std::max(1u, job.row), whole ? rows : job.row_end, s);
         if (s.st.empty()) continue;
         s.points.resize(std::max(s.points.size(), s.st.size()));
         const std::uint32_t patch = to.layout.cells->patch(cell);
@@ -175,9 +178,9 @@ void run(const Job& job, const Target& to, Scratch& s, PointTally& tally) {
 
 /// A point where sides meet.
 struct MetPoint {
-    Vec3d p, from;             ///< displaced, and on the base
-    double height = 0;         ///< along the first side's normal
-    double mismatch = 0;       ///< largest difference between two uv groups' own values
+    Vec3d p, from;       ///< displaced, and on the base
+    double height = 0;   ///< along the first side's normal
+    double mismatch = 0; ///< largest difference between two uv groups' own values
     double margin = 1;
     bool has_normal = true;    ///< false where the relief needs one and there is none
     std::vector<Vec3d> normal; ///< per normal group: unit or zero
@@ -205,11 +208,13 @@ void meet(const Target& to, const Meeting& meeting, const MeetingSide* sides, st
         const SurfacePoint& point = views[k].point;
         if (!first_of_groups(sides, k)) continue;
         out.uv[sides[k].uv_group] = point.uv;
-        if (sides[k].uv_group == uv_groups) out.mismatch = std::max(out.mismatch, glm::length(own[k] - own[0])), ++uv_groups;
+        if (sides[k].uv_group == uv_groups)
+            out.mismatch = std::max(out.mismatch, glm::length(own[k] - own[0])), ++uv_groups;
         if (!point.curved) continue; // the faces give the normal
         ReliefValue value = views[k].value;
         if (heights) value.at = shared.value;
-        if (surface.along_normal()) out.margin = std::min(out.margin, fold_margin(point.jet, surface.height_of(point, value)));
+        if (surface.along_normal())
+            out.margin = std::min(out.margin, fold_margin(point.jet, surface.height_of(point, value)));
         // A normal group's normal is the mean over its uv groups.
         out.normal[sides[k].normal_group] += unit_or_zero(surface.displaced(point, value).normal);
     }
@@ -242,7 +247,8 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
         to.surface.values(patch, st, points, values);
         for (std::uint32_t j = 0; j < count; ++j) {
             const std::size_t at = j * side_count + k;
-            own[at] = to.surface.along_normal() ? Vec3d(to.surface.height_of(points[j], values[j]), 0, 0) : values[j].at;
+            own[at] =
+                to.surface.along_normal() ? Vec3d(to.surface.height_of(points[j], values[j]), 0, 0) : values[j].at;
             views[at] = {points[j], values[j]};
             if (to.blend.touches(patch)) to.blend.add(patch, st[j], points[j], views[at].value);
         }
@@ -256,7 +262,8 @@ void write_meeting(const Target& to, const Meeting& m, const MeetingPlace& place
         if (!met.has_normal) ++tally.no_normal;
         else if (here[0].point.jet.sigma == 0) ++tally.no_tangents;
         if (m.uv_groups > 1) ++tally.seam_points;
-        if (m.uv_groups > 1 && met.mismatch > tally.seam_mismatch) tally.seam_mismatch = met.mismatch, tally.seam_worst = met.from;
+        if (m.uv_groups > 1 && met.mismatch > tally.seam_mismatch)
+            tally.seam_mismatch = met.mismatch, tally.seam_worst = met.from;
         tally.fold(met.margin, here[0].point);
         if (!to.margin.empty()) to.margin[index] = float(met.margin);
         to.store(index, met.p, tally);
@@ -290,7 +297,9 @@ PointTally write_points(const ReliefSurface& surface, const SeamBlend& blend, Se
     PointTally total;
     const auto gather = [&](std::int64_t count, std::int64_t grain, const auto& work) {
         std::vector<PointTally> tallies((count + grain - 1) / grain);
-        for_rows(count, grain, [&](std::int64_t begin, std::int64_t end) { work(begin, end, tallies[begin / grain]); }, progress);
+        for_rows(
+            count, grain, [&](std::int64_t begin, std::int64_t end) { work(begin, end, tallies[begin / grain]); },
+            progress);
         for (const PointTally& tally : tallies) total.add(tally);
     };
     const std::vector<Job> jobs = split_into_jobs(layout);
@@ -298,21 +307,27 @@ PointTally write_points(const ReliefSurface& surface, const SeamBlend& blend, Se
         thread_local Scratch scratch;
         for (auto i = begin; i < end; ++i) run(jobs[i], to, scratch, tally);
     });
-    gather(std::int64_t(layout.vertex_meetings.meetings.size()), 256, [&](std::int64_t begin, std::int64_t end, PointTally& tally) {
-        for (auto i = begin; i < end; ++i) {
-            const Meeting& m = layout.vertex_meetings.meetings[i];
-            write_meeting(to, m, {layout.vertex_meetings, m.which, layout.vertex_normals[i], layout.vertex_uvs[i], 1}, false, tally);
-        }
-    });
-    gather(std::int64_t(layout.edge_meetings.meetings.size()), 16, [&](std::int64_t begin, std::int64_t end, PointTally& tally) {
-        for (auto i = begin; i < end; ++i) {
-            const Meeting& m = layout.edge_meetings.meetings[i];
-            const std::uint32_t points = layout.rates->of_edge(m.which) - 1;
-            if (points > 0)
-                write_meeting(to, m, {layout.edge_meetings, layout.edge_first[m.which], layout.edge_normals[i], layout.edge_uvs[i], points},
-                              true, tally);
-        }
-    });
+    gather(std::int64_t(layout.vertex_meetings.meetings.size()), 256,
+           [&](std::int64_t begin, std::int64_t end, PointTally& tally) {
+               for (auto i = begin; i < end; ++i) {
+                   const Meeting& m = layout.vertex_meetings.meetings[i];
+                   write_meeting(to, m,
+                                 {layout.vertex_meetings, m.which, layout.vertex_normals[i], layout.vertex_uvs[i], 1},
+                                 false, tally);
+               }
+           });
+    gather(std::int64_t(layout.edge_meetings.meetings.size()), 16,
+           [&](std::int64_t begin, std::int64_t end, PointTally& tally) {
+               for (auto i = begin; i < end; ++i) {
+                   const Meeting& m = layout.edge_meetings.meetings[i];
+                   const std::uint32_t points = layout.rates->of_edge(m.which) - 1;
+                   if (points > 0)
+                       write_meeting(to, m,
+                                     {layout.edge_meetings, layout.edge_first[m.which], layout.edge_normals[i],
+                                      layout.edge_uvs[i], points},
+                                     true, tally);
+               }
+           });
     if (layout.has_uv)
         for_rows(layout.cells->count(), 4096, [&](std::int64_t begin, std::int64_t end) {
             for (auto c = begin; c < end; ++c) write_pole_uvs(to, std::uint32_t(c));

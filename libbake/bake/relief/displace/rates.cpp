@@ -18,7 +18,8 @@ PatchRates rates_of_cell(const PatchCells& cells, const CellRates& rates, std::u
 void cut_poles_as_cells(const PatchComplex& complex, CellRates& rates) {
     for (std::uint32_t c = 0; c < complex.patches.size(); ++c)
         for (int i = 0; i < complex.patches[c].sides(); ++i)
-            if (is_point(complex.patches[c], i)) rates.edge[complex.patches[c].edge[i]] = i % 2 == 0 ? rates.across[c] : rates.up[c];
+            if (is_point(complex.patches[c], i))
+                rates.edge[complex.patches[c].edge[i]] = i % 2 == 0 ? rates.across[c] : rates.up[c];
 }
 
 RatePlan uniform_rates(int levels) {
@@ -34,7 +35,9 @@ constexpr std::int64_t cells_per_job = 16;
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
     if (!(rates.size > 0)) throw Error(Refusal::usage, "--edge-px: must be above 0; take a length in pixels");
     const auto most = std::uint32_t(std::clamp(rates.most, 1, 65535));
-    const auto measure = [&](const Vec3d& a, const Vec3d& b) { return rates.measure ? rates.measure(a, b) : glm::length(b - a); };
+    const auto measure = [&](const Vec3d& a, const Vec3d& b) {
+        return rates.measure ? rates.measure(a, b) : glm::length(b - a);
+    };
     // Segments are even in the parameters: the longest stretch of the line decides.
     const auto rate_of = [&](const std::vector<Vec3d>& line) {
         double longest = 0;
@@ -50,9 +53,12 @@ RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, con
         const auto patches = std::uint32_t(whole.patches.size()), stride = (patches + 1023) / 1024;
         std::vector<std::uint32_t> need;
         DisplacedPatch patch(surface, blend);
-        for (std::uint32_t p = 0; p < patches; p += stride) need.push_back(rate_of(along(patch, p, {0, 0}, {1, 0}, samples)));
+        for (std::uint32_t p = 0; p < patches; p += stride)
+            need.push_back(rate_of(along(patch, p, {0, 0}, {1, 0}, samples)));
         std::sort(need.begin(), need.end());
-        while (plan.split * 16 <= need[need.size() / 2] && std::uint64_t(patches) * plan.split * plan.split * 4 <= (1u << 20)) plan.split *= 2;
+        while (plan.split * 16 <= need[need.size() / 2] &&
+               std::uint64_t(patches) * plan.split * plan.split * 4 <= (1u << 20))
+            plan.split *= 2;
     }
     const PatchCells cells(whole, plan.split);
     const PatchComplex& complex = cells.complex();
@@ -65,14 +71,17 @@ RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, con
             if (owner[e] == no_index) continue;
             const std::uint32_t cell = owner[e] / 4;
             const int side = int(owner[e] % 4);
-            plan.rates.edge[e] = std::uint16_t(rate_of(along(patch, cells.patch(cell), cells.on_side(cell, side, 0, 1), cells.on_side(cell, side, 1, 1), samples)));
+            plan.rates.edge[e] = std::uint16_t(rate_of(along(patch, cells.patch(cell), cells.on_side(cell, side, 0, 1),
+                                                             cells.on_side(cell, side, 1, 1), samples)));
         }
     });
     for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
         DisplacedPatch patch(surface, blend);
         for (auto c = std::uint32_t(begin); c < end; ++c) {
             const PatchComplex::Patch& p = complex.patches[c];
-            const auto line = [&](const Vec2d& a, const Vec2d& b) { return rate_of(along(patch, cells.patch(c), a, b, samples)); };
+            const auto line = [&](const Vec2d& a, const Vec2d& b) {
+                return rate_of(along(patch, cells.patch(c), a, b, samples));
+            };
             std::uint32_t across, up;
             if (p.sides() == 4) {
                 across = line(cells.at(c, 0, 2, 1, 2), cells.at(c, 2, 2, 1, 2));

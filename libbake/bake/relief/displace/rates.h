@@ -1,7 +1,7 @@
 // How finely each edge of a patch and each lattice inside is cut: uniformly, by size, or by error.
 #pragma once
-#include "bake/relief/displace/types.h"
 #include "bake/relief/displace/error.h"
+#include "bake/relief/displace/types.h"
 
 namespace bake {
 

@@ -28,7 +28,8 @@ std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend,
                 for (const bool up : {false, true}) {
                     const Vec2d from = up ? Vec2d(x, 0) : Vec2d(0, x), to = up ? Vec2d(x, end_x) : Vec2d(end_x, x);
                     const double texels = std::clamp(std::ceil(texels_along(patch, p, from, to)), 32.0, 4096.0);
-                    most_needed[up] = std::max(most_needed[up], rate_within(along(patch, p, from, to, std::uint32_t(texels)), error, most));
+                    most_needed[up] = std::max(
+                        most_needed[up], rate_within(along(patch, p, from, to, std::uint32_t(texels)), error, most));
                 }
             }
             need[i] = std::sqrt(double(most_needed[0]) * most_needed[1]);
@@ -51,8 +52,8 @@ std::uint64_t triangles_of(const PatchRates& r) noexcept {
 }
 
 /// Each from its own points alone; at seams from those of every side.
-std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells, double error,
-                                      std::uint32_t most) {
+std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells,
+                                      double error, std::uint32_t most) {
     const PatchComplex& complex = cells.complex();
     const std::vector<std::uint32_t> owner = edge_owners(complex);
     const MeetingTable meetings = edge_meetings(complex);
@@ -122,7 +123,8 @@ public:
             changed_ = fit(std::move(wanted), std::exp2(std::min(round, 3)));
             // From here on rounds are alike: what has not helped will not.
             const CellRates& now = plan_.rates;
-            if (round > 3 && now.across == before.across && now.up == before.up && now.edge == before.edge) return std::move(plan_);
+            if (round > 3 && now.across == before.across && now.up == before.up && now.edge == before.edge)
+                return std::move(plan_);
         }
     }
 
@@ -139,10 +141,12 @@ private:
                 CellFitter fitter(surface_, blend_, cells_);
                 for (auto c = std::uint32_t(begin); c < end; ++c) {
                     if (!now[c]) continue;
-                    PatchRates start{.sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
+                    PatchRates start{
+                        .sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
                     for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
                     const CellFitter::Fit found =
-                        fitter.fit(c, start, aim_[c] * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
+                        fitter.fit(c, start, aim_[c] * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])),
+                                   fitted_[c].x > 0);
                     plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
                     fitted_[c] = Vec2f(found.density);
                     too_coarse[c] = found.sides_too_coarse;
@@ -186,12 +190,14 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
     if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
     // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
-    std::uint32_t split = choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
+    std::uint32_t split =
+        choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
     auto best = std::make_unique<Planner>(surface, blend, rates, split);
     while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
         split *= 2;
         auto next = std::make_unique<Planner>(surface, blend, rates, split);
-        if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles()) break;
+        if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles())
+            break;
         best = std::move(next);
     }
     return best->finish();

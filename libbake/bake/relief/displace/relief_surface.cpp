@@ -25,7 +25,8 @@ Stencil stencil(double x, double step, double end) noexcept {
 } // namespace
 
 ReliefSurface::ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors)
-    : base_(&base), space_(relief.vector), as_vectors_(as_vectors), texels_(relief.values.width(), relief.values.height()) {
+    : base_(&base), space_(relief.vector), as_vectors_(as_vectors),
+      texels_(relief.values.width(), relief.values.height()) {
     if (!space_) {
         channels_.emplace_back(relief.values, relief.interpolation, relief.height);
         return;

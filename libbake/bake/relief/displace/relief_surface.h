@@ -4,8 +4,8 @@
 //
 // s and t are the parameters of the jet; N' is turned by sigma so that it is outward.
 #pragma once
-#include "bake/relief/map/displaced_normal.h"
 #include "bake/relief/displace/types.h"
+#include "bake/relief/map/displaced_normal.h"
 #include "bake/surface/patch/base_surface.h"
 #include <memory>
 

@@ -27,7 +27,8 @@ Graded stepped(const Graded& x) noexcept {
 }
 
 /// One side's views at x = k / count, k = 0..count.
-std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards, std::uint32_t count) {
+std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards,
+                                  std::uint32_t count) {
     const int sides = surface.base().complex().patches[patch].sides();
     std::vector<Vec2d> st(count + 1);
     for (std::uint32_t k = 0; k <= count; ++k) st[k] = on_side(sides, side, double(backwards ? count - k : k) / count);
@@ -118,7 +119,8 @@ SeamBlend::SeamBlend(const ReliefSurface& surface, const MeetingTable& edges, co
         const MeetingSide* sides = edges.begin(m);
         const std::size_t side_count = m.last - m.first;
         std::uint32_t count = 2;
-        for (std::size_t s = 0; s < side_count; ++s) count = std::max(count, samples_along(surface, sides[s].cell, sides[s].place));
+        for (std::size_t s = 0; s < side_count; ++s)
+            count = std::max(count, samples_along(surface, sides[s].cell, sides[s].place));
         std::vector<std::vector<SideView>> along;
         for (std::size_t s = 0; s < side_count; ++s)
             along.push_back(views_along(surface, sides[s].cell, sides[s].place, sides[s].reversed, count));
@@ -179,7 +181,8 @@ SeamBlend::Node SeamBlend::along(const Curve& curve, double x) const noexcept {
             double(curve.count) * (6 * u * w * step_ab + w * (1 - 3 * u) * a.slope + u * (3 * u - 2) * b.slope)};
 }
 
-void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point, ReliefValue& value) const noexcept {
+void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point,
+                    ReliefValue& value) const noexcept {
     const Patch& p = patches_[of_[patch]];
     Vec3d at(0), along_s(0), along_t(0);
     const auto give = [&](const Graded& weight, const Vec3d& v, const Vec3d& v_s, const Vec3d& v_t) {
@@ -207,7 +210,8 @@ void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& po
             if (!(sum.at > 0)) continue; // at the corner across, where the weight vanishes
             const double x = b.at / sum.at;
             const Node node = along(p.side[i], x);
-            give(stepped(sum), node.value, (b.s - x * sum.s) / sum.at * node.slope, (b.t - x * sum.t) / sum.at * node.slope);
+            give(stepped(sum), node.value, (b.s - x * sum.s) / sum.at * node.slope,
+                 (b.t - x * sum.t) / sum.at * node.slope);
         }
     }
     value.at += at;

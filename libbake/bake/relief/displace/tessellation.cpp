@@ -19,9 +19,7 @@ bool is_ladder(const PatchRates& r) noexcept {
     return r.sides == 4 && ((r.side[0] == 1 && r.side[2] == 1) || (r.side[1] == 1 && r.side[3] == 1));
 }
 
-bool has_inside(const PatchRates& r) noexcept {
-    return r.sides == 4 ? r.across >= 2 && r.up >= 2 : r.across >= 3;
-}
+bool has_inside(const PatchRates& r) noexcept { return r.sides == 4 ? r.across >= 2 && r.up >= 2 : r.across >= 3; }
 
 /// Points before row j >= 1 of a triangle's inner lattice of m segments.
 std::uint32_t triangle_rows(std::uint32_t m, std::uint32_t j) noexcept { return (j - 1) * (m - 1) - j * (j - 1) / 2; }
@@ -87,8 +85,7 @@ template <class Sink> void emit_fan(const PatchRates& r, const PatchRing& ring, 
     }
 }
 
-template <class Sink>
-void emit_strips(const PatchRates& r, const PatchRing& ring, const Inside& inside, Sink& sink) {
+template <class Sink> void emit_strips(const PatchRates& r, const PatchRing& ring, const Inside& inside, Sink& sink) {
     const std::uint32_t m = r.across, n = r.sides == 4 ? r.up : r.across;
     if (r.sides == 4) {
         for (std::uint32_t j = 1; j + 1 < n; ++j)
@@ -213,8 +210,7 @@ void emit_rows(const PatchRates& r, const PatchRing& ring, std::uint32_t inner, 
     }
 }
 
-template <class Sink>
-void emit_faces(const PatchRates& rates, const PatchRing& ring, std::uint32_t inner, Sink& sink) {
+template <class Sink> void emit_faces(const PatchRates& rates, const PatchRing& ring, std::uint32_t inner, Sink& sink) {
     const Inside inside{rates, inner};
     switch (pattern(rates)) {
     case PatchPattern::lattice:
@@ -230,7 +226,9 @@ void emit_faces(const PatchRates& rates, const PatchRing& ring, std::uint32_t in
 template void emit_faces<FaceWriter>(const PatchRates&, const PatchRing&, std::uint32_t, FaceWriter&);
 template void emit_faces<FaceCounter>(const PatchRates&, const PatchRing&, std::uint32_t, FaceCounter&);
 template void emit_faces<FaceVisitor>(const PatchRates&, const PatchRing&, std::uint32_t, FaceVisitor&);
-template void emit_rows<FaceWriter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t, FaceWriter&);
-template void emit_rows<FaceCounter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t, FaceCounter&);
+template void emit_rows<FaceWriter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t,
+                                    FaceWriter&);
+template void emit_rows<FaceCounter>(const PatchRates&, const PatchRing&, std::uint32_t, std::uint32_t, std::uint32_t,
+                                     FaceCounter&);
 
 } // namespace bake

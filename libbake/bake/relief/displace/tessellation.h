@@ -47,7 +47,8 @@ class FaceWriter {
 public:
     FaceWriter(Mesh& mesh, std::uint64_t face, std::uint64_t corner) noexcept;
     void quad(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, const FaceCorner& d) noexcept {
-        if (a.position == b.position || b.position == c.position || c.position == d.position || d.position == a.position)
+        if (a.position == b.position || b.position == c.position || c.position == d.position ||
+            d.position == a.position)
             return polygon({a, b, c, d});
         put(a), put(b), put(c), put(d);
         close();
@@ -110,7 +111,7 @@ template <class Sink> void emit_faces(const PatchRates& rates, const PatchRing& 
 
 /// Rows [first, last) of a quad patch of pattern lattice, of rates.up rows in all.
 template <class Sink>
-void emit_rows(const PatchRates& rates, const PatchRing& ring, std::uint32_t inner, std::uint32_t first, std::uint32_t last,
-               Sink& sink);
+void emit_rows(const PatchRates& rates, const PatchRing& ring, std::uint32_t inner, std::uint32_t first,
+               std::uint32_t last, Sink& sink);
 
 } // namespace bake

@@ -42,7 +42,8 @@ struct Rates {
     /// of a camera makes it pixels.
     std::function<double(const Vec3d&, const Vec3d&)> measure;
     double error = 0;
-    int most = 1024; ///< segments an edge is never cut into more than; by error four times as many where only a part needs them
+    int most =
+        1024; ///< segments an edge is never cut into more than; by error four times as many where only a part needs them
 };
 
 struct DisplaceOptions {
@@ -73,7 +74,8 @@ struct DisplaceReport {
     Vec3d fold_worst{0};
     Vec2d fold_worst_uv{0};
 
-    std::uint64_t no_tangents = 0; ///< points without tangent plane (poles): displaced, with a normal from the faces there
+    std::uint64_t no_tangents =
+        0; ///< points without tangent plane (poles): displaced, with a normal from the faces there
     std::uint64_t no_normal = 0; ///< points without base normal: left where they are
 
     double error_max = 0, error_rms = 0; ///< with measure_error, at the faces' own parameters

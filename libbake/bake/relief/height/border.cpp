@@ -55,7 +55,8 @@ template <class T> void extend_row(const T* row, int n, Wrap wrap, int reach, in
 
 template <class T>
 ExtendedRows<T>::ExtendedRows(const Image<T>& image, Wrap wrap, int reach, int degree)
-    : reach_(reach), outside_(image.width(), wrap == Wrap::clamp ? 2 * reach : 0, 1), rows_(image.height() + 2 * reach) {
+    : reach_(reach), outside_(image.width(), wrap == Wrap::clamp ? 2 * reach : 0, 1),
+      rows_(image.height() + 2 * reach) {
     const int n = image.height(), width = image.width();
     degree = std::min(degree, n - 1);
     for (int y = 0; y < n; ++y) rows_[y + reach] = image.row(y);

@@ -6,8 +6,8 @@ namespace bake {
 namespace {
 
 // (1, 2, 1) / 4 at a spacing along both axes, then back to within half a step of `stored`.
-void smooth_and_clamp(Image<float>& values, const Image<float>& stored, Image<float>& room, int spacing, float half_step,
-                      Wrap wrap_u, Wrap wrap_v) {
+void smooth_and_clamp(Image<float>& values, const Image<float>& stored, Image<float>& room, int spacing,
+                      float half_step, Wrap wrap_u, Wrap wrap_v) {
     const int width = values.width(), height = values.height();
     for_rows(height, 32, [&](std::int64_t begin, std::int64_t end) {
         std::vector<float> row(width + 2 * std::size_t(spacing));
@@ -15,7 +15,8 @@ void smooth_and_clamp(Image<float>& values, const Image<float>& stored, Image<fl
             extend_row(values.row(y), width, wrap_u, spacing, 1, row.data());
             const float* from = row.data();
             float* to = room.row(y);
-            for (int x = 0; x < width; ++x) to[x] = 0.25f * (from[x] + from[x + 2 * spacing]) + 0.5f * from[x + spacing];
+            for (int x = 0; x < width; ++x)
+                to[x] = 0.25f * (from[x] + from[x + 2 * spacing]) + 0.5f * from[x + spacing];
         }
     });
     const ExtendedRows<float> rows(room, wrap_v, spacing, 1);

@@ -95,9 +95,8 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
     const bool many = levels.size() > most_levels;
     height.levels = many ? most_levels + 1 : int(levels.size());
     const int bits = height.info.bits;
-    const double stored = height.info.type == SampleType::u8 || height.info.type == SampleType::u16
-                              ? 1.0 / (std::exp2(bits) - 1)
-                              : 0.0;
+    const double stored =
+        height.info.type == SampleType::u8 || height.info.type == SampleType::u16 ? 1.0 / (std::exp2(bits) - 1) : 0.0;
     // A file of 16 bits that uses 256 levels is an 8-bit height; a smaller step than the type's cannot be.
     height.step = many ? stored : std::max(stored, smallest_step(levels));
 }
@@ -117,9 +116,10 @@ void refuse_bad_values(const std::string& path, const Image<float>& values) {
     const auto y = int(bad_row - bad_in_row.begin());
     const float* const row = values.row(y);
     const auto x = std::find_if(row, row + values.width(), [](float v) { return !(std::abs(v) <= largest); }) - row;
-    throw Error(Refusal::unsuitable, path + ": " + std::to_string(std::accumulate(bad_row, bad_in_row.end(), std::int64_t(0))) +
-                                         " values are NaN, infinite or beyond 1e12, the first at texel (" + std::to_string(x) + ", " +
-                                         std::to_string(y) + "); repair the height");
+    throw Error(Refusal::unsuitable, path + ": " +
+                                         std::to_string(std::accumulate(bad_row, bad_in_row.end(), std::int64_t(0))) +
+                                         " values are NaN, infinite or beyond 1e12, the first at texel (" +
+                                         std::to_string(x) + ", " + std::to_string(y) + "); repair the height");
 }
 
 } // namespace
@@ -150,7 +150,8 @@ HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& 
         });
     }
     const SampleType type = height.info.type;
-    if (type != SampleType::u8 && type != SampleType::u16 && type != SampleType::u32) refuse_bad_values(path, height.values);
+    if (type != SampleType::u8 && type != SampleType::u16 && type != SampleType::u32)
+        refuse_bad_values(path, height.values);
     return height;
 }
 
@@ -245,9 +246,7 @@ template <class T> Image<T> padded_spline(const Image<T>& values, Wrap wrap_u, W
 }
 
 /// Four weights of the taps at -1, 0, 1, 2 and their derivatives, for a position t in [0,1] between taps 0 and 1.
-template <class T> struct Weights {
-    T w[4], d[4];
-};
+template <class T> struct Weights { T w[4], d[4]; };
 
 template <Interpolation interpolation, class T> Weights<T> tap_weights(T t) noexcept {
     const T t2 = t * t, t3 = t2 * t;
@@ -297,7 +296,9 @@ template <class T> template <class U> Height<U> HeightSampler<T>::sample(U u, U 
     return sample_by<Interpolation::c2>(u, v);
 }
 
-template <class T> template <Interpolation interpolation, class U> inline Height<U> HeightSampler<T>::sample_by(U u, U v) const noexcept {
+template <class T>
+template <Interpolation interpolation, class U>
+inline Height<U> HeightSampler<T>::sample_by(U u, U v) const noexcept {
     const auto [x, side_u] = texel_position(u, width_, options_.wrap_u);
     const auto [y, side_v] = texel_position(U(1) - v, height_, options_.wrap_v);
     // Down to a whole number; x and y are -1/2 and more, and conversion is quicker than std::floor.

@@ -9,9 +9,7 @@
 namespace bake {
 
 /// Height above the surface and its slopes per unit of u and v, all in object units.
-template <class T> struct Height {
-    T b = 0, b_u = 0, b_v = 0;
-};
+template <class T> struct Height { T b = 0, b_u = 0, b_v = 0; };
 
 /// Which grey a picture's channels give.
 enum class Grey { mean, r, g, b, a, luma };

@@ -81,7 +81,8 @@ double noise_of_difference(const Stencil& a, const Stencil& b) {
     double sum = 0;
     for (int k = 0; k < std::max(a.reach(), b.reach()); ++k) {
         const double tap_a = k < a.reach() ? a.taps[k] : 0, tap_b = k < b.reach() ? b.taps[k] : 0;
-        const double centre = (1 - 2 * a.side) * tap_a - (1 - 2 * b.side) * tap_b, side = a.side * tap_a - b.side * tap_b;
+        const double centre = (1 - 2 * a.side) * tap_a - (1 - 2 * b.side) * tap_b,
+                     side = a.side * tap_a - b.side * tap_b;
         sum += 2 * (centre * centre + 2 * side * side);
     }
     return std::sqrt(sum);
@@ -104,8 +105,10 @@ std::uint64_t fresh_id() noexcept {
 
 template <class T>
 SlopeFilter<T>::SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v)
-    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u), reach_(stencil_.spline ? spline_reach<T> + 1 : stencil_.reach()),
-      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree), id_(fresh_id()) {}
+    : image_(image), stencil_(as_precise_as<T>(stencil)), wrap_u_(wrap_u),
+      reach_(stencil_.spline ? spline_reach<T> + 1 : stencil_.reach()),
+      taps_(stencil_.taps.begin(), stencil_.taps.end()), rows_(image, wrap_v, reach_, stencil_.border_degree),
+      id_(fresh_id()) {}
 
 namespace {
 
@@ -162,7 +165,8 @@ template <class T, class Kernel> void over_row(const RowWithEnds<T> (&rows)[3], 
 
 /// sum[x] (+)= the sum over N taps of tap[k] (ahead[k][x] - behind[k][x]).
 template <int N, class T>
-void add_taps(const T* const* ahead, const T* const* behind, const T* tap, bool first, T* __restrict sum, int n) noexcept {
+void add_taps(const T* const* ahead, const T* const* behind, const T* tap, bool first, T* __restrict sum,
+              int n) noexcept {
     const auto taps_at = [&](int x) {
         T s = tap[0] * (ahead[0][x] - behind[0][x]);
         if constexpr (N > 1) s += tap[1] * (ahead[1][x] - behind[1][x]);
@@ -217,15 +221,15 @@ template <class T> void SlopeFilter<T>::spline_row(int y, T scale_u, T scale_v, 
 template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
     const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size()), degree = stencil_.border_degree;
     if (taps == 1) {
-        const auto with_ends = [&](const T* row) { return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, degree)}; };
+        const auto with_ends = [&](const T* row) {
+            return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, degree)};
+        };
         const RowWithEnds<T> rows[3] = {with_ends(rows_(y - 1)), with_ends(rows_(y)), with_ends(rows_(y + 1))};
         const T side = T(stencil_.side), tap_u = taps_[0] * scale_u, tap_v = taps_[0] * scale_v;
         over_row(rows, n, [=](const T* above, const T* here, const T* below, int first, int count) {
             T* const to = out + 2 * std::size_t(first);
-            if (side == 0)
-                central(above, here, below, tap_u, tap_v, to, count);
-            else
-                smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
+            if (side == 0) central(above, here, below, tap_u, tap_v, to, count);
+            else smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
         });
         return;
     }

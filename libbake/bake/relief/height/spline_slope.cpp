@@ -39,7 +39,8 @@ template <class T> void spline_slopes_along(T* extended, T* room, int n, T* slop
     for (int gap = 1; gap < spline_reach<T>; gap *= 2) {
         edge += gap;
         const bool last = 2 * gap == spline_reach<T>;
-        widen(from + edge, gap, T(1 / inverse), T(last ? std::sqrt(3.0) / 2 : 1), last ? slopes : to + edge, size - 2 * edge);
+        widen(from + edge, gap, T(1 / inverse), T(last ? std::sqrt(3.0) / 2 : 1), last ? slopes : to + edge,
+              size - 2 * edge);
         std::swap(from, to);
         inverse = inverse * inverse - 2;
     }

@@ -12,7 +12,8 @@ Image<float> read_vector_height(const std::string& path, ImageInfo* info) {
     for (int c = 0; c < picture.channels(); ++c)
         if (c != own.alpha_channel) colours.push_back(c);
     if (colours.size() < 3)
-        throw Error(Refusal::unsuitable, path + ": has " + std::to_string(colours.size()) + " colour channel" + (colours.size() == 1 ? "" : "s") +
+        throw Error(Refusal::unsuitable, path + ": has " + std::to_string(colours.size()) + " colour channel" +
+                                             (colours.size() == 1 ? "" : "s") +
                                              ", a vector needs three; leave out --vector, or give a picture of three");
     Image<float> vectors(picture.width(), picture.height(), 3);
     std::int64_t bad = 0;
@@ -25,8 +26,10 @@ Image<float> read_vector_height(const std::string& path, ImageInfo* info) {
                 if (bad++ == 0) bad_x = x, bad_y = y;
             }
     if (bad > 0)
-        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bad) + " values are NaN, infinite or beyond 1e12, the first at texel (" +
-                                             std::to_string(bad_x) + ", " + std::to_string(bad_y) + "); repair the picture");
+        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bad) +
+                                             " values are NaN, infinite or beyond 1e12, the first at texel (" +
+                                             std::to_string(bad_x) + ", " + std::to_string(bad_y) +
+                                             "); repair the picture");
     return vectors;
 }
 

@@ -13,7 +13,8 @@ Jet<double> plane_jet(const Vec2d& extent) {
     return plane;
 }
 
-BudgetInput common_input(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options, Depth depth) {
+BudgetInput common_input(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
+                         Depth depth) {
     BudgetInput input;
     input.values = &field.values();
     // Averaging whole blocks of texels averages their quantisation too.
@@ -21,7 +22,8 @@ BudgetInput common_input(const HeightTexture& height, const HeightField& field, 
     input.options = options.height_options;
     input.filter = resolve_filter(options.filter, height);
     input.method = options.method;
-    input.encoding_angle = [space = options.space, depth](const Jet<double>& jet, const Height<double>&, const Vec3d& n) {
+    input.encoding_angle = [space = options.space, depth](const Jet<double>& jet, const Height<double>&,
+                                                          const Vec3d& n) {
         Vec3d t = n;
         if (space == Space::tangent) {
             const Vec3d tangent = unit_or_zero(jet.p_u);
@@ -74,7 +76,8 @@ BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& op
     const int width = height.values.width(), rows = height.values.height();
     BumpTableOptions unit = options;
     unit.amplitude = 1;
-    const Vec2d from_uv = slope_scale(unit, width, rows) / Vec2d(width, rows); // the table's units from slopes per unit of uv
+    const Vec2d from_uv =
+        slope_scale(unit, width, rows) / Vec2d(width, rows); // the table's units from slopes per unit of uv
     const auto stored = [=](double slope, double per_uv) {
         const double value = slope * per_uv;
         if (depth == Depth::half) return as_half(float(value)) / per_uv;
@@ -83,7 +86,9 @@ BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& op
     };
     BudgetInput input{.values = &height.values, .step = height.step, .filter = resolve_filter(options.filter, height)};
     input.options = {.amplitude = options.amplitude, .wrap_u = options.wrap_u, .wrap_v = options.wrap_v};
-    input.jet = [plane = plane_jet(resolve_extent(options.extent_u, options.extent_v, width, rows))](double, double) { return plane; };
+    input.jet = [plane = plane_jet(resolve_extent(options.extent_u, options.extent_v, width, rows))](double, double) {
+        return plane;
+    };
     input.encoding_angle = [=](const Jet<double>& jet, const Height<double>& h, const Vec3d& n) {
         const Height<double> kept{h.b, stored(h.b_u, from_uv.x), stored(h.b_v, from_uv.y)};
         return angle_between(n, displaced_normal(jet, kept, NormalMethod::exact));

@@ -107,7 +107,8 @@ struct Cover {
 Cover cover(int i, int n, int m) noexcept {
     const std::int64_t begin = std::int64_t(i) * n, end = begin + n; // in units of 1 / m texel
     const std::int64_t first = begin / m, last = (end - 1) / m;
-    return {int(first), int(last - first + 1), float((first + 1) * m - begin) / float(m), float(end - last * m) / float(m)};
+    return {int(first), int(last - first + 1), float((first + 1) * m - begin) / float(m),
+            float(end - last * m) / float(m)};
 }
 
 float share(const Cover& c, int k) noexcept {
@@ -131,7 +132,8 @@ template <class Row> Image<float> halve_rows(int width, int height, int channels
                 const float area = float(width) * float(height) / (float(out.width()) * float(out.height()));
                 for (int c = 0; c < channels; ++c) {
                     float sum = 0;
-                    for (int k = 0; k < columns.count; ++k) sum += share(columns, k) * sums[std::size_t(columns.first + k) * channels + c];
+                    for (int k = 0; k < columns.count; ++k)
+                        sum += share(columns, k) * sums[std::size_t(columns.first + k) * channels + c];
                     out.at(x, y, c) = sum / area;
                 }
             }
@@ -148,9 +150,10 @@ Image<float> halve(const BumpTable& table) {
 }
 
 Image<float> halve(const Image<float>& image) {
-    return halve_rows(image.width(), image.height(), image.channels(), [&](int y, float* out, SlopeFilter<float>::Scratch&) {
-        std::copy_n(image.row(y), std::size_t(image.width()) * image.channels(), out);
-    });
+    return halve_rows(image.width(), image.height(), image.channels(),
+                      [&](int y, float* out, SlopeFilter<float>::Scratch&) {
+                          std::copy_n(image.row(y), std::size_t(image.width()) * image.channels(), out);
+                      });
 }
 
 } // namespace bake

@@ -64,7 +64,8 @@ private:
 
 /// Hands the table to `consume(values, rows)` in bands of a multiple of 64 rows, from the top, while later bands are
 /// being computed: it need never be whole in memory.
-void for_bands(const BumpTable& table, const std::function<void(const float*, int)>& consume, Progress* progress = nullptr);
+void for_bands(const BumpTable& table, const std::function<void(const float*, int)>& consume,
+               Progress* progress = nullptr);
 
 /// The whole table.
 Image<float> bump_table(const HeightTexture& height, const BumpTableOptions& options,

@@ -25,9 +25,7 @@ inline constexpr NormalMethod all_normal_methods[] = {NormalMethod::exact, Norma
 std::string_view name(NormalMethod method) noexcept;
 
 /// The lecture's constants: object units per unit of u and of v, the same all over the surface.
-template <class T> struct LectureScale {
-    T u = 1, v = 1;
-};
+template <class T> struct LectureScale { T u = 1, v = 1; };
 
 /// N', outward, not normalised. For exact and blinn its length is the area of the displaced (du,dv) cell over that of
 /// the method's own terms; it is 0 where the surface folds or the chart has a pole. The caller decides what 0 means.
@@ -60,7 +58,8 @@ template <class T> inline Vec3<T> gradient_normal(const Jet<T>& s, const Height<
 }
 
 // The frame is unit p_u and its perpendicular towards +v: right only where the chart is square and evenly scaled.
-template <class T> inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const LectureScale<T>& scale) noexcept {
+template <class T>
+inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const LectureScale<T>& scale) noexcept {
     const Vec3<T> t = unit_or_zero(s.p_u);
     const Vec3<T> bitangent = s.sigma * glm::cross(s.n, t);
     return s.n - (h.b_u / scale.u) * t - (h.b_v / scale.v) * bitangent;
@@ -70,7 +69,7 @@ template <class T> inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T
 
 template <class T>
 inline Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
-                         const LectureScale<T>& scale) noexcept {
+                                const LectureScale<T>& scale) noexcept {
     switch (method) {
     case NormalMethod::exact: return detail::cell_normal(s, h, h.b);
     case NormalMethod::blinn: return detail::cell_normal(s, h, T(0));

@@ -33,9 +33,11 @@ Vec2d sensitivity(const BudgetInput& in, const Jet<double>& jet, const Height<do
         const Height<double> moved{h.b, h.b_u + du, h.b_v + dv};
         return displaced_normal(jet, moved, in.method, in.lecture);
     };
-    const double du = 1e-4 * (glm::length(jet.p_u) + std::abs(h.b_u)), dv = 1e-4 * (glm::length(jet.p_v) + std::abs(h.b_v));
+    const double du = 1e-4 * (glm::length(jet.p_u) + std::abs(h.b_u)),
+                 dv = 1e-4 * (glm::length(jet.p_v) + std::abs(h.b_v));
     if (!(du > 0) || !(dv > 0)) return Vec2d(0);
-    return {angle_between(turned(du, 0), turned(-du, 0)) / (2 * du), angle_between(turned(0, dv), turned(0, -dv)) / (2 * dv)};
+    return {angle_between(turned(du, 0), turned(-du, 0)) / (2 * du),
+            angle_between(turned(0, dv), turned(0, -dv)) / (2 * dv)};
 }
 
 void add_sample(const BudgetInput& in, const Jet<double>& jet, const Height<double>& h, const Height<double>& sharp,
@@ -63,7 +65,8 @@ ErrorBudget error_budget(const BudgetInput& in) {
     const SlopeFilter<float> sharp_slopes(values, sharp, in.options.wrap_u, in.options.wrap_v);
     const Vec2d scale = in.options.amplitude * Vec2d(width, height);
     const double sigma = in.step / std::sqrt(12.0);
-    const Vec2d noise = glm::abs(scale) * (sigma * own.noise()), difference_noise = glm::abs(scale) * (sigma * noise_of_difference(own, sharp));
+    const Vec2d noise = glm::abs(scale) * (sigma * own.noise()),
+                difference_noise = glm::abs(scale) * (sigma * noise_of_difference(own, sharp));
 
     const int rows = std::min(in.lattice, height), columns = std::min(in.lattice, width);
     std::vector<Squares> of_row(rows);
@@ -90,7 +93,9 @@ ErrorBudget error_budget(const BudgetInput& in) {
     ErrorBudget budget;
     budget.samples = sum.samples;
     if (sum.samples == 0) return budget;
-    const auto rms_deg = [&](double squares) { return std::min(180.0, glm::degrees(std::sqrt(std::max(0.0, squares) / sum.samples))); };
+    const auto rms_deg = [&](double squares) {
+        return std::min(180.0, glm::degrees(std::sqrt(std::max(0.0, squares) / sum.samples)));
+    };
     budget.filter_deg = rms_deg(sum.filter - sum.filter_noise);
     budget.quantisation_deg = rms_deg(sum.quantisation);
     budget.encoding_deg = rms_deg(sum.encoding);

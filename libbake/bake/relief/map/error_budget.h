@@ -9,8 +9,8 @@
 // - method: the chosen method's normal against `exact` at the samples;
 // - total: 1.5 times the root of the sum of their squares, the bound that tests hold the measured error to.
 #pragma once
-#include "bake/relief/map/displaced_normal.h"
 #include "bake/relief/map/bump_table.h"
+#include "bake/relief/map/displaced_normal.h"
 #include <functional>
 #include <optional>
 

@@ -21,8 +21,9 @@ Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n
     // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
     // determinant has the sign of `sign`.
     const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
-    const Vec3f unit = unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
-                              along_n * glm::dot(tangent, tangent) - along_t * skew));
+    const Vec3f unit =
+        unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
+                           along_n * glm::dot(tangent, tangent) - along_t * skew));
     // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
     constexpr float rounding = 1e-6f;
     return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
@@ -45,7 +46,8 @@ bool shrinks(const Image<float>& values, int width, int height) {
 HeightField::HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width,
                          int height_texels)
     : width_(width), map_height_(height_texels), options_(options),
-      minified_(shrinks(height.values, width, height_texels) ? box_minify(height.values, width, height_texels) : Image<float>()),
+      minified_(shrinks(height.values, width, height_texels) ? box_minify(height.values, width, height_texels)
+                                                             : Image<float>()),
       values_(minified_.empty() ? &height.values : &minified_),
       slopes_(*values_, resolve_filter(filter, height), options.wrap_u, options.wrap_v),
       spline_(resolve_filter(filter, height) == Filter::c2) {
@@ -55,7 +57,8 @@ HeightField::HeightField(const HeightTexture& height, const HeightOptions& optio
         return;
     }
     Image<float> along_u(values_->width(), values_->height(), 1), along_v(values_->width(), values_->height(), 1);
-    const auto scale_u = float(options.amplitude * values_->width()), scale_v = float(options.amplitude * values_->height());
+    const auto scale_u = float(options.amplitude * values_->width()),
+               scale_v = float(options.amplitude * values_->height());
     for_rows(values_->height(), 16, [&](std::int64_t begin, std::int64_t end) {
         SlopeFilter<float>::Scratch scratch;
         std::vector<float> pairs(2 * std::size_t(values_->width()));
@@ -95,26 +98,30 @@ void HeightField::row(int y, Height<float>* out, SlopeFilter<float>::Scratch& sc
     }
 }
 
-Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options, Progress* progress) {
+Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options,
+                        Progress* progress) {
     Jet<float> plane{};
     plane.p_u = Vec3f(float(extent.x), 0, 0);
     plane.p_v = Vec3f(0, float(extent.y), 0);
     plane.n = flat_normal;
     const LectureScale<float> scale{float(extent.x), float(extent.y)};
     Image<float> map(field.width(), field.height(), 3);
-    for_rows(field.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-        SlopeFilter<float>::Scratch scratch;
-        std::vector<Height<float>> heights(field.width());
-        for (auto y = int(begin); y < int(end); ++y) {
-            field.row(y, heights.data(), scratch);
-            float* to = map.row(y);
-            for (int x = 0; x < field.width(); ++x, to += 3) {
-                const Vec3f n = unit_or_zero(displaced_normal(plane, heights[x], options.method, scale));
-                const Vec3f rgb = encode_normal(n, options.directx);
-                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+    for_rows(
+        field.height(), 16,
+        [&](std::int64_t begin, std::int64_t end) {
+            SlopeFilter<float>::Scratch scratch;
+            std::vector<Height<float>> heights(field.width());
+            for (auto y = int(begin); y < int(end); ++y) {
+                field.row(y, heights.data(), scratch);
+                float* to = map.row(y);
+                for (int x = 0; x < field.width(); ++x, to += 3) {
+                    const Vec3f n = unit_or_zero(displaced_normal(plane, heights[x], options.method, scale));
+                    const Vec3f rgb = encode_normal(n, options.directx);
+                    to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+                }
             }
-        }
-    }, progress);
+        },
+        progress);
     return map;
 }
 
@@ -160,8 +167,8 @@ TriangleFrame triangle_frame(const BakeTarget& target, std::uint32_t triangle) n
     return frame;
 }
 
-Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h, const LectureScale<float>& lecture,
-                 const NormalMapOptions& options) noexcept {
+Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h,
+                 const LectureScale<float>& lecture, const NormalMapOptions& options) noexcept {
     const Jet<float> jet = jet_at(frame.patch, b1, b2);
     const bool folded = folds(jet, h.b);
     // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
@@ -182,7 +189,8 @@ BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width
     target.raster = uv_raster(mesh, target.surface.triangles, width, height);
     target.lecture = mean_scale(target.surface);
     if (target.raster.covered + target.raster.border == 0)
-        throw Error(Refusal::unsuitable, path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
+        throw Error(Refusal::unsuitable,
+                    path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
     return target;
 }
 
@@ -192,31 +200,34 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
     Image<float> map(width, height, 3);
     Image<unsigned char> owned(width, height, 1);
     std::atomic<std::int64_t> degenerate{0}, folded{0};
-    for_rows(height, 16, [&](std::int64_t begin, std::int64_t end) {
-        SlopeFilter<float>::Scratch scratch;
-        std::vector<Height<float>> heights(width);
-        TriangleFrame frame;
-        std::int64_t degenerate_here = 0, folded_here = 0;
-        for (auto y = int(begin); y < int(end); ++y) {
-            field.row(y, heights.data(), scratch);
-            const TexelHit* hits = target.raster.hits.row(y);
-            float* to = map.row(y);
-            for (int x = 0; x < width; ++x, to += 3) {
-                Texel texel{flat_normal};
-                const bool hit = hits[x].triangle != no_index;
-                if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
-                if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.lecture, options);
-                const bool own = hit && texel.t != Vec3f(0);
-                if (hit && !own) ++degenerate_here, texel.t = flat_normal;
-                folded_here += texel.folded;
-                owned.at(x, y) = own;
-                const Vec3f rgb = encode_normal(texel.t, options.directx);
-                to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+    for_rows(
+        height, 16,
+        [&](std::int64_t begin, std::int64_t end) {
+            SlopeFilter<float>::Scratch scratch;
+            std::vector<Height<float>> heights(width);
+            TriangleFrame frame;
+            std::int64_t degenerate_here = 0, folded_here = 0;
+            for (auto y = int(begin); y < int(end); ++y) {
+                field.row(y, heights.data(), scratch);
+                const TexelHit* hits = target.raster.hits.row(y);
+                float* to = map.row(y);
+                for (int x = 0; x < width; ++x, to += 3) {
+                    Texel texel{flat_normal};
+                    const bool hit = hits[x].triangle != no_index;
+                    if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
+                    if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.lecture, options);
+                    const bool own = hit && texel.t != Vec3f(0);
+                    if (hit && !own) ++degenerate_here, texel.t = flat_normal;
+                    folded_here += texel.folded;
+                    owned.at(x, y) = own;
+                    const Vec3f rgb = encode_normal(texel.t, options.directx);
+                    to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
+                }
             }
-        }
-        degenerate += degenerate_here;
-        folded += folded_here;
-    }, progress);
+            degenerate += degenerate_here;
+            folded += folded_here;
+        },
+        progress);
     const UvRaster& raster = target.raster;
     report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
     report.flat_triangles = raster.degenerate;

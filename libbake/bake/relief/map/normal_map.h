@@ -35,7 +35,8 @@ struct NormalMapReport {
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
-    std::int64_t folded = 0;     ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
+    std::int64_t folded =
+        0; ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
 };
 
 /// rgb = (t + 1) / 2, each in [0,1]; green is turned where `directx`.
@@ -73,7 +74,8 @@ private:
 };
 
 /// The normal map of a height on a flat rectangle of extent (object units): three channels, encoded.
-Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options, Progress* progress = nullptr);
+Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options,
+                        Progress* progress = nullptr);
 
 /// The mesh side of a bake, made once: the jets, the tangent space, and which triangle lies under each texel.
 struct BakeTarget {

@@ -15,7 +15,7 @@ struct Reader {
     std::size_t next = 0;
 
     [[noreturn]] void refuse(const std::string& what) const {
-        const std::string where = lines.empty()          ? ": the file holds no numbers; "
+        const std::string where = lines.empty()         ? ": the file holds no numbers; "
                                   : next < lines.size() ? ": line " + std::to_string(lines[next].line) + ": "
                                                         : ": the file ends too soon; ";
         throw Error{Refusal::unreadable, path + where + what};
@@ -29,7 +29,7 @@ struct Reader {
         --next;
         if (!(value >= 1 && value <= most_patches && value == std::floor(value))) refuse(what);
         ++next;
-        return static_cast<std::size_t>(value);
+        return std::size_t(value);
     }
     Vec3d point() {
         const auto& v = take(3, "no point; 'x y z' belongs here");
@@ -58,7 +58,7 @@ Key key_of(const std::array<Vec3d, 4>& c, bool reversed) {
     Key key;
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k)
-            key[static_cast<std::size_t>(3 * i + k)] = c[static_cast<std::size_t>(reversed ? 3 - i : i)][k] + 0.0; // -0 is 0
+            key[std::size_t(3 * i + k)] = c[std::size_t(reversed ? 3 - i : i)][k] + 0.0; // -0 is 0
     return key;
 }
 
@@ -87,15 +87,16 @@ std::vector<BezierPatch> read_bezier(const std::string& path) {
             for (std::size_t i = 0; i < 16; ++i) {
                 const double index = in.lines[line].values[i] - (from_zero ? 0 : 1);
                 in.next = line;
-                if (!(index >= 0 && index < static_cast<double>(points) && index == std::floor(index)))
+                if (!(index >= 0 && index < double(points) && index == std::floor(index)))
                     in.refuse("an index is no number of a point; there are " + std::to_string(points) + " of them");
-                patch.points[i] = list[static_cast<std::size_t>(index)];
+                patch.points[i] = list[std::size_t(index)];
             }
         }
         in.next = behind;
     } else if (form == 2 || form == 3) {
         for (std::size_t i = 0; i < patches; ++i) {
-            if (form == 2 && in.take(2, "no degrees; every patch begins with '3 3' here") != std::vector<double>{3, 3}) {
+            if (form == 2 &&
+                in.take(2, "no degrees; every patch begins with '3 3' here") != std::vector<double>{3, 3}) {
                 --in.next;
                 in.refuse("only bicubic patches can be read; their degrees are '3 3'");
             }
@@ -147,23 +148,23 @@ BezierBorders bezier_borders(const std::vector<BezierPatch>& patches) {
         auto& reversed = out.reversed.emplace_back();
         for (std::size_t k = 0; k < 4; ++k) {
             const Vec3d p = patch.points[std::array{0u, 3u, 15u, 12u}[k]] + 0.0;
-            corner[k] = corners.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(corners.size())).first->second;
-            const auto curve = bezier_border(patch, static_cast<int>(k));
+            corner[k] = corners.try_emplace({p.x, p.y, p.z}, std::uint32_t(corners.size())).first->second;
+            const auto curve = bezier_border(patch, int(k));
             const Key forward = key_of(curve, false), backward = key_of(curve, true);
             reversed[k] = backward < forward;
-            const auto [found, fresh] =
-                borders.try_emplace(std::min(forward, backward), static_cast<std::uint32_t>(borders.size()));
+            const auto [found, fresh] = borders.try_emplace(std::min(forward, backward), std::uint32_t(borders.size()));
             border[k] = found->second;
             if (fresh) {
                 auto& canonical = out.curve.emplace_back(curve);
                 if (reversed[k]) std::reverse(canonical.begin(), canonical.end());
-                out.point.push_back(std::all_of(curve.begin(), curve.end(), [&](const Vec3d& q) { return q == curve[0]; }));
+                out.point.push_back(
+                    std::all_of(curve.begin(), curve.end(), [&](const Vec3d& q) { return q == curve[0]; }));
                 sides.push_back(0);
             }
             ++sides[border[k]];
         }
     }
-    out.corners = static_cast<std::uint32_t>(corners.size());
+    out.corners = std::uint32_t(corners.size());
     out.closed = true;
     for (std::size_t b = 0; b < sides.size(); ++b) out.closed = out.closed && (out.point[b] || sides[b] == 2);
     return out;

@@ -32,11 +32,11 @@ Vec3d bezier_curve(std::span<const Vec3d, 4> points, double t) noexcept;
 
 /// How the borders of patches meet: two are one where their control points are equal, in the same order or the other.
 struct BezierBorders {
-    std::vector<std::array<std::uint32_t, 4>> corner;  ///< patches; corners (0,0) (1,0) (1,1) (0,1), by position
-    std::vector<std::array<std::uint32_t, 4>> border;  ///< patches; number of the border at side 0..3
-    std::vector<std::array<bool, 4>> reversed;         ///< the side runs against its border
-    std::vector<std::array<Vec3d, 4>> curve;           ///< borders
-    std::vector<bool> point;                           ///< borders: all four control points are equal
+    std::vector<std::array<std::uint32_t, 4>> corner; ///< patches; corners (0,0) (1,0) (1,1) (0,1), by position
+    std::vector<std::array<std::uint32_t, 4>> border; ///< patches; number of the border at side 0..3
+    std::vector<std::array<bool, 4>> reversed;        ///< the side runs against its border
+    std::vector<std::array<Vec3d, 4>> curve;          ///< borders
+    std::vector<bool> point;                          ///< borders: all four control points are equal
     std::uint32_t corners = 0;
     bool closed = false; ///< every border that is no point belongs to two sides
 };

@@ -1,9 +1,9 @@
 #include "bake/surface/analytic/parametric.h"
-#include "bake/base/text_line.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
-#include "bake/surface/point/curvature.h"
+#include "bake/base/text_line.h"
 #include "bake/surface/analytic/parametric_shapes.h"
+#include "bake/surface/point/curvature.h"
 #include <algorithm>
 #include <charconv>
 #include <numeric>
@@ -45,12 +45,14 @@ const ShapeKind& kind_named(std::string_view name, const std::string& head) {
     });
     std::string all;
     for (const ShapeKind& kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kind.name);
-    const std::string near = distance(nearest->name, name) <= 3 ? "did you mean " + std::string(nearest->name) + "? " : "";
+    const std::string near =
+        distance(nearest->name, name) <= 3 ? "did you mean " + std::string(nearest->name) + "? " : "";
     throw Error{Refusal::usage, head + "no such shape; " + near + "The shapes are " + all};
 }
 
 /// Puts what "key=value,..." says in place of the defaults, and gives the file it names. `head` is what refusals begin with.
-std::string read_values(const ShapeKind& kind, const std::string& head, std::string_view text, std::vector<double>& values) {
+std::string read_values(const ShapeKind& kind, const std::string& head, std::string_view text,
+                        std::vector<double>& values) {
     const auto refuse = [&](const std::string& what) { throw Error{Refusal::usage, head + what}; };
     std::string file;
     std::vector<std::string_view> given;
@@ -60,9 +62,11 @@ std::string read_values(const ShapeKind& kind, const std::string& head, std::str
         const std::size_t equals = entry.find('=');
         const std::string_view value = equals == std::string_view::npos ? "" : entry.substr(equals + 1);
         const std::string name(entry.substr(0, equals));
-        const auto key = std::find_if(kind.keys.begin(), kind.keys.end(), [&](const ShapeKey& k) { return k.name == name; });
+        const auto key =
+            std::find_if(kind.keys.begin(), kind.keys.end(), [&](const ShapeKey& k) { return k.name == name; });
         const bool is_file = kind.file_key && name == kind.file_key;
-        if (key == kind.keys.end() && !is_file) refuse(shown(name) + " is no key of " + kind.name + "; write " + spelled(kind));
+        if (key == kind.keys.end() && !is_file)
+            refuse(shown(name) + " is no key of " + kind.name + "; write " + spelled(kind));
         if (std::find(given.begin(), given.end(), name) != given.end()) refuse(name + " is given twice; take one out");
         given.push_back(entry.substr(0, equals));
         if (is_file) {
@@ -75,7 +79,7 @@ std::string read_values(const ShapeKind& kind, const std::string& head, std::str
             refuse(name + " needs a number, not " + shown(value) + "; write " + spelled(kind));
         if (!(number >= key->least && number <= key->most))
             refuse(name + format(" must lie between %g and %g; its default is %g", key->least, key->most, key->value));
-        values[static_cast<std::size_t>(key - kind.keys.begin())] = number;
+        values[std::size_t(key - kind.keys.begin())] = number;
     }
     return file;
 }
@@ -85,7 +89,8 @@ struct Growth {
     Vec3d along_u, along_v;
 };
 Growth growth(const Jet2<double>& s) noexcept {
-    return {glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv), glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv)};
+    return {glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv),
+            glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv)};
 }
 
 /// +1 at the lower end of the unit interval, -1 at the upper: where the inside is; 0 between and on closed ones.
@@ -122,7 +127,8 @@ ParametricSurface::ParametricSurface(std::string_view text) {
     if (shape->name == "revolution") {
         shape->profile = read_profile(file, shape->values[0] != 0);
         if (shape->profile.loop) shape->closure_v = Closure::periodic;
-        shape->closed = shape->profile.loop || (shape->profile.points.front().x == 0 && shape->profile.points.back().x == 0);
+        shape->closed =
+            shape->profile.loop || (shape->profile.points.front().x == 0 && shape->profile.points.back().x == 0);
     }
     if (shape->name == "bezier") {
         shape->patches = read_bezier(file);
@@ -136,7 +142,7 @@ ParametricSurface::ParametricSurface(std::string_view text) {
 }
 
 const std::string& ParametricSurface::name() const noexcept { return shape_->name; }
-int ParametricSurface::patches() const noexcept { return std::max(1, static_cast<int>(shape_->patches.size())); }
+int ParametricSurface::patches() const noexcept { return std::max(1, int(shape_->patches.size())); }
 Closure ParametricSurface::closure_u() const noexcept { return shape_->closure_u; }
 Closure ParametricSurface::closure_v() const noexcept { return shape_->closure_v; }
 bool ParametricSurface::closed() const noexcept { return shape_->closed; }

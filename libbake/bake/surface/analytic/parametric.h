@@ -27,13 +27,13 @@ public:
     explicit ParametricSurface(std::string_view shape);
 
     const std::string& name() const noexcept;
-    int patches() const noexcept;                ///< 1, or the Bezier patches of the file
+    int patches() const noexcept; ///< 1, or the Bezier patches of the file
     Closure closure_u() const noexcept;
     Closure closure_v() const noexcept;
-    bool closed() const noexcept;                ///< has no boundary and an inside
+    bool closed() const noexcept; ///< has no boundary and an inside
     bool orientable() const noexcept;
     std::pair<int, int> default_resolution() const noexcept; ///< cells along u and v that show the shape
-    std::string help() const;                    ///< its keys and their values
+    std::string help() const;                                ///< its keys and their values
 
     /// Point and derivatives, exact up to rounding; any finite u, v; periodic ones wrap. `patch` below patches().
     Jet2<double> derivatives(double u, double v, int patch = 0) const noexcept;

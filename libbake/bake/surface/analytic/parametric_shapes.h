@@ -34,9 +34,9 @@ struct AnalyticShape {
     std::string name;
     const ShapeKind* kind = nullptr;
     std::vector<double> values;
-    Profile profile;                 ///< revolution
+    Profile profile;                  ///< revolution
     std::vector<BezierPatch> patches; ///< bezier
-    BezierBorders borders;           ///< bezier
+    BezierBorders borders;            ///< bezier
     Closure closure_u = Closure::open, closure_v = Closure::open;
     bool closed = false;
 };

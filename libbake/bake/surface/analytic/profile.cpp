@@ -76,7 +76,7 @@ ProfilePoint profile_at(const Profile& profile, double t) noexcept {
     if (profile.loop) t -= std::floor(t);
     const auto& knots = profile.knots;
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, t);
-    const auto i = static_cast<std::size_t>(above - knots.begin()) - 1;
+    const auto i = std::size_t(above - knots.begin()) - 1;
     const double h = knots[i + 1] - knots[i], b = (t - knots[i]) / h, a = 1 - b;
     const Vec2d p0 = profile.points[i], p1 = profile.points[i + 1], m0 = profile.bends[i], m1 = profile.bends[i + 1];
     const double ca = (a * a * a - a) * h * h / 6, cb = (b * b * b - b) * h * h / 6;
@@ -93,7 +93,8 @@ Profile read_profile(const std::string& path, bool pointed) {
         if (line.values.size() != 2) refuse(where + ": not two numbers; 'radius height' is expected");
         const Vec2d p{line.values[0], line.values[1]};
         if (p.x < 0) refuse(where + ": a negative radius; the axis is at radius 0");
-        if (!profile.points.empty() && p == profile.points.back()) refuse(where + ": the point before again; take one out");
+        if (!profile.points.empty() && p == profile.points.back())
+            refuse(where + ": the point before again; take one out");
         profile.points.push_back(p);
     }
     auto& points = profile.points;

@@ -10,10 +10,10 @@ namespace bake {
 
 /// Twice continuously differentiable; t runs from 0 to 1.
 struct Profile {
-    std::vector<double> knots;  ///< 0 to 1
-    std::vector<Vec2d> points;  ///< (radius, height) at the knots
-    std::vector<Vec2d> bends;   ///< second derivatives there
-    bool loop = false;          ///< the last point is the first
+    std::vector<double> knots; ///< 0 to 1
+    std::vector<Vec2d> points; ///< (radius, height) at the knots
+    std::vector<Vec2d> bends;  ///< second derivatives there
+    bool loop = false;         ///< the last point is the first
 };
 struct ProfilePoint {
     Vec2d p, d, dd;

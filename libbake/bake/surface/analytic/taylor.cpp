@@ -1,16 +1,16 @@
 #include "bake/surface/analytic/taylor.h"
-#include <numbers>
+#include "bake/base/vec.h"
 
 namespace bake {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * pi;
 
 } // namespace
 
 Turn turn(double turns) noexcept {
     const double rest = turns - std::floor(turns); // in [0, 1]
-    const int quarter = static_cast<int>(4 * rest + 0.5);
+    const int quarter = int(4 * rest + 0.5);
     const double angle = two_pi * (rest - 0.25 * quarter), c = std::cos(angle), s = std::sin(angle);
     switch (quarter & 3) {
     case 0: return {c, s};

@@ -29,12 +29,7 @@ inline Taylor operator*(const Taylor& a, const Taylor& b) noexcept {
 }
 /// g(x), from g and its derivatives at x.f.
 inline Taylor chain(const Taylor& x, double g, double g1, double g2) noexcept {
-    return {g,
-            g1 * x.u,
-            g1 * x.v,
-            g2 * x.u * x.u + g1 * x.uu,
-            g2 * x.u * x.v + g1 * x.uv,
-            g2 * x.v * x.v + g1 * x.vv};
+    return {g, g1 * x.u, g1 * x.v, g2 * x.u * x.u + g1 * x.uu, g2 * x.u * x.v + g1 * x.uv, g2 * x.v * x.v + g1 * x.vv};
 }
 
 /// Cosine and sine of an angle given in turns: exactly 0 and +-1 at quarter turns, so that poles are exact points and

@@ -11,10 +11,10 @@ constexpr std::size_t rows_at_a_time = 8;
 /// Grid vertices of one patch, (columns + 1) x (rows + 1), i first.
 struct Grid {
     int columns, rows;
-    std::size_t size() const noexcept { return static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1); }
-    std::uint32_t at(int i, int j) const noexcept { return static_cast<std::uint32_t>(j * (columns + 1) + i); }
-    double u(int i) const noexcept { return static_cast<double>(i) / columns; }
-    double v(int j) const noexcept { return static_cast<double>(j) / rows; }
+    std::size_t size() const noexcept { return std::size_t(columns + 1) * std::size_t(rows + 1); }
+    std::uint32_t at(int i, int j) const noexcept { return std::uint32_t(j * (columns + 1) + i); }
+    double u(int i) const noexcept { return double(i) / columns; }
+    double v(int j) const noexcept { return double(j) / rows; }
 };
 
 /// The vertex that stands for (i, j): closures go to the lower end, collapsed edges to their first vertex.
@@ -47,7 +47,8 @@ struct Sharing {
     /// Normals are opposite where a twisted closure meets, and each meridian's own where a pole has none.
     std::uint32_t normal(int i, int j) const noexcept {
         const bool twisted_end = i == grid.columns && surface.closure_u() == Closure::twisted;
-        if (twisted_end) return j == grid.rows && surface.closure_v() == Closure::periodic ? grid.at(i, 0) : grid.at(i, j);
+        if (twisted_end)
+            return j == grid.rows && surface.closure_v() == Closure::periodic ? grid.at(i, 0) : grid.at(i, j);
         const bool border = i == 0 || i == grid.columns || j == 0 || j == grid.rows;
         if (!border || surface.pole(grid.u(i), grid.v(j)) != Pole::without_normal) return position(i, j);
         return grid.at(i == grid.columns && surface.closure_u() != Closure::open ? 0 : i, j);
@@ -60,7 +61,7 @@ template <class T> std::vector<T> used(const std::vector<T>& values, std::vector
     std::vector<T> out;
     for (std::uint32_t& i : index) {
         if (number[i] == no_index) {
-            number[i] = static_cast<std::uint32_t>(out.size());
+            number[i] = std::uint32_t(out.size());
             out.push_back(values[i]);
         }
         i = number[i];
@@ -79,28 +80,28 @@ struct BezierSharing {
         std::uint32_t next = b.corners;
         for (std::size_t k = 0; k < b.curve.size(); ++k) {
             auto& [by_columns, by_rows] = inner.emplace_back();
-            by_columns = next, next += static_cast<std::uint32_t>(g.columns - 1);
+            by_columns = next, next += std::uint32_t(g.columns - 1);
             by_rows = g.rows == g.columns ? by_columns : next;
-            if (g.rows != g.columns) next += static_cast<std::uint32_t>(g.rows - 1);
+            if (g.rows != g.columns) next += std::uint32_t(g.rows - 1);
         }
         inside = next;
     }
     std::size_t points(std::size_t patches) const noexcept {
-        return inside + patches * static_cast<std::size_t>(grid.columns - 1) * static_cast<std::size_t>(grid.rows - 1);
+        return inside + patches * std::size_t(grid.columns - 1) * std::size_t(grid.rows - 1);
     }
     std::uint32_t position(std::size_t patch, int i, int j) const noexcept {
         const auto& corner = borders.corner[patch];
         const bool left = i == 0, right = i == grid.columns, low = j == 0, high = j == grid.rows;
         if ((left || right) && (low || high)) return corner[low ? (left ? 0 : 1) : (left ? 3 : 2)];
         if (!(left || right || low || high))
-            return inside + static_cast<std::uint32_t>((static_cast<int>(patch) * (grid.rows - 1) + j - 1) * (grid.columns - 1) + i - 1);
+            return inside + std::uint32_t((int(patch) * (grid.rows - 1) + j - 1) * (grid.columns - 1) + i - 1);
         const std::size_t side = low ? 0 : right ? 1 : high ? 2 : 3;
         const std::uint32_t border = borders.border[patch][side];
         if (borders.point[border]) return corner[side];
         const bool along_u = low || high;
         const int rate = along_u ? grid.columns : grid.rows, k = along_u ? i : j;
         const int along = borders.reversed[patch][side] ? rate - k : k;
-        return inner[border][along_u ? 0 : 1] + static_cast<std::uint32_t>(along - 1);
+        return inner[border][along_u ? 0 : 1] + std::uint32_t(along - 1);
     }
     /// The points on the borders, each from its border alone.
     void place(std::vector<Vec3f>& positions) const {
@@ -108,8 +109,8 @@ struct BezierSharing {
             for (const bool along_u : {true, false}) {
                 const int rate = along_u ? grid.columns : grid.rows;
                 for (int k = 1; k < rate; ++k)
-                    positions[inner[b][along_u ? 0 : 1] + static_cast<std::uint32_t>(k - 1)] =
-                        Vec3f(bezier_curve(borders.curve[b], static_cast<double>(k) / rate));
+                    positions[inner[b][along_u ? 0 : 1] + std::uint32_t(k - 1)] =
+                        Vec3f(bezier_curve(borders.curve[b], double(k) / rate));
             }
         for (std::size_t p = 0; p < borders.corner.size(); ++p)
             for (std::size_t k = 0; k < 4; ++k) {
@@ -125,13 +126,13 @@ struct BezierSharing {
 Mesh tessellate(const ParametricSurface& surface, int columns, int rows) {
     const int least_columns = surface.closure_u() == Closure::open ? 1 : 3,
               least_rows = surface.closure_v() == Closure::open ? 1 : 3;
-    const auto patches = static_cast<std::size_t>(surface.patches());
+    const auto patches = std::size_t(surface.patches());
     const Grid grid{columns, rows};
     const std::string what = std::to_string(columns) + " x " + std::to_string(rows) + " cells";
     if (columns < least_columns || rows < least_rows)
-        throw Error{Refusal::usage, surface.name() + ": " + what + " are too few; " + std::to_string(least_columns) + " x " +
-                                        std::to_string(least_rows) + " at least"};
-    if (static_cast<double>(columns) * rows * static_cast<double>(patches) > 1e9)
+        throw Error{Refusal::usage, surface.name() + ": " + what + " are too few; " + std::to_string(least_columns) +
+                                        " x " + std::to_string(least_rows) + " at least"};
+    if (double(columns) * rows * double(patches) > 1e9)
         throw Error{Refusal::usage, surface.name() + ": " + what + " are too many; a thousand million at most in all"};
 
     Mesh mesh;
@@ -140,18 +141,18 @@ Mesh tessellate(const ParametricSurface& surface, int columns, int rows) {
     const BezierSharing between(surface.shape().borders, grid);
     mesh.positions.resize(bezier ? between.points(patches) : grid.size());
     mesh.normals.resize(patches * grid.size());
-    const std::size_t grid_rows = patches * static_cast<std::size_t>(rows + 1);
-    for_rows(static_cast<std::int64_t>(grid_rows), rows_at_a_time, [&](std::int64_t begin, std::int64_t end) {
+    const std::size_t grid_rows = patches * std::size_t(rows + 1);
+    for_rows(std::int64_t(grid_rows), rows_at_a_time, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            const int patch = static_cast<int>(row / (rows + 1)), j = static_cast<int>(row % (rows + 1));
+            const int patch = int(row / (rows + 1)), j = int(row % (rows + 1));
             for (int i = 0; i <= columns; ++i) {
                 const double u = grid.u(i), v = grid.v(j);
                 const Jet<double> jet = surface.jet(u, v, patch);
-                const std::size_t at = static_cast<std::size_t>(patch) * grid.size() + grid.at(i, j);
+                const std::size_t at = std::size_t(patch) * grid.size() + grid.at(i, j);
                 mesh.normals[at] = Vec3f(jet.n == Vec3d(0) ? surface.side_normal(u, v, patch) : jet.n);
                 const bool inside = i > 0 && i < columns && j > 0 && j < rows;
                 if (!bezier) mesh.positions[at] = Vec3f(jet.p);
-                else if (inside) mesh.positions[between.position(static_cast<std::size_t>(patch), i, j)] = Vec3f(jet.p);
+                else if (inside) mesh.positions[between.position(std::size_t(patch), i, j)] = Vec3f(jet.p);
             }
         }
     });
@@ -164,11 +165,11 @@ Mesh tessellate(const ParametricSurface& surface, int columns, int rows) {
             for (int i = 0; i < columns; ++i) {
                 for (const auto& [a, b] : {std::pair(i, j), {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
                     mesh.corner_position.push_back(bezier ? between.position(patch, a, b) : sharing.position(a, b));
-                    mesh.corner_normal.push_back(bezier ? static_cast<std::uint32_t>(patch * grid.size() + grid.at(a, b))
+                    mesh.corner_normal.push_back(bezier ? std::uint32_t(patch * grid.size() + grid.at(a, b))
                                                         : sharing.normal(a, b));
                     mesh.corner_uv.push_back(grid.at(a, b));
                 }
-                mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+                mesh.face_begin.push_back(std::uint32_t(mesh.corner_position.size()));
             }
     mesh.positions = used(mesh.positions, mesh.corner_position);
     mesh.normals = used(mesh.normals, mesh.corner_normal);
@@ -194,12 +195,12 @@ Mesh without_repeats(const Mesh& mesh) {
             if (!mesh.corner_uv.empty()) out.corner_uv.push_back(mesh.corner_uv[c]);
             if (!mesh.tangents.empty()) out.tangents.push_back(mesh.tangents[c]);
             for (std::size_t a = 0; a < mesh.attributes.size(); ++a) {
-                const auto n = static_cast<std::size_t>(mesh.attributes[a].components);
-                const auto from = mesh.attributes[a].values.begin() + static_cast<std::ptrdiff_t>(c * n);
-                out.attributes[a].values.insert(out.attributes[a].values.end(), from, from + static_cast<std::ptrdiff_t>(n));
+                const auto n = std::size_t(mesh.attributes[a].components);
+                const auto from = mesh.attributes[a].values.begin() + std::ptrdiff_t(c * n);
+                out.attributes[a].values.insert(out.attributes[a].values.end(), from, from + std::ptrdiff_t(n));
             }
         }
-        out.face_begin.push_back(static_cast<std::uint32_t>(out.corner_position.size()));
+        out.face_begin.push_back(std::uint32_t(out.corner_position.size()));
         if (!mesh.face_material.empty()) out.face_material.push_back(mesh.face_material[f]);
         if (!mesh.face_group.empty()) out.face_group.push_back(mesh.face_group[f]);
     }

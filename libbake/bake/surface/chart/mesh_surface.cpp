@@ -74,7 +74,7 @@ bool has_uv(const Mesh& mesh, const Corners& corners) {
 /// The derivatives of the plane through three corners, times its signed double area in uv, so that none is ever divided by nothing.
 struct Facet {
     Vec3d p_u_area{0}, p_v_area{0};
-    double area = 0;  ///< signed, doubled, in uv
+    double area = 0; ///< signed, doubled, in uv
     float sigma = 0;
 };
 
@@ -105,7 +105,8 @@ std::vector<Facet> make_corner_facets(const Mesh& mesh, const MeshSurface& s) {
         for (auto f = begin; f < end; ++f) {
             const std::uint32_t first = mesh.face_begin[f], count = mesh.face_begin[f + 1] - first;
             for (std::uint32_t k = 0; k < count; ++k)
-                facets[first + k] = make_facet(mesh, {first + (k + count - 1) % count, first + k, first + (k + 1) % count}, s.n);
+                facets[first + k] =
+                    make_facet(mesh, {first + (k + count - 1) % count, first + k, first + (k + 1) % count}, s.n);
         }
     });
     for (const Triangle& t : s.triangles)
@@ -126,7 +127,8 @@ CornersAround corners_around(const Mesh& mesh) {
     for (std::size_t p = 0; p < mesh.positions.size(); ++p) around.begin[p + 1] += around.begin[p];
     around.corners.resize(mesh.corners());
     std::vector<std::uint32_t> next(around.begin.begin(), around.begin.end() - 1);
-    for (std::uint32_t corner = 0; corner < mesh.corners(); ++corner) around.corners[next[mesh.corner_position[corner]]++] = corner;
+    for (std::uint32_t corner = 0; corner < mesh.corners(); ++corner)
+        around.corners[next[mesh.corner_position[corner]]++] = corner;
     return around;
 }
 
@@ -143,8 +145,11 @@ bool same_chart(const ChartCorner& a, const ChartCorner& b) { return a.sigma == 
 /// Gives all corners of one chart at a vertex the mean of their facets' derivatives. Facets count by their area in uv:
 /// that is the mean over the chart around the vertex. Sorting keeps a vertex of a million faces affordable.
 void average_charts(std::vector<ChartCorner>& corners, const std::vector<Facet>& facets, MeshSurface& s) {
-    const auto key = [](const ChartCorner& c) { return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.corner); };
-    std::sort(corners.begin(), corners.end(), [&](const ChartCorner& a, const ChartCorner& b) { return key(a) < key(b); });
+    const auto key = [](const ChartCorner& c) {
+        return std::tuple(c.sigma, c.uv.x, c.uv.y, c.n.x, c.n.y, c.n.z, c.corner);
+    };
+    std::sort(corners.begin(), corners.end(),
+              [&](const ChartCorner& a, const ChartCorner& b) { return key(a) < key(b); });
     for (std::size_t first = 0, last; first < corners.size(); first = last) {
         Vec3d p_u(0), p_v(0);
         double area = 0;

@@ -14,9 +14,9 @@ struct SurfaceOptions {
 struct MeshSurface {
     const Mesh* mesh = nullptr;
     std::vector<Triangle> triangles; ///< as triangulate(mesh) gives them
-    std::vector<Vec3f> n;            ///< corners; unit; the file's own, else angle-weighted per position; zero where none exists
-    std::vector<Vec3f> p_u, p_v;     ///< corners; zero where the chart has no area or the mesh no uv
-    std::vector<float> sigma;        ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv
+    std::vector<Vec3f> n; ///< corners; unit; the file's own, else angle-weighted per position; zero where none exists
+    std::vector<Vec3f> p_u, p_v; ///< corners; zero where the chart has no area or the mesh no uv
+    std::vector<float> sigma;    ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv
     bool flat = false;
 };
 
@@ -29,10 +29,10 @@ std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>&
 /// What the jets of one triangle share, fetched once for many of them.
 template <class T> struct TrianglePatch {
     Vec3<T> p[3], n[3], p_u[3], p_v[3]; ///< corners
-    Vec3<T> own_u, own_v; ///< p_u and p_v of the triangle's plane
-    Vec3<T> m_u, m_v;     ///< derivatives along u and v of the interpolated normal, not of unit length
-    Vec3<T> facet_n;      ///< flat only, where p_u[0] and p_v[0] are the facet's
-    T sigma = 0;          ///< as MeshSurface
+    Vec3<T> own_u, own_v;               ///< p_u and p_v of the triangle's plane
+    Vec3<T> m_u, m_v;                   ///< derivatives along u and v of the interpolated normal, not of unit length
+    Vec3<T> facet_n;                    ///< flat only, where p_u[0] and p_v[0] are the facet's
+    T sigma = 0;                        ///< as MeshSurface
     bool flat = false;
 };
 template <class T> TrianglePatch<T> triangle_patch(const MeshSurface& surface, std::uint32_t triangle) noexcept;

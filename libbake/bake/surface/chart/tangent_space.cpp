@@ -1,7 +1,7 @@
 #include "bake/surface/chart/tangent_space.h"
 #include "bake/base/parallel.h"
-#include "bake/surface/chart/mesh_surface.h"
 #include "bake/mesh/weld.h"
+#include "bake/surface/chart/mesh_surface.h"
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -45,9 +45,9 @@ struct Split {
 // One triangle at a vertex.
 struct Spoke {
     std::uint32_t tri;
-    std::uint32_t i;             // its corner here, 0 to 2
-    std::uint32_t out = nobody;  // spoke across the edge from here to the next corner
-    std::uint32_t in = nobody;   // spoke across the edge from the previous corner to here
+    std::uint32_t i;            // its corner here, 0 to 2
+    std::uint32_t out = nobody; // spoke across the edge from here to the next corner
+    std::uint32_t in = nobody;  // spoke across the edge from the previous corner to here
     std::uint32_t group = nobody;
     Vec3f s{0}, t{0}, weighted{0}; // slopes projected here; s times the angle
     Vec3f tangent{0};

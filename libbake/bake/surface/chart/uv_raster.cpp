@@ -28,9 +28,7 @@ struct Grid {
     }
 };
 
-template <class I> struct Point {
-    I x, y;
-};
+template <class I> struct Point { I x, y; };
 
 using Corners = std::array<Point<std::int64_t>, 3>;
 
@@ -200,7 +198,6 @@ template <class Work> void for_words(Span span, Work&& work) {
     }
 }
 
-
 template <class I> void fill(Band& band, const Shape<I>& shape, std::uint32_t triangle, int y, Span span) {
     const I step = band.grid.step, half = step / 2;
     double at[3], slope[3]; // of the corner opposite edge k
@@ -234,8 +231,7 @@ void settle_owned(Band& band) {
     band.waiting.clear();
 }
 
-template <class I>
-void fill_centres(Band& band, const Shape<I>& shape, std::uint32_t triangle, std::uint32_t face) {
+template <class I> void fill_centres(Band& band, const Shape<I>& shape, std::uint32_t triangle, std::uint32_t face) {
     if (face != band.face) {
         settle_owned(band);
         band.face = face;
@@ -251,9 +247,8 @@ void fill_centres(Band& band, const Shape<I>& shape, std::uint32_t triangle, std
         if (span.last < span.first) continue;
         fill(band, shape, triangle, y, span);
         if (owned.last < owned.first) continue;
-        for_words(owned, [&](int w, std::uint64_t mask) {
-            band.row(band.shared, y)[w] |= mask & band.row(band.owned, y)[w];
-        });
+        for_words(owned,
+                  [&](int w, std::uint64_t mask) { band.row(band.shared, y)[w] |= mask & band.row(band.owned, y)[w]; });
         band.waiting.push_back({y, owned});
     }
 }

@@ -1,7 +1,7 @@
 // Which triangle of a mesh lies under each texel of its UV chart.
 #pragma once
-#include "bake/picture/image.h"
 #include "bake/mesh/triangulate.h"
+#include "bake/picture/image.h"
 
 namespace bake {
 

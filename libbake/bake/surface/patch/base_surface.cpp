@@ -1,8 +1,8 @@
 #include "bake/surface/patch/base_surface.h"
 #include "bake/base/parallel.h"
-#include "bake/surface/point/curvature.h"
-#include "bake/surface/patch/mesh_patch.h"
 #include "bake/mesh/weld.h"
+#include "bake/surface/patch/mesh_patch.h"
+#include "bake/surface/point/curvature.h"
 #include <algorithm>
 #include <limits>
 #include <variant>
@@ -30,7 +30,8 @@ MeshBase make_mesh_base(const Mesh& mesh, Patches& patches) {
     patches.reserve(mesh.faces());
     const auto add = [&](const Corners& corners, std::uint32_t face) {
         PatchComplex::Patch patch{.face = face};
-        for (int k = 0; k < 4; ++k) patch.vertex[k] = corners[k] == no_index ? no_index : mesh.corner_position[corners[k]];
+        for (int k = 0; k < 4; ++k)
+            patch.vertex[k] = corners[k] == no_index ? no_index : mesh.corner_position[corners[k]];
         base.corners.push_back(corners);
         patches.push_back(patch);
     };
@@ -44,7 +45,8 @@ MeshBase make_mesh_base(const Mesh& mesh, Patches& patches) {
     return base;
 }
 
-void evaluate(const MeshBase& base, std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) noexcept {
+void evaluate(const MeshBase& base, std::uint32_t patch, std::span<const Vec2d> st,
+              std::span<SurfacePoint> out) noexcept {
     const MeshPatch p = mesh_patch(base.surface, base.corners[patch]);
     for (std::size_t i = 0; i < st.size(); ++i) out[i] = point_at(p, st[i].x, st[i].y);
 }
@@ -53,9 +55,9 @@ void evaluate(const MeshBase& base, std::uint32_t patch, std::span<const Vec2d> 
 
 struct LimitBase {
     SubdivisionSurface surface;
-    bool quarters = false;             ///< every quad of the cage is four patches
-    std::vector<std::uint32_t> limit;  ///< patches: that of the surface it lies in
-    std::vector<std::uint8_t> corner;  ///< patches: 0 for a whole one, 1 + k for the quarter at corner k
+    bool quarters = false;                        ///< every quad of the cage is four patches
+    std::vector<std::uint32_t> limit;             ///< patches: that of the surface it lies in
+    std::vector<std::uint8_t> corner;             ///< patches: 0 for a whole one, 1 + k for the quarter at corner k
     std::vector<std::uint8_t> extraordinary = {}; ///< patches: bit k for corner k
 };
 
@@ -63,7 +65,8 @@ struct LimitBase {
 std::vector<std::uint8_t> extraordinary_corners(const PatchComplex& complex) {
     std::vector<std::uint8_t> edge_patches(complex.edges, 0);
     for (const PatchComplex::Patch& patch : complex.patches)
-        for (int k = 0; k < patch.sides(); ++k) edge_patches[patch.edge[k]] = std::uint8_t(std::min(edge_patches[patch.edge[k]] + 1, 2));
+        for (int k = 0; k < patch.sides(); ++k)
+            edge_patches[patch.edge[k]] = std::uint8_t(std::min(edge_patches[patch.edge[k]] + 1, 2));
     std::vector<std::uint32_t> valence(complex.vertices, 0);
     std::vector<bool> inner(complex.vertices, true);
     for (const PatchComplex::Patch& patch : complex.patches)
@@ -113,7 +116,8 @@ LimitBase whole_patches(const Mesh& cage, SubdivisionSurface surface, Patches& p
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t face = base.surface.face(i), first = cage.face_begin[face];
         PatchComplex::Patch patch{.vertex = {no_index, no_index, no_index, no_index}, .face = face};
-        for (std::uint32_t k = 0; k < cage.face_begin[face + 1] - first; ++k) patch.vertex[k] = cage.corner_position[first + k];
+        for (std::uint32_t k = 0; k < cage.face_begin[face + 1] - first; ++k)
+            patch.vertex[k] = cage.corner_position[first + k];
         patches.push_back(patch);
         base.limit.push_back(i);
     }
@@ -138,8 +142,9 @@ LimitBase corner_patches(const Mesh& cage, SubdivisionSurface surface, Patches& 
         const bool quad = cage.face_begin[face + 1] - first == 4;
         for (std::uint32_t k = 0; k < (quad ? 4u : 1u); ++k) {
             const std::uint32_t c = first + (quad ? k : base.surface.corner(i));
-            patches.push_back({.vertex = {cage.corner_position[c], vertices + table.edge[c], vertices + table.edges + face,
-                                          vertices + table.edge[before[c]]}, .face = face});
+            patches.push_back({.vertex = {cage.corner_position[c], vertices + table.edge[c],
+                                          vertices + table.edges + face, vertices + table.edge[before[c]]},
+                               .face = face});
             base.limit.push_back(i);
             base.corner.push_back(std::uint8_t(quad ? 1 + k : 0));
         }
@@ -184,7 +189,8 @@ void turn(const Quarter& q, SurfacePoint& point) noexcept {
     along(point.uv_s, point.uv_t);
 }
 
-void evaluate(const LimitBase& base, bool quad, std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) noexcept {
+void evaluate(const LimitBase& base, bool quad, std::uint32_t patch, std::span<const Vec2d> st,
+              std::span<SurfacePoint> out) noexcept {
     const std::uint8_t extraordinary = base.extraordinary.empty() ? 0 : base.extraordinary[patch];
     const Quarter* quarter = base.corner[patch] == 0 ? nullptr : &quarter_at[base.corner[patch] - 1];
     LimitPoint points[chunk];
@@ -220,7 +226,8 @@ ShapeBase make_shape_base(const ParametricSurface& shape, int columns, int rows,
     return {shape, columns, rows};
 }
 
-void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) noexcept {
+void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d> st,
+              std::span<SurfacePoint> out) noexcept {
     const int cells = base.columns * base.rows, cell = int(patch) % cells;
     const double du = 1.0 / base.columns, dv = 1.0 / base.rows;
     for (std::size_t i = 0; i < st.size(); ++i) {
@@ -252,8 +259,10 @@ void BaseSurface::Base::hang_together(Patches patches) {
         for (auto i = begin; i < end; ++i) {
             SurfacePoint points[8];
             const std::span<const Vec2d> places(patches[i].sides() == 4 ? quad : triangle, 8);
-            if (const auto* limit = std::get_if<LimitBase>(&kind)) bake::evaluate(*limit, patches[i].sides() == 4, std::uint32_t(i), places, points);
-            if (const auto* shape = std::get_if<ShapeBase>(&kind)) bake::evaluate(*shape, std::uint32_t(i), places, points);
+            if (const auto* limit = std::get_if<LimitBase>(&kind))
+                bake::evaluate(*limit, patches[i].sides() == 4, std::uint32_t(i), places, points);
+            if (const auto* shape = std::get_if<ShapeBase>(&kind))
+                bake::evaluate(*shape, std::uint32_t(i), places, points);
             for (int k = 0; k < 8; ++k) values[8 * i + k] = {Vec3f(points[k].jet.n), points[k].uv};
         }
     });

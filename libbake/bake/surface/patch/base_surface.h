@@ -4,8 +4,8 @@
 #pragma once
 #include "bake/surface/analytic/parametric.h"
 #include "bake/surface/patch/patch_complex.h"
-#include "bake/surface/subdivision/subdivision.h"
 #include "bake/surface/point/surface_point.h"
+#include "bake/surface/subdivision/subdivision.h"
 
 namespace bake {
 

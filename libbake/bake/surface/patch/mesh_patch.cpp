@@ -63,7 +63,8 @@ SurfacePoint point_at(const MeshPatch& patch, double s, double t) noexcept {
         // What this patch alone says of them. In slivers of the chart it is far off, and n_u and n_v would be with it.
         const Vec3d p_s = mix(w.s, patch.p), p_t = mix(w.t, patch.p);
         const Vec3d own_u = (uv_t.y * p_s - uv_s.y * p_t) / area, own_v = (uv_s.x * p_t - uv_t.x * p_s) / area;
-        const bool sliver = glm::dot(own_u, own_u) > 16 * glm::dot(jet.p_u, jet.p_u) || glm::dot(own_v, own_v) > 16 * glm::dot(jet.p_v, jet.p_v);
+        const bool sliver = glm::dot(own_u, own_u) > 16 * glm::dot(jet.p_u, jet.p_u) ||
+                            glm::dot(own_v, own_v) > 16 * glm::dot(jet.p_v, jet.p_v);
         if (!sliver && sigma * glm::dot(glm::cross(jet.p_u, jet.p_v), jet.n) > 0) {
             jet.sigma = sigma;
             jet.n_u = (uv_t.y * n_s - uv_s.y * n_t) / area;

@@ -51,7 +51,8 @@ EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::fun
     std::vector<Spoke> spokes(first[vertices]);
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
     for (std::uint32_t side = 0; side < sides; ++side)
-        if (const SideEnds e = ends(side); e[0] != no_index) spokes[next[std::min(e[0], e[1])]++] = {std::max(e[0], e[1]), side};
+        if (const SideEnds e = ends(side); e[0] != no_index)
+            spokes[next[std::min(e[0], e[1])]++] = {std::max(e[0], e[1]), side};
 
     // `next` becomes the number of edges that start at a vertex.
     for_rows(vertices, grain, [&](std::int64_t begin, std::int64_t end) {
@@ -82,8 +83,8 @@ EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::fun
     return table;
 }
 
-PatchComplex make_complex(std::vector<PatchComplex::Patch> patches, const std::function<RimValue(std::uint32_t, int)>& rim,
-                          bool middles, double uv_tolerance) {
+PatchComplex make_complex(std::vector<PatchComplex::Patch> patches,
+                          const std::function<RimValue(std::uint32_t, int)>& rim, bool middles, double uv_tolerance) {
     PatchComplex complex;
     complex.patches = std::move(patches);
     complex.vertices = renumber(complex.patches);

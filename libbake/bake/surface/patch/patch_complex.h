@@ -11,9 +11,9 @@ namespace bake {
 struct PatchComplex {
     struct Patch {
         std::array<std::uint32_t, 4> vertex; ///< at the corners; the fourth no_index on a triangle
-        std::array<std::uint32_t, 4> edge;   ///< side i runs from corner i to the next; the fourth no_index on a triangle
-        std::array<bool, 4> reversed;        ///< the side runs against its edge
-        std::uint32_t face;                  ///< of the mesh they are of
+        std::array<std::uint32_t, 4> edge; ///< side i runs from corner i to the next; the fourth no_index on a triangle
+        std::array<bool, 4> reversed;      ///< the side runs against its edge
+        std::uint32_t face;                ///< of the mesh they are of
         int sides() const noexcept { return vertex[3] == no_index ? 3 : 4; }
     };
     std::vector<Patch> patches;
@@ -45,7 +45,7 @@ struct RimValue {
 /// The whole complex of patches whose vertices and faces are set; vertices are numbered anew, in order of first use.
 /// `rim` gives the value at corner k of a patch, and at the middle of side k - 4 where `middles` is set. uvs differ when
 /// they are more than `uv_tolerance` apart.
-PatchComplex make_complex(std::vector<PatchComplex::Patch> patches, const std::function<RimValue(std::uint32_t, int)>& rim,
-                          bool middles, double uv_tolerance);
+PatchComplex make_complex(std::vector<PatchComplex::Patch> patches,
+                          const std::function<RimValue(std::uint32_t, int)>& rim, bool middles, double uv_tolerance);
 
 } // namespace bake

@@ -19,7 +19,7 @@ std::uint32_t clamp(int sides, Vec2d& st) noexcept {
     const double* const beyond = sides == 4 ? quad : triangle;
     std::uint32_t worst = no_index;
     double most = 0;
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(sides); ++k)
+    for (std::uint32_t k = 0; k < std::uint32_t(sides); ++k)
         if (beyond[k] > most) worst = k, most = beyond[k];
     if (sides == 4) {
         st = {std::clamp(st.x, 0.0, 1.0), std::clamp(st.y, 0.0, 1.0)};
@@ -49,7 +49,7 @@ Vec2d on_side(int sides, std::uint32_t k, double x) noexcept {
 PatchLocator::PatchLocator(const BaseSurface& surface) : surface_(surface), sides_(surface.complex().edges) {
     const auto& patches = surface.complex().patches;
     for (std::uint32_t p = 0; p < patches.size(); ++p)
-        for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(patches[p].sides()); ++k) {
+        for (std::uint32_t k = 0; k < std::uint32_t(patches[p].sides()); ++k) {
             auto& both = sides_[patches[p].edge[k]];
             (both[0].patch == no_index ? both[0] : both[1]) = {p, k};
         }

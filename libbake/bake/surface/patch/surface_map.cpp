@@ -1,9 +1,9 @@
 #include "bake/surface/patch/surface_map.h"
-#include "bake/picture/pad_texels.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
-#include "bake/surface/patch/patch_locator.h"
+#include "bake/picture/pad_texels.h"
 #include "bake/surface/chart/uv_raster.h"
+#include "bake/surface/patch/patch_locator.h"
 #include <algorithm>
 #include <atomic>
 
@@ -64,20 +64,24 @@ Level needed(MapQuantity quantity) noexcept {
 }
 Image<unsigned char> owners(const Image<unsigned char>& level, Level least) {
     Image<unsigned char> out(level.width(), level.height(), 1);
-    std::transform(level.data(), level.data() + level.size(), out.data(), [&](unsigned char has) { return has >= least; });
+    std::transform(level.data(), level.data() + level.size(), out.data(),
+                   [&](unsigned char has) { return has >= least; });
     return out;
 }
 
 /// The point of the surface under a texel.
 class TexelFinder {
 public:
-    TexelFinder(const BaseSurface& surface, const SurfaceMesh& mesh) : surface_(surface), mesh_(mesh), locator_(surface) {}
+    TexelFinder(const BaseSurface& surface, const SurfaceMesh& mesh)
+        : surface_(surface), mesh_(mesh), locator_(surface) {}
 
     /// `hit` is where the mesh has the texel's centre, or the point of it nearest to the centre.
     Located find(const TexelHit& hit, const Vec2d& centre) const noexcept {
         const TrianglePlace& place = mesh_.places[hit.triangle];
         const double b1 = hit.b1, b2 = hit.b2;
-        const auto mix = [&](const Vec2d& a, const Vec2d& b, const Vec2d& c) { return (1 - b1 - b2) * a + b1 * b + b2 * c; };
+        const auto mix = [&](const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+            return (1 - b1 - b2) * a + b1 * b + b2 * c;
+        };
         const Vec2d st = mix(place.st[0], place.st[1], place.st[2]);
         if (mesh_.kind != SurfaceKind::mesh) return locator_.locate(centre, place.patch, st);
 
@@ -112,7 +116,8 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
     const int width = options.width, height = options.height;
     const UvRaster raster = uv_raster(mesh.mesh, mesh.triangles, width, height);
     if (raster.covered + raster.border == 0)
-        throw Error(Refusal::unsuitable, path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
+        throw Error(Refusal::unsuitable,
+                    path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
     std::vector<Image<float>> maps;
     for (const MapQuantity q : quantities) maps.emplace_back(width, height, channels(q));
     Image<unsigned char> level(width, height, 1);
@@ -120,37 +125,45 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
     // The point found is the centre's own up to the floats of the mesh's uvs.
     const double tolerance = mesh.kind == SurfaceKind::mesh ? 1e-6 : on_chart;
     std::atomic<std::int64_t> covered{0}, border{0}, degenerate{0};
-    std::vector<double> residuals(static_cast<std::size_t>(height), 0.0);
-    for_rows(height, 4, [&](std::int64_t begin, std::int64_t end) {
-        std::int64_t covered_here = 0, border_here = 0, degenerate_here = 0;
-        for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-            for (int x = 0; x < width; ++x) {
-                const TexelHit& hit = raster.hits.at(x, y);
-                SurfaceValues values;
-                const bool here = hit.triangle != no_index;
-                if (here) {
-                    const Vec2d centre((x + 0.5) / width, 1 - (y + 0.5) / height);
-                    const Located at = finder.find(hit, centre);
-                    values = surface_values(at.point, true);
-                    const bool inside = at.residual <= tolerance;
-                    ++(inside ? covered_here : border_here);
-                    double& worst = residuals[static_cast<std::size_t>(y)];
-                    if (inside) worst = std::max(worst, at.residual);
-                    degenerate_here += values.degenerate != Degenerate::none;
+    std::vector<double> residuals(std::size_t(height), 0.0);
+    for_rows(
+        height, 4,
+        [&](std::int64_t begin, std::int64_t end) {
+            std::int64_t covered_here = 0, border_here = 0, degenerate_here = 0;
+            for (auto y = int(begin); y < int(end); ++y)
+                for (int x = 0; x < width; ++x) {
+                    const TexelHit& hit = raster.hits.at(x, y);
+                    SurfaceValues values;
+                    const bool here = hit.triangle != no_index;
+                    if (here) {
+                        const Vec2d centre((x + 0.5) / width, 1 - (y + 0.5) / height);
+                        const Located at = finder.find(hit, centre);
+                        values = surface_values(at.point, true);
+                        const bool inside = at.residual <= tolerance;
+                        ++(inside ? covered_here : border_here);
+                        double& worst = residuals[std::size_t(y)];
+                        if (inside) worst = std::max(worst, at.residual);
+                        degenerate_here += values.degenerate != Degenerate::none;
+                    }
+                    level.at(x, y) = here ? level_of(values.degenerate) : nothing;
+                    for (std::size_t q = 0; q < maps.size(); ++q) write(quantities[q], values, &maps[q].at(x, y));
                 }
-                level.at(x, y) = here ? level_of(values.degenerate) : nothing;
-                for (std::size_t q = 0; q < maps.size(); ++q) write(quantities[q], values, &maps[q].at(x, y));
-            }
-        covered += covered_here, border += border_here, degenerate += degenerate_here;
-    }, progress);
-    report = {.covered = covered, .border = border, .overlapped = raster.overlapped, .degenerate = degenerate,
-              .outside_faces = raster.outside_faces, .crossing_faces = raster.crossing_faces,
+            covered += covered_here, border += border_here, degenerate += degenerate_here;
+        },
+        progress);
+    report = {.covered = covered,
+              .border = border,
+              .overlapped = raster.overlapped,
+              .degenerate = degenerate,
+              .outside_faces = raster.outside_faces,
+              .crossing_faces = raster.crossing_faces,
               .residual = *std::max_element(residuals.begin(), residuals.end())};
     Image<float> scratch(width, height, 1);
     std::fill_n(scratch.data(), scratch.size(), 0.0f);
     report.padded = pad_texels(scratch, owners(level, point), options.padding);
-    for (std::size_t q = 0; q < maps.size(); ++q) pad_texels(maps[q], owners(level, needed(quantities[q])), options.padding);
-    report.empty = static_cast<std::int64_t>(width) * height - report.covered - report.border - report.padded;
+    for (std::size_t q = 0; q < maps.size(); ++q)
+        pad_texels(maps[q], owners(level, needed(quantities[q])), options.padding);
+    report.empty = std::int64_t(width) * height - report.covered - report.border - report.padded;
     return maps;
 }
 

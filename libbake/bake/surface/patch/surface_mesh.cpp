@@ -1,8 +1,8 @@
 #include "bake/surface/patch/surface_mesh.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
-#include "bake/surface/point/curvature.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "bake/surface/point/curvature.h"
 
 namespace bake {
 
@@ -35,12 +35,18 @@ constexpr float same_normal = 1e-3f, same_uv = 1e-6f;
 
 constexpr Vec2d quad_corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle_corner[] = {{0, 0}, {1, 0}, {0, 1}};
 
-SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const Vec2d& st, const SurfacePoint& point) noexcept {
+SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const Vec2d& st,
+                        const SurfacePoint& point) noexcept {
     const bool has_uv = !surface.mesh().corner_uv.empty();
     SurfaceValues values = surface_values(point, has_uv);
-    const SurfaceSample sample{Vec3f(values.n), float(glm::length(values.p_u)), float(glm::length(values.p_v)),
-                               float(values.mean_curvature), float(values.gauss_curvature), values.degenerate};
-    if (point.curved && (values.degenerate == Degenerate::none || values.degenerate == Degenerate::no_chart)) return sample;
+    const SurfaceSample sample{Vec3f(values.n),
+                               float(glm::length(values.p_u)),
+                               float(glm::length(values.p_v)),
+                               float(values.mean_curvature),
+                               float(values.gauss_curvature),
+                               values.degenerate};
+    if (point.curved && (values.degenerate == Degenerate::none || values.degenerate == Degenerate::no_chart))
+        return sample;
     const bool quad = surface.complex().patches[patch].sides() == 4;
     const Vec2d middle(quad ? 0.5 : 1 / 3.0), inside = st + (middle - st) / 1024.0;
     SurfacePoint near;
@@ -59,7 +65,7 @@ template <class T> void keep_used(std::vector<T>& values, std::vector<std::uint3
     for (std::uint32_t& i : index) {
         if (i == no_index) continue;
         if (number[i] == no_index) {
-            number[i] = static_cast<std::uint32_t>(out.size());
+            number[i] = std::uint32_t(out.size());
             out.push_back(values[i]);
         }
         i = number[i];
@@ -105,15 +111,15 @@ void as_it_is(const BaseSurface& surface, SurfaceMesh& out) {
     }
     out.samples.resize(mesh.corners());
     out.corner_sample.resize(mesh.corners());
-    for_rows(static_cast<std::int64_t>(mesh.corners()), 1024, [&](std::int64_t begin, std::int64_t end) {
-        for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) {
+    for_rows(std::int64_t(mesh.corners()), 1024, [&](std::int64_t begin, std::int64_t end) {
+        for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
             SurfacePoint point;
             surface.evaluate(place[c].first, {&place[c].second, 1}, {&point, 1});
             out.samples[c] = sample_at(surface, place[c].first, place[c].second, point);
-            out.corner_sample[c] = static_cast<std::uint32_t>(c);
+            out.corner_sample[c] = std::uint32_t(c);
         }
     });
-    if (out.kind != SurfaceKind::mesh) return; // tessellate() has exact normals
+    if (out.kind != SurfaceKind::mesh) return;               // tessellate() has exact normals
     keep_used(out.mesh.positions, out.mesh.corner_position); // no more positions than corners are left
     const auto normal = [&](std::uint32_t c) { return out.samples[c].n; };
     out.mesh.corner_normal = first_alike(mesh.corners(), out.mesh.corner_position, 0, normal);
@@ -127,22 +133,24 @@ struct Lattice {
     int rate;
     bool quad;
     std::uint32_t size() const noexcept {
-        const auto n = static_cast<std::uint32_t>(rate + 1);
+        const auto n = std::uint32_t(rate + 1);
         return quad ? n * n : n * (n + 1) / 2;
     }
     std::uint32_t at(int i, int j) const noexcept {
-        return static_cast<std::uint32_t>(quad ? j * (rate + 1) + i : j * (rate + 1) - j * (j - 1) / 2 + i);
+        return std::uint32_t(quad ? j * (rate + 1) + i : j * (rate + 1) - j * (j - 1) / 2 + i);
     }
     int row_length(int j) const noexcept { return quad ? rate + 1 : rate + 1 - j; }
     /// Point k of side `side`.
     std::uint32_t on_side(int side, int k) const noexcept {
-        if (quad) return side == 0 ? at(k, 0) : side == 1 ? at(rate, k) : side == 2 ? at(rate - k, rate) : at(0, rate - k);
+        if (quad)
+            return side == 0 ? at(k, 0) : side == 1 ? at(rate, k) : side == 2 ? at(rate - k, rate) : at(0, rate - k);
         return side == 0 ? at(k, 0) : side == 1 ? at(rate - k, k) : at(0, rate - k);
     }
 };
 
 /// Per lattice point of every patch, the first one that is the same point of the surface.
-std::vector<std::uint32_t> first_points(const PatchComplex& complex, const std::vector<std::uint32_t>& begin, int rate) {
+std::vector<std::uint32_t> first_points(const PatchComplex& complex, const std::vector<std::uint32_t>& begin,
+                                        int rate) {
     std::vector<std::uint32_t> first(begin.back());
     for (std::uint32_t i = 0; i < begin.back(); ++i) first[i] = i;
     std::vector<std::uint32_t> vertex(complex.vertices, no_index), edge(complex.edges, no_index);
@@ -151,21 +159,21 @@ std::vector<std::uint32_t> first_points(const PatchComplex& complex, const std::
         const Lattice lattice{rate, patch.sides() == 4};
         for (int side = 0; side < patch.sides(); ++side) {
             const std::uint32_t corner = begin[p] + lattice.on_side(side, 0);
-            std::uint32_t& at_vertex = vertex[patch.vertex[static_cast<std::size_t>(side)]];
+            std::uint32_t& at_vertex = vertex[patch.vertex[std::size_t(side)]];
             if (at_vertex == no_index) at_vertex = corner;
             first[corner] = at_vertex;
             // Side `side` of patch `owner` was the first on this edge.
-            std::uint32_t& owner = edge[patch.edge[static_cast<std::size_t>(side)]];
+            std::uint32_t& owner = edge[patch.edge[std::size_t(side)]];
             if (owner == no_index) {
-                owner = 4 * p + static_cast<std::uint32_t>(side);
+                owner = 4 * p + std::uint32_t(side);
                 continue;
             }
             const PatchComplex::Patch& other = complex.patches[owner / 4];
             const Lattice others{rate, other.sides() == 4};
-            const bool against = patch.reversed[static_cast<std::size_t>(side)] != other.reversed[owner % 4];
+            const bool against = patch.reversed[std::size_t(side)] != other.reversed[owner % 4];
             for (int k = 1; k < rate; ++k)
                 first[begin[p] + lattice.on_side(side, k)] =
-                    begin[owner / 4] + others.on_side(static_cast<int>(owner % 4), against ? rate - k : k);
+                    begin[owner / 4] + others.on_side(int(owner % 4), against ? rate - k : k);
         }
     }
     return first;
@@ -178,8 +186,8 @@ void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progr
     double total = 0;
     for (const auto& patch : complex.patches) total += patch.sides() == 4 ? 4.0 * rate * rate : 3.0 * rate * rate;
     if (total + double(complex.patches.size()) * 4 * rate > 4e9)
-        throw Error{Refusal::unsuitable, "the limit surface: " + std::to_string(complex.patches.size()) + " patches of " +
-                                             std::to_string(rate) + " x " + std::to_string(rate) +
+        throw Error{Refusal::unsuitable, "the limit surface: " + std::to_string(complex.patches.size()) +
+                                             " patches of " + std::to_string(rate) + " x " + std::to_string(rate) +
                                              " cells are more than a mesh can have; take a lower --resolution"};
     std::vector<std::uint32_t> begin{0};
     for (const auto& patch : complex.patches) begin.push_back(begin.back() + Lattice{rate, patch.sides() == 4}.size());
@@ -188,22 +196,25 @@ void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progr
     mesh.positions.resize(begin.back());
     mesh.uvs.resize(has_uv ? begin.back() : 0);
     out.samples.resize(begin.back());
-    for_rows(static_cast<std::int64_t>(complex.patches.size()), 4, [&](std::int64_t from, std::int64_t to) {
-        std::vector<SurfacePoint> points;
-        for (auto p = static_cast<std::uint32_t>(from); p < static_cast<std::uint32_t>(to); ++p) {
-            const Lattice lattice{rate, complex.patches[p].sides() == 4};
-            points.resize(lattice.size());
-            surface.evaluate_lattice(p, rate, points);
-            for (int j = 0; j <= rate; ++j)
-                for (int i = 0; i < lattice.row_length(j); ++i) {
-                    const SurfacePoint& point = points[lattice.at(i, j)];
-                    const std::uint32_t at = begin[p] + lattice.at(i, j);
-                    mesh.positions[at] = Vec3f(point.jet.p);
-                    if (has_uv) mesh.uvs[at] = Vec2f(point.uv);
-                    out.samples[at] = sample_at(surface, p, Vec2d(double(i) / rate, double(j) / rate), point);
-                }
-        }
-    }, progress);
+    for_rows(
+        std::int64_t(complex.patches.size()), 4,
+        [&](std::int64_t from, std::int64_t to) {
+            std::vector<SurfacePoint> points;
+            for (auto p = std::uint32_t(from); p < std::uint32_t(to); ++p) {
+                const Lattice lattice{rate, complex.patches[p].sides() == 4};
+                points.resize(lattice.size());
+                surface.evaluate_lattice(p, rate, points);
+                for (int j = 0; j <= rate; ++j)
+                    for (int i = 0; i < lattice.row_length(j); ++i) {
+                        const SurfacePoint& point = points[lattice.at(i, j)];
+                        const std::uint32_t at = begin[p] + lattice.at(i, j);
+                        mesh.positions[at] = Vec3f(point.jet.p);
+                        if (has_uv) mesh.uvs[at] = Vec2f(point.uv);
+                        out.samples[at] = sample_at(surface, p, Vec2d(double(i) / rate, double(j) / rate), point);
+                    }
+            }
+        },
+        progress);
 
     // Points that are one share what is equal up to rounding.
     const std::vector<std::uint32_t> first = first_points(complex, begin, rate);
@@ -227,7 +238,7 @@ void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progr
                 if (has_uv) mesh.corner_uv.push_back(uv[at]);
                 out.corner_sample.push_back(at);
             }
-            mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+            mesh.face_begin.push_back(std::uint32_t(mesh.corner_position.size()));
             if (!cage.face_material.empty()) mesh.face_material.push_back(cage.face_material[patch.face]);
             if (!cage.face_group.empty()) mesh.face_group.push_back(cage.face_group[patch.face]);
         };

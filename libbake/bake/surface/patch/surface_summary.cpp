@@ -54,7 +54,7 @@ SurfaceSummary summarise(const SurfaceMesh& surface) {
         for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
             Degenerate what = surface.samples[surface.corner_sample[c]].degenerate;
             if (tip[mesh.corner_position[c]] && what == Degenerate::pole) what = Degenerate::without_normal;
-            const auto bit = static_cast<unsigned char>(1u << static_cast<unsigned>(what));
+            const auto bit = static_cast<unsigned char>(1u << unsigned(what));
             unsigned char& here = seen[mesh.corner_position[c]];
             if (what == Degenerate::none || (here & bit)) continue;
             here |= bit;

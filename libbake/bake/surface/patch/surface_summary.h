@@ -18,10 +18,10 @@ struct DegeneratePoint {
 
 struct SurfaceSummary {
     ValueRange x, y, z;
-    ValueRange length_u, length_v;               ///< |p_u|, |p_v|, where the chart has area
-    ValueRange mean_curvature, gauss_curvature;  ///< where there is a tangent plane
-    double area = 0;                             ///< of the mesh's triangles
-    std::vector<DegeneratePoint> degenerate;     ///< one per position and kind, in order of the corners
+    ValueRange length_u, length_v;              ///< |p_u|, |p_v|, where the chart has area
+    ValueRange mean_curvature, gauss_curvature; ///< where there is a tangent plane
+    double area = 0;                            ///< of the mesh's triangles
+    std::vector<DegeneratePoint> degenerate;    ///< one per position and kind, in order of the corners
 };
 
 SurfaceSummary summarise(const SurfaceMesh& surface);

@@ -23,8 +23,12 @@ template <class T> Jet<T> jet_of(const Jet2<T>& s, T outward) noexcept {
 template <class T> Forms<T> forms(const Jet<T>& s) noexcept {
     if (s.sigma == T(0)) return {};
     // The two ways to say M agree for exact jets; those of meshes are interpolated.
-    return {glm::dot(s.p_u, s.p_u), glm::dot(s.p_u, s.p_v), glm::dot(s.p_v, s.p_v), glm::dot(s.n_u, s.p_u),
-            (glm::dot(s.n_u, s.p_v) + glm::dot(s.n_v, s.p_u)) / 2, glm::dot(s.n_v, s.p_v)};
+    return {glm::dot(s.p_u, s.p_u),
+            glm::dot(s.p_u, s.p_v),
+            glm::dot(s.p_v, s.p_v),
+            glm::dot(s.n_u, s.p_u),
+            (glm::dot(s.n_u, s.p_v) + glm::dot(s.n_v, s.p_u)) / 2,
+            glm::dot(s.n_v, s.p_v)};
 }
 
 template <class T> Curvature<T> curvature(const Jet<T>& s) noexcept {

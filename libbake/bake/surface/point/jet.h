@@ -13,8 +13,6 @@ template <class T> struct Jet {
 };
 
 /// Point and derivatives up to the second along u and v: what curvature needs.
-template <class T> struct Jet2 {
-    Vec3<T> p, p_u, p_v, p_uu, p_uv, p_vv;
-};
+template <class T> struct Jet2 { Vec3<T> p, p_u, p_v, p_uu, p_uv, p_vv; };
 
 } // namespace bake

@@ -15,7 +15,8 @@ struct SurfacePoint {
     Jet<double> jet;
     Vec2d uv{0};            ///< zero without uvs
     Vec2d uv_s{0}, uv_t{0}; ///< derivatives of uv along the jet's first and second parameter
-    bool curved = true;     ///< false at an extraordinary vertex of a limit: curvature has no limit, n_u and n_v hold nothing
+    bool curved =
+        true; ///< false at an extraordinary vertex of a limit: curvature has no limit, n_u and n_v hold nothing
 };
 
 } // namespace bake

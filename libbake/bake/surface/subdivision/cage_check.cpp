@@ -28,8 +28,7 @@ public:
 
     void sizes(Scheme scheme) const {
         // The limits of OpenSubdiv's own integers: 28 bits for patches, 16 for what meets in a face or at a vertex.
-        if (cage_.corners() >= std::size_t(1) << 28)
-            refuse("the cage has more than 2^28 corners", "split it");
+        if (cage_.corners() >= std::size_t(1) << 28) refuse("the cage has more than 2^28 corners", "split it");
         std::vector<Index> valence(cage_.positions.size(), 0);
         for (Index f = 0; f < cage_.faces(); ++f) {
             const Index size = cage_.face_begin[f + 1] - cage_.face_begin[f];
@@ -73,7 +72,8 @@ public:
             if (std::equal(p.begin(), p.end(), q.begin(), q.end())) first = std::min(first, {order[i], order[i - 1]});
         }
         if (first.first != no_index)
-            refuse(face(first.second) + " and " + face(first.first) + " lie on the same vertices", "remove one of them");
+            refuse(face(first.second) + " and " + face(first.first) + " lie on the same vertices",
+                   "remove one of them");
     }
 
     void edges() {
@@ -82,7 +82,8 @@ public:
         Index at = no_index;
         std::size_t begin_at = 0;
         for_edges([&](std::size_t begin, std::size_t end) {
-            const bool good = end - begin == 1 || (end - begin == 2 && half_[begin].forward != half_[begin + 1].forward);
+            const bool good =
+                end - begin == 1 || (end - begin == 2 && half_[begin].forward != half_[begin + 1].forward);
             if (good || half_[begin].corner >= at) return;
             at = half_[begin].corner;
             begin_at = begin;

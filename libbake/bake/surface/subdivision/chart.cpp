@@ -34,10 +34,11 @@ Jet2<double> chart_derivatives(const LimitPoint& point) noexcept {
     jet.p_v = chart.s_v * point.p_s + chart.t_v * point.p_t;
     // What of p's second derivatives is not due to the chart's own bend.
     const auto bend = [&](const Vec3d& p, const Vec2d& uv) { return p - uv.x * jet.p_u - uv.y * jet.p_v; };
-    const Vec3d ss = bend(point.p_ss, point.uv_ss), st = bend(point.p_st, point.uv_st), tt = bend(point.p_tt, point.uv_tt);
+    const Vec3d ss = bend(point.p_ss, point.uv_ss), st = bend(point.p_st, point.uv_st),
+                tt = bend(point.p_tt, point.uv_tt);
     jet.p_uu = chart.s_u * chart.s_u * ss + 2 * chart.s_u * chart.t_u * st + chart.t_u * chart.t_u * tt;
-    jet.p_uv = chart.s_u * chart.s_v * ss + (chart.s_u * chart.t_v + chart.s_v * chart.t_u) * st +
-               chart.t_u * chart.t_v * tt;
+    jet.p_uv =
+        chart.s_u * chart.s_v * ss + (chart.s_u * chart.t_v + chart.s_v * chart.t_u) * st + chart.t_u * chart.t_v * tt;
     jet.p_vv = chart.s_v * chart.s_v * ss + 2 * chart.s_v * chart.t_v * st + chart.t_v * chart.t_v * tt;
     return jet;
 }

@@ -29,8 +29,9 @@ void interpolate(const Terms& terms, std::vector<double>& values, int points) {
     std::vector<double> a(std::size_t(n * n));
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
-            a[std::size_t(i * n + j)] = std::pow(terms.places[std::size_t(i)].x, terms.exponents[std::size_t(j)].first) *
-                                        std::pow(terms.places[std::size_t(i)].y, terms.exponents[std::size_t(j)].second);
+            a[std::size_t(i * n + j)] =
+                std::pow(terms.places[std::size_t(i)].x, terms.exponents[std::size_t(j)].first) *
+                std::pow(terms.places[std::size_t(i)].y, terms.exponents[std::size_t(j)].second);
     const auto at = [n](int i, int j) { return std::size_t(i * n + j); };
     for (int k = 0; k < n; ++k) {
         int pivot = k;
@@ -54,18 +55,15 @@ void interpolate(const Terms& terms, std::vector<double>& values, int points) {
 // B-splines and box-splines, from Far's own weights at the places. Their coefficients are whole multiples of 1/36 and
 // 1/12: rounding to those takes away the elimination's noise.
 Conversion spline_conversion(const Terms& terms, bool triangles, const Far::PatchTable& table,
-                             const Far::PatchTable::PatchHandle& handle, const Far::PatchParam& param, bool face_varying) {
+                             const Far::PatchTable::PatchHandle& handle, const Far::PatchParam& param,
+                             bool face_varying) {
     Conversion conversion{triangles ? 12 : 16, {}};
     for (const Vec2d& place : terms.places) {
         double s = place.x, t = place.y, weights[20] = {};
-        if (triangles)
-            param.UnnormalizeTriangle(s, t);
-        else
-            param.Unnormalize(s, t);
-        if (face_varying)
-            table.EvaluateBasisFaceVarying(handle, s, t, weights);
-        else
-            table.EvaluateBasis(handle, s, t, weights);
+        if (triangles) param.UnnormalizeTriangle(s, t);
+        else param.Unnormalize(s, t);
+        if (face_varying) table.EvaluateBasisFaceVarying(handle, s, t, weights);
+        else table.EvaluateBasis(handle, s, t, weights);
         conversion.weight.insert(conversion.weight.end(), weights, weights + conversion.points);
     }
     interpolate(terms, conversion.weight, conversion.points);
@@ -115,11 +113,12 @@ Conversion gregory_conversion(const Terms& terms, bool triangles) {
                 const auto [m, n] = terms.exponents[std::size_t(term)];
                 if (m < i || n < j) continue;
                 const double sign = (m - i + n - j) % 2 ? -1 : 1;
-                const double weight =
-                    triangles ? sign * binomial(degree, i) * binomial(degree - i, j) * binomial(degree - i - j, m - i) *
-                                    binomial(degree - m - j, n - j)
-                              : sign * binomial(3, i) * binomial(3 - i, m - i) * binomial(3, j) * binomial(3 - j, n - j);
-                for (int k = 0; k < 2; ++k) conversion.weight[std::size_t(term * conversion.points + pair[k])] += weight / 2;
+                const double weight = triangles ? sign * binomial(degree, i) * binomial(degree - i, j) *
+                                                      binomial(degree - i - j, m - i) * binomial(degree - m - j, n - j)
+                                                : sign * binomial(3, i) * binomial(3 - i, m - i) * binomial(3, j) *
+                                                      binomial(3 - j, n - j);
+                for (int k = 0; k < 2; ++k)
+                    conversion.weight[std::size_t(term * conversion.points + pair[k])] += weight / 2;
             }
         }
     return conversion;
@@ -135,7 +134,7 @@ const Conversion& Conversions::of(int array, int patch, int index, bool face_var
     const Far::PatchDescriptor own = table_.GetPatchArrayDescriptor(array);
     const Far::PatchParam param =
         face_varying ? table_.GetPatchFVarPatchParam(array, patch, 0) : table_.GetPatchParam(array, patch);
-    const Far::PatchDescriptor of = !face_varying        ? own
+    const Far::PatchDescriptor of = !face_varying       ? own
                                     : param.IsRegular() ? table_.GetFVarPatchDescriptorRegular(0)
                                                         : table_.GetFVarPatchDescriptorIrregular(0);
     switch (of.GetType()) {

@@ -78,7 +78,8 @@ template <int Degree, int Begin, int End> void horner(const Row<Degree>& row, do
     }
 }
 
-template <int Degree, Derivatives Order, bool Uv> void point_of(const Row<Degree>& row, double a, LimitPoint& point) noexcept {
+template <int Degree, Derivatives Order, bool Uv>
+void point_of(const Row<Degree>& row, double a, LimitPoint& point) noexcept {
     constexpr int vectors = Order == Derivatives::none ? 1 : Order == Derivatives::first ? 3 : 6;
     double* out = &point.p.x;
     if constexpr (Uv && Order == Derivatives::second) {
@@ -86,10 +87,8 @@ template <int Degree, Derivatives Order, bool Uv> void point_of(const Row<Degree
         return;
     }
     horner<Degree, 0, 3 * vectors>(row, a, out);
-    if constexpr (Uv)
-        horner<Degree, uv_begin, uv_begin + 2 * vectors>(row, a, out);
-    else
-        std::fill(out + uv_begin, out + uv_begin + 2 * vectors, 0.0);
+    if constexpr (Uv) horner<Degree, uv_begin, uv_begin + 2 * vectors>(row, a, out);
+    else std::fill(out + uv_begin, out + uv_begin + 2 * vectors, 0.0);
 }
 
 template <int Degree, Derivatives Order, bool Uv>
@@ -129,7 +128,8 @@ int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps
 }
 
 template <int Degree, Derivatives Order, bool Uv>
-void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, LimitPoint* out) noexcept {
+void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end,
+          LimitPoint* out) noexcept {
     const std::int32_t root = limit.patches[patch].root;
     const double steps = rate;
     Row<Degree> row;
@@ -174,8 +174,8 @@ void evaluate(const LimitPatches& limit, std::uint32_t patch, std::span<const Ve
     });
 }
 
-void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
-                   std::span<LimitPoint> out) noexcept {
+void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end,
+                   Derivatives order, std::span<LimitPoint> out) noexcept {
     assert(patch < limit.patches.size() && rate > 0 && row_begin >= 0 && row_end <= rate + 1);
     choose(limit, order, [&](auto degree, auto derivatives, auto uvs) {
         rows<degree(), derivatives(), uvs()>(limit, patch, rate, row_begin, row_end, out.data());

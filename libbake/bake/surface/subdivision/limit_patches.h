@@ -57,7 +57,7 @@ inline int step_into_child(bool triangles, double& s, double& t) noexcept {
 /// SubdivisionSurface's functions of the same names.
 void evaluate(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
               std::span<LimitPoint> out) noexcept;
-void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end, Derivatives order,
-                   std::span<LimitPoint> out) noexcept;
+void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end,
+                   Derivatives order, std::span<LimitPoint> out) noexcept;
 
 } // namespace bake

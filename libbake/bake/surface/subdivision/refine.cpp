@@ -1,6 +1,6 @@
-#include "bake/surface/subdivision/subdivision.h"
 #include "bake/base/error.h"
 #include "bake/surface/subdivision/refiner.h"
+#include "bake/surface/subdivision/subdivision.h"
 #include <cassert>
 #include <new>
 #include <opensubdiv/far/primvarRefiner.h>
@@ -24,15 +24,14 @@ void keep_tags(const Far::TopologyLevel& level, SubdivisionTags& tags) {
 
 // Values of the last level, each level from the one before.
 template <class V>
-std::vector<Weighed<V>> last_values(const Far::TopologyRefiner& refiner, std::vector<Weighed<V>> values, bool face_varying) {
+std::vector<Weighed<V>> last_values(const Far::TopologyRefiner& refiner, std::vector<Weighed<V>> values,
+                                    bool face_varying) {
     const Far::PrimvarRefinerReal<double> primvars(refiner);
     for (int i = 1; i <= refiner.GetMaxLevel(); ++i) {
         const Far::TopologyLevel& level = refiner.GetLevel(i);
         std::vector<Weighed<V>> next(std::size_t(face_varying ? level.GetNumFVarValues(0) : level.GetNumVertices()));
-        if (face_varying)
-            primvars.InterpolateFaceVarying(i, values, next, 0);
-        else
-            primvars.Interpolate(i, values, next);
+        if (face_varying) primvars.InterpolateFaceVarying(i, values, next, 0);
+        else primvars.Interpolate(i, values, next);
         values = std::move(next);
     }
     return values;
@@ -40,7 +39,8 @@ std::vector<Weighed<V>> last_values(const Far::TopologyRefiner& refiner, std::ve
 
 Mesh refined(const Mesh& cage, const SubdivisionOptions& options, int levels) {
     UvValues uvs = uv_values(cage);
-    const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(refiner_input(cage, uvs), cage.tags.boundary, options);
+    const std::unique_ptr<Far::TopologyRefiner> refiner =
+        make_refiner(refiner_input(cage, uvs), cage.tags.boundary, options);
     Far::TopologyRefiner::UniformOptions uniform(levels);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);
@@ -84,7 +84,8 @@ Mesh refine(const Mesh& cage, const SubdivisionOptions& options, int levels) {
         return refined(cage, options, levels);
     } catch (const std::bad_alloc&) {
         throw Error(Refusal::unsuitable, "a cage of " + std::to_string(cage.faces()) + " faces refined " +
-                                             std::to_string(levels) + " times needs more memory than there is; use fewer levels");
+                                             std::to_string(levels) +
+                                             " times needs more memory than there is; use fewer levels");
     }
 }
 

@@ -32,7 +32,8 @@ RefinerInput refiner_input(const Mesh& cage, const UvValues& uvs) {
     RefinerInput input;
     input.positions = int(cage.positions.size());
     input.uvs = int(uvs.values.size());
-    for (std::size_t f = 0; f < cage.faces(); ++f) input.sizes.push_back(int(cage.face_begin[f + 1] - cage.face_begin[f]));
+    for (std::size_t f = 0; f < cage.faces(); ++f)
+        input.sizes.push_back(int(cage.face_begin[f + 1] - cage.face_begin[f]));
     input.corner_position.assign(cage.corner_position.begin(), cage.corner_position.end());
     input.corner_uv = uvs.corner;
     for (const SubdivisionTags::Crease& crease : cage.tags.creases) {
@@ -46,8 +47,9 @@ RefinerInput refiner_input(const Mesh& cage, const UvValues& uvs) {
     return input;
 }
 
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>
-make_refiner(const RefinerInput& input, SubdivisionTags::Boundary boundary, const SubdivisionOptions& options) {
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const RefinerInput& input,
+                                                               SubdivisionTags::Boundary boundary,
+                                                               const SubdivisionOptions& options) {
     using namespace OpenSubdiv;
     Far::TopologyDescriptor cage;
     cage.numVertices = input.positions;

@@ -32,7 +32,8 @@ struct RefinerInput {
 RefinerInput refiner_input(const Mesh& cage, const UvValues& uvs);
 
 /// Not yet refined; uvs are face-varying channel 0.
-std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>
-make_refiner(const RefinerInput& input, SubdivisionTags::Boundary boundary, const SubdivisionOptions& options);
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const RefinerInput& input,
+                                                               SubdivisionTags::Boundary boundary,
+                                                               const SubdivisionOptions& options);
 
 } // namespace bake

@@ -1,10 +1,10 @@
 #include "bake/surface/subdivision/stage.h"
+#include "bake/base/vec.h"
 #include "bake/surface/subdivision/conversion.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
@@ -51,11 +51,11 @@ struct Stage {
     std::unique_ptr<Far::TopologyRefiner> refiner;
     std::vector<Weighed<Vec3d>> points;
     std::vector<Weighed<Vec2d>> uvs;
-    std::vector<Place> places;   ///< of each patch of level 0, as Far numbers them
-    std::vector<int> first;      ///< of each face of level 0: its first place
-    std::vector<int> faces;      ///< those to make patches of; none: all
-    int levels = 0; ///< that this stage splits
-    int level = 0;  ///< down to which that leads
+    std::vector<Place> places; ///< of each patch of level 0, as Far numbers them
+    std::vector<int> first;    ///< of each face of level 0: its first place
+    std::vector<int> faces;    ///< those to make patches of; none: all
+    int levels = 0;            ///< that this stage splits
+    int level = 0;             ///< down to which that leads
 };
 
 Stage first_stage(const Mesh& cage, const SubdivisionOptions& options, LimitPatches& limit) {
@@ -108,10 +108,8 @@ std::vector<Weighed<V>> refine_points(const Far::TopologyRefiner& refiner, std::
     for (int level = 1; level <= refiner.GetMaxLevel(); ++level) {
         const Far::TopologyLevel& above = refiner.GetLevel(level - 1);
         Weighed<V>* to = from + (face_varying ? above.GetNumFVarValues(0) : above.GetNumVertices());
-        if (face_varying)
-            primvars.InterpolateFaceVarying(level, from, to, 0);
-        else
-            primvars.Interpolate(level, from, to);
+        if (face_varying) primvars.InterpolateFaceVarying(level, from, to, 0);
+        else primvars.Interpolate(level, from, to);
         from = to;
     }
     if (own > 0) ends->UpdateValues(points.data(), points.data() + total);
@@ -152,12 +150,10 @@ std::vector<Place> last_places(const Stage& stage, bool triangles) {
             for (int k = 0; k < children.size(); ++k) {
                 if (children[k] < 0) continue;
                 Place& child = next[std::size_t(children[k])];
-                if (level > 0)
-                    child = within(places[std::size_t(f)], child_place(triangles, k));
+                if (level > 0) child = within(places[std::size_t(f)], child_place(triangles, k));
                 else if (whole)
                     child = within(stage.places[std::size_t(stage.first[std::size_t(f)])], child_place(triangles, k));
-                else
-                    child = stage.places[std::size_t(stage.first[std::size_t(f)] + k)];
+                else child = stage.places[std::size_t(stage.first[std::size_t(f)] + k)];
             }
         }
         places = std::move(next);
@@ -190,7 +186,7 @@ double turn_deg(const Far::TopologyLevel& level, int face, const Weighed<Vec3d>*
             const Vec3d other = normal(f);
             most = std::max(most, std::atan2(glm::length(glm::cross(own, other)), glm::dot(own, other)));
         }
-    return most * 180 / std::numbers::pi;
+    return most * 180 / pi;
 }
 
 // What is small enough not to be split on.
@@ -204,7 +200,9 @@ struct Enough {
 // in the table; -1 for patches that become leaves.
 std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table, const std::vector<Place>& places,
                                 const std::vector<Weighed<Vec3d>>& points, const Enough& enough, bool triangles) {
-    const auto key = [](const Place& place) { return std::tuple(place.patch, place.leaf.origin.x, place.leaf.origin.y); };
+    const auto key = [](const Place& place) {
+        return std::tuple(place.patch, place.leaf.origin.x, place.leaf.origin.y);
+    };
     std::vector<int> by_key(places.size());
     std::iota(by_key.begin(), by_key.end(), 0);
     std::sort(by_key.begin(), by_key.end(),
@@ -220,9 +218,8 @@ std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table
             if (!is_irregular(table, array)) continue;
             const Far::PatchParam param = table.GetPatchParam(array, i);
             const Place place = within(stage.places[std::size_t(param.GetFaceId())], place_of(param, triangles));
-            const auto found = std::lower_bound(by_key.begin(), by_key.end(), key(place), [&](int f, const auto& k) {
-                return key(places[std::size_t(f)]) < k;
-            });
+            const auto found = std::lower_bound(by_key.begin(), by_key.end(), key(place),
+                                                [&](int f, const auto& k) { return key(places[std::size_t(f)]) < k; });
             assert(found != by_key.end() && key(places[std::size_t(*found)]) == key(place));
             faces.back() = *found;
             const Far::ConstIndexArray corners = last.GetFaceVertices(*found);
@@ -237,7 +234,8 @@ std::vector<int> faces_to_split(const Stage& stage, const Far::PatchTable& table
     for (int& f : faces) {
         if (f < 0) continue;
         const Far::ConstIndexArray corners = last.GetFaceVertices(f);
-        if (std::none_of(corners.begin(), corners.end(), [&](Far::Index v) { return large_at[std::size_t(v)]; })) f = -1;
+        if (std::none_of(corners.begin(), corners.end(), [&](Far::Index v) { return large_at[std::size_t(v)]; }))
+            f = -1;
     }
     return faces;
 }
@@ -380,19 +378,20 @@ void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatc
     const double size = diagonal(bounds(cage));
     for (int sharp = sharp_levels(cage.tags);; sharp = 0) {
         const auto table = split(stage, limit.has_uv, sharp);
-        const auto points = refine_points(*stage.refiner, std::move(stage.points),
-                                          table->GetLocalPointStencilTable<double>(), false);
+        const auto points =
+            refine_points(*stage.refiner, std::move(stage.points), table->GetLocalPointStencilTable<double>(), false);
         std::vector<Weighed<Vec2d>> uvs;
         if (limit.has_uv)
-            uvs = refine_points(*stage.refiner, std::move(stage.uvs), table->GetLocalPointFaceVaryingStencilTable<double>(0),
-                                true);
+            uvs = refine_points(*stage.refiner, std::move(stage.uvs),
+                                table->GetLocalPointFaceVaryingStencilTable<double>(0), true);
         const int next_level = stage.level + further_levels;
         const bool may_go_on = options.isolation == stage_levels && next_level <= most_turning_levels;
         std::vector<int> split_on;
         std::vector<Place> places;
         if (may_go_on && has_irregular(*table)) {
             places = last_places(stage, limit.triangles);
-            const Enough enough{next_level <= most_levels ? smallest_irregular * size : HUGE_VAL, smallest_turning * size};
+            const Enough enough{next_level <= most_levels ? smallest_irregular * size : HUGE_VAL,
+                                smallest_turning * size};
             split_on = faces_to_split(stage, *table, places, points, enough, limit.triangles);
         }
         add_leaves(stage, *table, points, uvs, split_on, limit);

@@ -15,8 +15,8 @@ inline constexpr double smallest_irregular = 1e-6; ///< of the diagonal: smaller
 // But where the normal still turns in one so small. It does at high valences (from 10 on under Loop, 8 under
 // Catmull-Clark), whose second eigenvalue is close to the first: by a factor of only .78 less per level at Loop's 10.
 inline constexpr int most_turning_levels = 38;
-inline constexpr double most_turn_deg = 0.01;           ///< between its facet and those beside it
-inline constexpr double smallest_turning = 5e-9;        ///< of the diagonal: below, it is soon rounding that turns
+inline constexpr double most_turn_deg = 0.01;    ///< between its facet and those beside it
+inline constexpr double smallest_turning = 5e-9; ///< of the diagonal: below, it is soon rounding that turns
 
 /// All patches of a cage, with `options.isolation` levels.
 void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatches& limit);

@@ -16,16 +16,21 @@ SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOption
     try {
         make_patches(cage, options, limit_->patches);
     } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, "the subdivision surface needs more memory than there is; use a smaller cage or "
-                                         "fewer semi-sharp creases");
+        throw Error(Refusal::unsuitable,
+                    "the subdivision surface needs more memory than there is; use a smaller cage or "
+                    "fewer semi-sharp creases");
     }
 }
 SubdivisionSurface::~SubdivisionSurface() = default;
 SubdivisionSurface::SubdivisionSurface(SubdivisionSurface&&) noexcept = default;
 
 std::uint32_t SubdivisionSurface::patches() const noexcept { return std::uint32_t(limit_->patches.patches.size()); }
-std::uint32_t SubdivisionSurface::face(std::uint32_t patch) const noexcept { return limit_->patches.patches[patch].face; }
-std::uint32_t SubdivisionSurface::corner(std::uint32_t patch) const noexcept { return limit_->patches.patches[patch].corner; }
+std::uint32_t SubdivisionSurface::face(std::uint32_t patch) const noexcept {
+    return limit_->patches.patches[patch].face;
+}
+std::uint32_t SubdivisionSurface::corner(std::uint32_t patch) const noexcept {
+    return limit_->patches.patches[patch].corner;
+}
 bool SubdivisionSurface::has_uv() const noexcept { return limit_->patches.has_uv; }
 
 void SubdivisionSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,

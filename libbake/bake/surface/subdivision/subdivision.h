@@ -35,7 +35,8 @@ public:
     bool has_uv() const noexcept;
 
     /// One point per parameter. Same parameters, same bits, whoever asks.
-    void evaluate(std::uint32_t patch, std::span<const Vec2d> st, Derivatives order, std::span<LimitPoint> out) const noexcept;
+    void evaluate(std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
+                  std::span<LimitPoint> out) const noexcept;
 
     /// All points of the lattice (i / rate, j / rate), i first: (rate + 1)^2 for a quad patch, those with i + j <= rate
     /// for a triangle. The same bits as evaluate() gives, faster.

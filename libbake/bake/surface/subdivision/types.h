@@ -8,9 +8,9 @@ enum class Scheme { catmark, loop };
 
 /// How uvs are smoothed. Borders of the charts stay where they are linear.
 enum class UvSmoothing {
-    none,    ///< bilinear in each face of the cage
-    inside,  ///< smooth inside a chart, its borders straight lines (Blender's default)
-    all,     ///< smooth, borders too
+    none,   ///< bilinear in each face of the cage
+    inside, ///< smooth inside a chart, its borders straight lines (Blender's default)
+    all,    ///< smooth, borders too
 };
 
 struct SubdivisionOptions {
