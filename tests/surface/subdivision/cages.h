@@ -45,7 +45,7 @@ inline bake::Mesh dome(int n) {
     std::vector<bake::Vec3f> positions = {{0, 0, 1}};
     Faces faces;
     for (int i = 0; i < 2 * n; ++i) {
-        const double angle = pi * i / n;
+        const double angle = bake::pi * i / n;
         const double radius = i % 2 ? 1.3 : 1;
         positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.2 * std::sin(2 * angle));
     }
@@ -82,7 +82,7 @@ inline void give_each_face_a_chart(bake::Mesh& mesh) {
     for (std::size_t f = 0; f < mesh.faces(); ++f) {
         const std::uint32_t begin = mesh.face_begin[f], size = mesh.face_begin[f + 1] - begin;
         for (std::uint32_t k = 0; k < size; ++k) {
-            const double angle = 2 * pi * (k + 0.1 * double(f)) / size;
+            const double angle = 2 * bake::pi * (k + 0.1 * double(f)) / size;
             mesh.corner_uv.push_back(std::uint32_t(mesh.uvs.size()));
             mesh.uvs.emplace_back(0.5 + 0.3 * std::cos(angle), 0.5 + 0.2 * std::sin(angle));
         }
