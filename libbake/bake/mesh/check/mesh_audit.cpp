@@ -14,6 +14,7 @@ MeshAudit audit(const Mesh&, const std::vector<Triangle>&) { return {}; }
 #else
 
 #include "bake/base/parallel.h"
+#include "bake/mesh/topology.h"
 #include "bake/mesh/triangle_tree.h"
 #include "bake/mesh/weld.h"
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -134,41 +135,21 @@ std::vector<std::array<Index, 3>> welded(const Mesh& mesh, const std::vector<Tri
 
 bool flat(const std::array<Index, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
 
-// Per triangle the number of its set of triangles connected through edges; sets are numbered by their first triangle.
-std::vector<Index> components(const std::vector<std::array<Index, 3>>& corners, std::size_t& count) {
-    struct Edge {
-        std::uint64_t ends;
-        Index triangle;
-    };
-    std::vector<Edge> edges;
-    edges.reserve(3 * corners.size());
-    for (Index t = 0; t < corners.size(); ++t) {
-        if (flat(corners[t])) continue;
-        for (int k = 0; k < 3; ++k) {
-            const auto [a, b] = std::minmax({corners[t][k], corners[t][(k + 1) % 3]});
-            edges.push_back({std::uint64_t(a) << 32 | b, t});
-        }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return a.ends != b.ends ? a.ends < b.ends : a.triangle < b.triangle;
+// Per triangle the number of its set of triangles connected through edges; no_index for a triangle that uses a position
+// twice. Sets are numbered in the order of their first triangles.
+std::vector<Index> components(const std::vector<std::array<Index, 3>>& corners, Index positions, std::size_t& count) {
+    const EdgeTable edges = make_edges(positions, Index(3 * corners.size()), [&](Index side) -> SideEnds {
+        const std::array<Index, 3>& c = corners[side / 3];
+        if (flat(c)) return {no_index, no_index};
+        return {c[side % 3], c[(side + 1) % 3]};
     });
-    std::vector<Index> parent(corners.size());
-    std::iota(parent.begin(), parent.end(), Index(0));
-    const auto find = [&](Index i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (std::size_t e = 1; e < edges.size(); ++e) {
-        if (edges[e].ends != edges[e - 1].ends) continue;
-        const Index a = find(edges[e - 1].triangle), b = find(edges[e].triangle);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
+    DisjointSets sets = connected_faces(edges, corners.size(), [](Index side) { return side / 3; });
     count = 0;
     std::vector<Index> component(corners.size(), no_index);
     for (Index t = 0; t < corners.size(); ++t) {
         if (flat(corners[t])) continue;
-        const Index root = find(t);
-        component[t] = root == t ? Index(count++) : component[root];
+        const Index lowest = sets.find(t);
+        component[t] = lowest == t ? Index(count++) : component[lowest];
     }
     return component;
 }
@@ -258,7 +239,7 @@ MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     MeshAudit result;
     result.available = true;
     const std::vector<std::array<Index, 3>> corners = welded(mesh, triangles);
-    const std::vector<Index> component = components(corners, result.components);
+    const std::vector<Index> component = components(corners, Index(mesh.positions.size()), result.components);
     const TriangleTree tree(mesh, triangles);
     const Cuts cuts = find_cuts(tree, component);
     result.self_intersections = cuts.count;

@@ -1,5 +1,6 @@
 #include "bake/surface/patch/base_surface.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/topology.h"
 #include "bake/mesh/weld.h"
 #include "bake/surface/patch/mesh_patch.h"
 #include "bake/surface/point/curvature.h"
@@ -143,7 +144,7 @@ LimitBase corner_patches(const Mesh& cage, SubdivisionSurface surface, Patches& 
         for (std::uint32_t k = 0; k < (quad ? 4u : 1u); ++k) {
             const std::uint32_t c = first + (quad ? k : base.surface.corner(i));
             patches.push_back({.vertex = {cage.corner_position[c], vertices + table.edge[c],
-                                          vertices + table.edges + face, vertices + table.edge[before[c]]},
+                                          vertices + table.edges() + face, vertices + table.edge[before[c]]},
                                .face = face});
             base.limit.push_back(i);
             base.corner.push_back(std::uint8_t(quad ? 1 + k : 0));

@@ -1,5 +1,6 @@
 #include "bake/surface/patch/patch_complex.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/topology.h"
 #include <algorithm>
 #include <utility>
 
@@ -7,14 +8,6 @@ namespace bake {
 namespace {
 
 constexpr std::int64_t grain = 16384;
-
-/// A side as its lower vertex sees it.
-struct Spoke {
-    std::uint32_t to, side;
-};
-
-/// Whether an edge ends between two neighbours in the sorted list of a vertex.
-bool same_edge(std::uint32_t from, const Spoke& a, const Spoke& b) noexcept { return a.to == b.to && a.to != from; }
 
 std::uint32_t renumber(std::vector<PatchComplex::Patch>& patches) {
     std::uint32_t highest = 0, vertices = 0;
@@ -42,47 +35,6 @@ bool uvs_differ(const Vec2d& a, const Vec2d& b, double tolerance) noexcept {
 
 } // namespace
 
-EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::function<SideEnds(std::uint32_t)>& ends) {
-    // Sides in buckets by their lower vertex, sorted there by the other one.
-    std::vector<std::uint32_t> first(std::size_t(vertices) + 1, 0);
-    for (std::uint32_t side = 0; side < sides; ++side)
-        if (const SideEnds e = ends(side); e[0] != no_index) ++first[std::min(e[0], e[1]) + 1];
-    for (std::uint32_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
-    std::vector<Spoke> spokes(first[vertices]);
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t side = 0; side < sides; ++side)
-        if (const SideEnds e = ends(side); e[0] != no_index)
-            spokes[next[std::min(e[0], e[1])]++] = {std::max(e[0], e[1]), side};
-
-    // `next` becomes the number of edges that start at a vertex.
-    for_rows(vertices, grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto v = std::uint32_t(begin); v < end; ++v) {
-            std::sort(spokes.begin() + first[v], spokes.begin() + first[v + 1],
-                      [](const Spoke& a, const Spoke& b) { return a.to != b.to ? a.to < b.to : a.side < b.side; });
-            next[v] = 0;
-            for (auto i = first[v]; i < first[v + 1]; ++i)
-                next[v] += i == first[v] || !same_edge(v, spokes[i - 1], spokes[i]);
-        }
-    });
-    EdgeTable table;
-    for (std::uint32_t& n : next) table.edges += std::exchange(n, table.edges);
-    table.edge.assign(sides, no_index);
-    table.begin.resize(std::size_t(table.edges) + 1);
-    table.begin.back() = std::uint32_t(spokes.size());
-    table.sides.resize(spokes.size());
-    for_rows(vertices, grain, [&](std::int64_t begin, std::int64_t end) {
-        for (auto v = std::uint32_t(begin); v < end; ++v) {
-            std::uint32_t edge = next[v];
-            for (auto i = first[v]; i < first[v + 1]; ++i) {
-                if (i == first[v] || !same_edge(v, spokes[i - 1], spokes[i])) table.begin[edge++] = i;
-                table.edge[spokes[i].side] = edge - 1;
-                table.sides[i] = spokes[i].side;
-            }
-        }
-    });
-    return table;
-}
-
 PatchComplex make_complex(std::vector<PatchComplex::Patch> patches,
                           const std::function<RimValue(std::uint32_t, int)>& rim, bool middles, double uv_tolerance) {
     PatchComplex complex;
@@ -90,18 +42,18 @@ PatchComplex make_complex(std::vector<PatchComplex::Patch> patches,
     complex.vertices = renumber(complex.patches);
     const auto next_corner = [&](const PatchComplex::Patch& patch, int k) { return k + 1 < patch.sides() ? k + 1 : 0; };
     const auto sides = std::uint32_t(complex.patches.size() * 4);
-    const EdgeTable table = make_edges(complex.vertices, sides, [&](std::uint32_t side) -> SideEnds {
+    const EdgeTable edges = make_edges(complex.vertices, sides, [&](std::uint32_t side) -> SideEnds {
         const PatchComplex::Patch& patch = complex.patches[side / 4];
         const int k = int(side % 4);
         if (k >= patch.sides()) return {no_index, no_index};
         return {patch.vertex[k], patch.vertex[next_corner(patch, k)]};
     });
-    complex.edges = table.edges;
+    complex.edges = edges.edges();
     for_rows(std::int64_t(complex.patches.size()), grain, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = begin; i < end; ++i) {
             PatchComplex::Patch& patch = complex.patches[i];
             for (int k = 0; k < 4; ++k) {
-                patch.edge[k] = table.edge[4 * i + k];
+                patch.edge[k] = edges.edge[4 * i + k];
                 patch.reversed[k] = k < patch.sides() && patch.vertex[k] > patch.vertex[next_corner(patch, k)];
             }
         }
@@ -114,14 +66,14 @@ PatchComplex make_complex(std::vector<PatchComplex::Patch> patches,
         if (place == 2) return rim(side / 4, 4 + k);
         return rim(side / 4, (place == 1) == patch.reversed[k] ? k : next_corner(patch, k));
     };
-    std::vector<char> seam(table.edges, 0), crease(table.edges, 0);
-    for_rows(table.edges, grain, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<char> seam(edges.edges(), 0), crease(edges.edges(), 0);
+    for_rows(edges.edges(), grain, [&](std::int64_t begin, std::int64_t end) {
         for (auto e = begin; e < end; ++e) {
-            if (table.begin[e] + 1 == table.begin[e + 1]) continue;
+            if (edges.begin[e] + 1 == edges.begin[e + 1]) continue;
             for (int place = 0; place < (middles ? 3 : 2); ++place) {
-                const RimValue a = value(table.sides[table.begin[e]], place);
-                for (auto i = table.begin[e] + 1; i < table.begin[e + 1]; ++i) {
-                    const RimValue b = value(table.sides[i], place);
+                const RimValue a = value(edges.sides[edges.begin[e]], place);
+                for (auto i = edges.begin[e] + 1; i < edges.begin[e + 1]; ++i) {
+                    const RimValue b = value(edges.sides[i], place);
                     seam[e] |= uvs_differ(a.uv, b.uv, uv_tolerance);
                     crease[e] |= normals_differ(a.n, b.n);
                 }

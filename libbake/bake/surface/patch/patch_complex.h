@@ -23,19 +23,6 @@ struct PatchComplex {
     std::vector<bool> sharp_vertex; ///< vertices: the normals of its patches differ there (the end of a crease, a tip)
 };
 
-/// The edges of polygons: sides (from, to) whose ends are the same two vertices are one edge.
-struct EdgeTable {
-    std::uint32_t edges = 0;
-    std::vector<std::uint32_t> edge;  ///< sides: the number of its edge, no_index where there is no such side
-    std::vector<std::uint32_t> begin; ///< edges + 1: those of edge e are sides[begin[e]] to sides[begin[e + 1] - 1]
-    std::vector<std::uint32_t> sides; ///< ascending within an edge
-};
-
-/// `ends` gives the two vertices of a side, the first no_index where there is no such side. An edge runs from its lower
-/// vertex to its higher one. Edges are numbered by these; time is linear.
-using SideEnds = std::array<std::uint32_t, 2>;
-EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::function<SideEnds(std::uint32_t)>& ends);
-
 /// What a patch says at a place of its rim: unit normal (zero: none) and uv (infinite: none).
 struct RimValue {
     Vec3f n;
