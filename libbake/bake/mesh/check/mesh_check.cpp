@@ -3,7 +3,6 @@
 // its own edges twice, as keyholed polygons do. The tests compare loops and components with OpenMesh's on the meshes that
 // OpenMesh accepts.
 #include "bake/mesh/check/mesh_check.h"
-#include "bake/base/parallel.h"
 #include "bake/mesh/number_distinct.h"
 #include "bake/mesh/topology.h"
 #include "bake/mesh/weld.h"
@@ -185,17 +184,13 @@ std::size_t count_duplicates(const Mesh& mesh, const std::vector<Index>& vertex)
         if (r.back() < r[1]) std::reverse(r.begin() + 1, r.end());
         return r;
     };
-    std::vector<std::uint64_t> hash(mesh.faces()); // of the vertices in any order
-    for_rows(std::int64_t(mesh.faces()), 16384, [&](std::int64_t begin, std::int64_t end) {
-        for (auto f = begin; f < end; ++f) {
-            hash[f] = mesh.face_begin[f + 1] - mesh.face_begin[f];
-            for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-                hash[f] += mixed(1, mixed(0, vertex[mesh.corner_position[c]]));
-        }
-    });
-    const Numbered distinct = number_distinct(
-        mesh.faces(), [&](Index f) { return hash[f]; },
-        [&](Index f, Index g) { return hash[f] == hash[g] && ring(f) == ring(g); });
+    const auto hash = [&](Index f) { // of the vertices in any order
+        std::uint64_t sum = mesh.face_begin[f + 1] - mesh.face_begin[f];
+        for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+            sum += mixed(1, mixed(0, vertex[mesh.corner_position[c]]));
+        return sum;
+    };
+    const Numbered distinct = number_distinct(mesh.faces(), hash, [&](Index f, Index g) { return ring(f) == ring(g); });
     return mesh.faces() - distinct.first.size();
 }
 

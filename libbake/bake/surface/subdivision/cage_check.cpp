@@ -47,19 +47,21 @@ public:
     /// Faces that use a vertex twice, and faces with the same vertices in any order.
     void check_faces() const {
         std::vector<Index> sorted(cage_.corner_position);
-        const auto vertices_of = [&](Index f) { return ring_of(f, sorted); };
-        std::vector<std::uint64_t> hash(cage_.faces(), 0);
         for (Index f = 0; f < cage_.faces(); ++f) {
             const auto begin = sorted.begin() + cage_.face_begin[f], end = sorted.begin() + cage_.face_begin[f + 1];
             std::sort(begin, end);
             const auto twice = std::adjacent_find(begin, end);
             if (twice != end)
                 refuse(face(f) + " uses " + vertex(*twice) + " twice", "remove the repeated corner or split the face");
-            for (auto v = begin; v != end; ++v) hash[f] = mixed(hash[f], *v);
         }
         const Numbered distinct = number_distinct(
-            cage_.faces(), [&](Index f) { return hash[f]; },
-            [&](Index f, Index g) { return hash[f] == hash[g] && std::ranges::equal(vertices_of(f), vertices_of(g)); });
+            cage_.faces(),
+            [&](Index f) {
+                std::uint64_t hash = 0;
+                for (const Index v : ring_of(f, sorted)) hash = mixed(hash, v);
+                return hash;
+            },
+            [&](Index f, Index g) { return std::ranges::equal(ring_of(f, sorted), ring_of(g, sorted)); });
         for (Index f = 0; f < cage_.faces(); ++f)
             if (const Index first = distinct.first[distinct.number[f]]; first != f)
                 refuse(face(first) + " and " + face(f) + " lie on the same vertices", "remove one of them");
