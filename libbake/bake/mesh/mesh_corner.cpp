@@ -9,11 +9,11 @@
 namespace bake {
 namespace {
 
-/// The first value that is not finite, or `count`.
+/// Index of the first value that is not finite, or `count`.
 std::size_t first_not_finite(const float* values, std::size_t count) {
     std::atomic<std::size_t> first = count;
     for_rows(std::int64_t(count), 1 << 18, [&](std::int64_t begin, std::int64_t end) {
-        float sum = 0; // of x - x: 0, unless some x is not finite
+        float sum = 0; // of x - x: 0 unless some x is not finite
         for (std::int64_t i = begin; i < end; ++i) sum += values[i] - values[i];
         if (sum == 0) return;
         for (std::int64_t i = begin; i < end; ++i) {
@@ -56,7 +56,8 @@ DistinctCorners distinct_corners(const Mesh& mesh, std::size_t first_face, std::
     const std::span<const std::uint32_t> positions = std::span(mesh.corner_position).subspan(begin, end - begin);
     if (positions.empty()) return {};
     const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
-    const std::size_t range = std::size_t(*high) - *low + 1; // one of many nodes does not pay for the positions of all
+    const std::size_t range =
+        std::size_t(*high) - *low + 1; // the cost of a node does not depend on the positions of all nodes
     const auto position = [positions, lowest = *low](std::uint32_t c) noexcept { return positions[c] - lowest; };
     const std::uint32_t* const normal = mesh.corner_normal.empty() ? nullptr : &mesh.corner_normal[begin];
     const std::uint32_t* const uv = mesh.corner_uv.empty() ? nullptr : &mesh.corner_uv[begin];

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-// Every third bit of 63 from the lowest 21.
+/// Moves bit i to bit 3 i, for the lowest 21 bits.
 std::uint64_t spread_bits(std::uint64_t x) noexcept {
     x &= 0x1fffff;
     x = (x | x << 32) & 0x1f00000000ffffull;
@@ -23,7 +23,7 @@ struct Keyed {
     std::uint32_t index;
 };
 
-// By code, then by index: eight passes of a byte each, those over a byte that is the same for all left out.
+/// Sorted by code, then by index: a radix sort with one pass per byte; bytes that are equal for all keys are skipped.
 std::vector<Keyed> sorted_by_code(std::vector<Keyed> keys) {
     std::vector<Keyed> other(keys.size());
     for (int shift = 0; shift < 64; shift += 8) {
@@ -34,6 +34,30 @@ std::vector<Keyed> sorted_by_code(std::vector<Keyed> keys) {
         for (const Keyed& k : keys) other[begin[(k.code >> shift) & 255]++] = k;
         keys.swap(other);
     }
+    return keys;
+}
+
+std::array<Vec3f, 3> corners_of(const Mesh& mesh, const Triangle& t) noexcept {
+    const auto corner = [&](int k) { return mesh.positions[mesh.corner_position[t.corner[k]]]; };
+    return {corner(0), corner(1), corner(2)};
+}
+
+/// Of the centres of the triangles, with 21 bits per coordinate.
+std::vector<Keyed> morton_codes(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+    const Bounds box = bounds(mesh);
+    const Vec3d low = box.min, extent = Vec3d(box.max) - low;
+    const double side = std::max({extent.x, extent.y, extent.z});
+    const double scale = side > 0 ? double((1 << 21) - 1) / side : 0;
+    std::vector<Keyed> keys(triangles.size());
+    for_rows(std::int64_t(triangles.size()), 16384, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto [p0, p1, p2] = corners_of(mesh, triangles[i]);
+            const Vec3d at = scale * ((Vec3d(p0) + Vec3d(p1) + Vec3d(p2)) / 3.0 - low);
+            keys[i] = {spread_bits(std::uint64_t(at.x)) << 2 | spread_bits(std::uint64_t(at.y)) << 1 |
+                           spread_bits(std::uint64_t(at.z)),
+                       std::uint32_t(i)};
+        }
+    });
     return keys;
 }
 
@@ -48,7 +72,8 @@ NearestPoint at(const Vec3d& p, const Vec3d& p0, const Vec3d& p1, const Vec3d& p
     return found;
 }
 
-// Along e from its start, whose offset to the point is d: 0 to 1, 0 for an edge of no length.
+/// Parameter of the nearest point on the edge e, whose start has the offset d to the query point: 0 to 1; 0 for an edge
+/// of length 0.
 double along(const Vec3d& e, const Vec3d& d) noexcept {
     const double length2 = glm::dot(e, e), t = glm::dot(e, d);
     return t > 0 && length2 > 0 ? std::min(1.0, t / length2) : 0.0;
@@ -79,68 +104,43 @@ NearestPoint nearest_on_triangle(const Vec3d& p, const Vec3d& p0, const Vec3d& p
 }
 
 TriangleTree::TriangleTree(const Mesh& mesh, const std::vector<Triangle>& triangles) {
-    const Bounds box = bounds(mesh);
-    const Vec3d low = box.min, extent = Vec3d(box.max) - low;
-    const double side = std::max({extent.x, extent.y, extent.z});
-    const double scale = side > 0 ? double((1 << 21) - 1) / side : 0;
-    const auto count = std::int64_t(triangles.size());
-    const auto corner = [&](std::int64_t i, int k) {
-        return mesh.positions[mesh.corner_position[triangles[i].corner[k]]];
-    };
-    std::vector<Keyed> keys(triangles.size());
-    for_rows(count, 16384, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) {
-            const Vec3d centre = (Vec3d(corner(i, 0)) + Vec3d(corner(i, 1)) + Vec3d(corner(i, 2))) / 3.0;
-            const Vec3d at = scale * (centre - low);
-            keys[i] = {spread_bits(std::uint64_t(at.x)) << 2 | spread_bits(std::uint64_t(at.y)) << 1 |
-                           spread_bits(std::uint64_t(at.z)),
-                       std::uint32_t(i)};
-        }
-    });
-    keys = sorted_by_code(std::move(keys));
+    const std::vector<Keyed> keys = sorted_by_code(morton_codes(mesh, triangles));
     corners_.resize(keys.size());
     index_.resize(keys.size());
-    for_rows(count, 16384, [&](std::int64_t begin, std::int64_t end) {
+    for_rows(std::int64_t(keys.size()), 16384, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
             index_[i] = keys[i].index;
-            corners_[i] = {corner(index_[i], 0), corner(index_[i], 1), corner(index_[i], 2)};
+            corners_[i] = corners_of(mesh, triangles[index_[i]]);
         }
     });
-    if (count == 0) return;
-
-    const auto child_box = [&](std::size_t level, std::size_t child, Vec3f& lowest, Vec3f& highest) {
-        lowest = Vec3f(infinite);
-        highest = Vec3f(-infinite);
-        if (level == 0) {
-            if (child >= corners_.size()) return;
-            for (const Vec3f& p : corners_[child]) {
-                lowest = {std::min(lowest.x, p.x), std::min(lowest.y, p.y), std::min(lowest.z, p.z)};
-                highest = {std::max(highest.x, p.x), std::max(highest.y, p.y), std::max(highest.z, p.z)};
-            }
-            return;
-        }
-        if (child >= levels_[level - 1].size()) return;
-        const Node& node = levels_[level - 1][child];
-        for (int k = 0; k < 3; ++k) {
-            lowest[k] = *std::min_element(node.low[k], node.low[k] + 4);
-            highest[k] = *std::max_element(node.high[k], node.high[k] + 4);
-        }
-    };
-    for (std::size_t children = corners_.size(); levels_.empty() || children > 1; children = levels_.back().size()) {
-        const std::size_t level = levels_.size();
+    if (keys.empty()) return;
+    for (std::size_t children = keys.size(); levels_.empty() || children > 1; children = levels_.back().size()) {
         std::vector<Node> nodes((children + 3) / 4);
         for_rows(std::int64_t(nodes.size()), 4096, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t i = begin; i < end; ++i)
-                for (int c = 0; c < 4; ++c) {
-                    Vec3f lowest, highest;
-                    child_box(level, std::size_t(4 * i + c), lowest, highest);
-                    for (int k = 0; k < 3; ++k) {
-                        nodes[i].low[k][c] = lowest[k];
-                        nodes[i].high[k][c] = highest[k];
-                    }
-                }
+                for (int c = 0; c < 4; ++c) set_child_box(nodes[i], c, levels_.size(), std::size_t(4 * i + c));
         });
         levels_.push_back(std::move(nodes));
+    }
+}
+
+void TriangleTree::set_child_box(Node& node, int c, std::size_t level, std::size_t child) const noexcept {
+    Vec3f lowest(infinite), highest(-infinite);
+    if (level == 0 && child < corners_.size()) {
+        for (const Vec3f& p : corners_[child]) {
+            lowest = {std::min(lowest.x, p.x), std::min(lowest.y, p.y), std::min(lowest.z, p.z)};
+            highest = {std::max(highest.x, p.x), std::max(highest.y, p.y), std::max(highest.z, p.z)};
+        }
+    } else if (level > 0 && child < levels_[level - 1].size()) {
+        const Node& below = levels_[level - 1][child];
+        for (int k = 0; k < 3; ++k) {
+            lowest[k] = *std::min_element(below.low[k], below.low[k] + 4);
+            highest[k] = *std::max_element(below.high[k], below.high[k] + 4);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        node.low[k][c] = lowest[k];
+        node.high[k][c] = highest[k];
     }
 }
 
@@ -156,7 +156,7 @@ NearestPoint TriangleTree::nearest(const Vec3d& p, std::uint32_t start) const no
         double distance2;
         std::uint32_t node, level;
     };
-    Entry stack[64]; // at most 3 more per level than are taken, and 16 levels
+    Entry stack[64]; // at most 3 entries remain per level, and there are 16 levels
     int top = 0;
     NearestPoint best;
     if (start != no_index) best = nearest_of(start, p);
@@ -171,7 +171,7 @@ NearestPoint TriangleTree::nearest(const Vec3d& p, std::uint32_t start) const no
                 const double d = std::max(0.0, std::max(node.low[k][c] - p[k], p[k] - node.high[k][c]));
                 d2[c] += d * d;
             }
-        // The nearest child first: last on the stack.
+        // The nearest child is pushed last, so that it is visited first.
         int order[4] = {0, 1, 2, 3};
         const auto swap_if = [&](int i, int j) {
             if (d2[order[i]] < d2[order[j]]) std::swap(order[i], order[j]);

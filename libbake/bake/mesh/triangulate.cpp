@@ -10,8 +10,8 @@ namespace {
 float squared_length(Vec2f d) noexcept { return d.x * d.x + d.y * d.y; }
 float squared_length(const Vec3f& d) noexcept { return d.x * d.x + d.y * d.y + d.z * d.z; }
 
-/// Whether the quad with the corners c to c + 3 is split from its second to its fourth corner.
-/// In float and in MikkTSpace's order of operations, so that ties fall alike.
+/// Whether the quad with the corners c to c + 3 is split from its second to its fourth corner. Computed in float and in
+/// MikkTSpace's order of operations, so that rounding decides ties in the same way.
 bool splits_second_to_fourth(const Mesh& mesh, std::uint32_t c) noexcept {
     if (!mesh.corner_uv.empty()) {
         const std::uint32_t* uv = &mesh.corner_uv[c];
@@ -27,7 +27,7 @@ bool splits_second_to_fourth(const Mesh& mesh, std::uint32_t c) noexcept {
     return second < first;
 }
 
-/// The polygon in its Newell plane, counter-clockwise; false when it has no area, and so no plane.
+/// Projects the polygon to its Newell plane, counter-clockwise; false if it has no area and therefore no plane.
 /// Sutherland, Sproull and Schumacker, A characterization of ten hidden-surface algorithms, 1974, name Newell's normal.
 bool project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vector<Vec2d>& points) {
     const Vec3d origin(mesh.positions[mesh.corner_position[begin]]);
@@ -36,7 +36,7 @@ bool project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vect
     for (std::uint32_t c = begin; c < end; ++c) normal += glm::cross(point(c), point(c + 1 < end ? c + 1 : begin));
     const Vec3d n = unit_or_zero(normal);
     if (n == Vec3d(0)) return false;
-    // u and v perpendicular to n, u x v = n; for a polygon in a coordinate plane they are axes, and nothing is rounded.
+    // u and v perpendicular to n, u x v = n; for a polygon in a coordinate plane they are axes, and the projection is exact.
     const Vec3d least = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3d(1, 0, 0)
                         : std::abs(n.y) <= std::abs(n.z)                                 ? Vec3d(0, 1, 0)
                                                                                          : Vec3d(0, 0, 1);
@@ -52,11 +52,11 @@ double area(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A polygon that loses one corner after the other.
+/// A polygon during ear clipping.
 struct Polygon {
     std::vector<Vec2d> points;
-    std::vector<std::uint32_t> before, after; ///< neighbours of each corner that is left
-    std::vector<std::uint32_t> blockers;      ///< corners that are not convex: only these can lie in an ear
+    std::vector<std::uint32_t> before, after; ///< neighbours of each remaining corner
+    std::vector<std::uint32_t> blockers;      ///< corners that are not convex: only these can be inside an ear
     std::vector<std::uint32_t> suspects;      ///< corners that may have become spikes
     std::vector<char> convex, gone;
 };
@@ -70,14 +70,14 @@ bool starts_inside(const Polygon& g, std::uint32_t i, const Vec2d& q) noexcept {
     return area(g.points[i], g.points[g.after[i]], q) > 0 && area(g.points[g.before[i]], g.points[i], q) > 0;
 }
 
-/// Whether cutting off corner i leaves the polygon as simple as it was.
+/// Whether the polygon stays simple without corner i.
 bool is_ear(const Polygon& g, std::uint32_t i) noexcept {
     if (!g.convex[i]) return false;
     const Vec2d a = g.points[g.before[i]], b = g.points[i], c = g.points[g.after[i]];
     for (const std::uint32_t k : g.blockers) {
         if (k == g.before[i] || k == g.after[i]) continue;
         const Vec2d p = g.points[k];
-        // Where the polygon touches itself, as at the bridge to a hole, a corner lies on another.
+        // Where the polygon touches itself, as at the bridge to a hole, two corners coincide.
         if (p == a || p == c) continue;
         if (p == b) {
             if (starts_inside(g, i, g.points[g.before[k]]) || starts_inside(g, i, g.points[g.after[k]])) return false;
@@ -88,8 +88,8 @@ bool is_ear(const Polygon& g, std::uint32_t i) noexcept {
     return true;
 }
 
-/// Whether corner i is the tip of a spike of no width, or lies on a neighbour: it can go without a change of shape.
-/// A corner in the middle of a straight side stays, for a triangle across it would leave it hanging.
+/// Whether corner i is the tip of a spike of no width or coincides with a neighbour: it can be removed without a change of
+/// shape. A corner inside a straight side stays, because a triangle across it would make a T-junction.
 bool is_spike(const Polygon& g, std::uint32_t i) noexcept {
     const Vec2d a = g.points[g.before[i]], b = g.points[i], c = g.points[g.after[i]];
     return area(a, b, c) == 0 && glm::dot(a - b, c - b) >= 0;
@@ -124,7 +124,7 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
         cut(g, i);
         --left;
     };
-    // A spike goes as soon as there is one: between its sides the rest of the polygon has no inside to find.
+    // Spikes are removed immediately: the interior of the polygon is undefined between their sides.
     const auto cut_spikes = [&] {
         while (!g.suspects.empty()) {
             const std::uint32_t i = g.suspects.back();
@@ -144,13 +144,13 @@ void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) 
             cut_off(i);
             cut_spikes();
             refused = 0;
-            i = g.after[g.after[i]]; // every other corner first: rounder triangles than those of a fan
+            i = g.after[g.after[i]]; // every other corner first: better shaped triangles than those of a fan
         } else {
             ++refused;
             i = g.after[i];
         }
     }
-    // The last triangle, or a fan where no ear is left, from the lowest corner left.
+    // The last triangle, or a fan from the lowest remaining corner if no ear is left.
     std::uint32_t first = 0;
     while (g.gone[first]) ++first;
     for (std::uint32_t k = g.after[first]; g.after[k] != first; k = g.after[k])
@@ -183,7 +183,7 @@ std::vector<Triangle> triangulate(const Mesh& mesh) {
     std::vector<Triangle> triangles(mesh.corners() - 2 * mesh.faces());
     for_rows(std::int64_t(mesh.faces()), 8192, [&](std::int64_t begin, std::int64_t end) {
         const auto first = std::size_t(begin);
-        // The faces before have two triangles less than corners.
+        // The faces before `first` have two triangles fewer than corners each.
         triangulate_faces(mesh, first, std::size_t(end), triangles.data() + mesh.face_begin[first] - 2 * first);
     });
     return triangles;

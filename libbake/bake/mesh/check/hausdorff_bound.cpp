@@ -7,11 +7,11 @@
 namespace bake {
 namespace {
 
-constexpr double edge_margin = 1e-3; // cuts nearer to a corner than this part of the edge would leave slivers
+constexpr double edge_margin = 1e-3; // cuts closer to a corner than this fraction of the edge leave slivers
 
-// Best single triangle among the candidates, and the square of the bound it gives.
+/// Sets the square of the bound from the best candidate triangle, which becomes the fourth candidate.
 void bound_piece(const TriangleTree& b, Piece& piece) noexcept {
-    double best = piece.upper2; // a part is no farther than the whole
+    double best = piece.upper2; // the bound of the whole piece holds for its parts
     bool found = false;
     std::uint32_t best_place = piece.near[3];
     for (int i = 0; i < 4; ++i) {
@@ -21,11 +21,11 @@ void bound_piece(const TriangleTree& b, Piece& piece) noexcept {
             farthest = std::max(farthest, b.nearest_of(piece.near[i], piece.p[k]).distance2);
         if (farthest < best || (!found && farthest == best)) best = farthest, best_place = piece.near[i], found = true;
     }
-    piece.near[3] = best_place; // what serves the whole serves its parts
+    piece.near[3] = best_place; // a good candidate for the piece is one for its parts
     piece.upper2 = best;
 }
 
-// Positions that two triangles share.
+/// Positions that two triangles share; returns their number.
 int shared(const TriangleTree& b, std::uint32_t s, std::uint32_t t, Vec3d (&out)[3]) noexcept {
     int count = 0;
     for (const Vec3f& p : b.corners(s))
@@ -39,7 +39,7 @@ Vec3d normal(const TriangleTree& b, std::uint32_t place) noexcept {
     return unit_or_zero(glm::cross(Vec3d(b.corners(place)[1]) - p0, Vec3d(b.corners(place)[2]) - p0));
 }
 
-// Where to cut: at a point inside, or on the edge from corner k + 1 to k + 2.
+/// Where to cut a piece: at a point inside, or on the edge from corner k + 1 to k + 2.
 struct Cut {
     Vec3d at{0};
     int edge = -1; ///< k; -1: inside
@@ -71,7 +71,7 @@ Cut choose_cut(const TriangleTree& b, const Piece& piece) noexcept {
                 cut = {piece.p[i] + at * edge, k, s};
             }
         }
-        // Failing all these the middle of the longest edge whose ends are near different triangles.
+        // Without such a cut: the midpoint of the longest edge whose ends have different nearest triangles.
         if (most_central == edge_margin && glm::dot(edge, edge) > longest) {
             longest = glm::dot(edge, edge);
             cut = {piece.p[i] + 0.5 * edge, k, s};
@@ -86,7 +86,7 @@ struct Refined {
     Farthest farthest;
 };
 
-// Cuts the piece with the largest bound until none is over the limit. `heap` is room to work in.
+/// Cuts the piece with the largest bound until no bound is above the limit. `heap` is a buffer.
 Refined refine(const TriangleTree& b, const Piece& whole, double lower2, double gap2, double least2, std::size_t most,
                std::vector<Piece>& heap) {
     const auto less = [](const Piece& x, const Piece& y) { return x.upper2 < y.upper2; };
@@ -101,18 +101,18 @@ Refined refine(const TriangleTree& b, const Piece& whole, double lower2, double 
         heap.pop_back();
         Cut cut = choose_cut(b, piece);
         ++r.cuts;
-        if (cut.near == no_index) { // one triangle is nearest to all corners: the bound is a distance that was met
+        if (cut.near == no_index) { // one triangle is nearest to all corners: the bound is attained
             r.upper2 = std::max(r.upper2, piece.upper2);
             if (heap.empty()) return r;
             continue;
         }
-        // What is near already need not be searched for.
+        // The search is only needed if the known triangle is not within the limit.
         if (b.nearest_of(cut.near, cut.at).distance2 > limit2) {
             const NearestPoint found = b.nearest(cut.at, cut.near);
             cut.near = found.triangle;
-            r.farthest.meet(cut.at, found);
+            r.farthest.include(cut.at, found);
         }
-        for (int k = 0; k < 3; ++k) { // the parts that have the new point in place of corner k
+        for (int k = 0; k < 3; ++k) { // the part in which the new point replaces corner k
             if (cut.edge == k) continue;
             Piece part = piece;
             part.p[k] = cut.at;
@@ -131,8 +131,8 @@ Refined refine(const TriangleTree& b, const Piece& whole, double lower2, double 
     return r;
 }
 
-// Lays the other mesh over the pieces that are over the limit, each `stride`-th. Where that leaves something, its corners
-// are tried as farthest points: the limit may rise with them.
+/// Tests each `stride`-th piece whose bound is above the limit with overlay_within(). Corners of the parts that remain
+/// are candidates for the farthest point, which raise the limit.
 void overlay(std::vector<Piece>& pieces, const TriangleTree& b, double gap2, double least2, std::int64_t stride,
              Farthest& farthest) {
     constexpr std::int64_t grain = 256;
@@ -140,20 +140,20 @@ void overlay(std::vector<Piece>& pieces, const TriangleTree& b, double gap2, dou
     std::vector<Farthest> found((count + grain - 1) / grain, farthest);
     for_rows(count, grain, [&](std::int64_t begin, std::int64_t end) {
         Farthest& own = found[begin / grain];
-        OverlayRoom room;
+        OverlayBuffers buffers;
         for (std::int64_t i = begin * stride; i < std::min(end * stride, std::int64_t(pieces.size())); i += stride) {
             const double limit2 = std::max(gap2 * own.distance2, least2);
             if (!(pieces[i].upper2 > limit2)) continue;
-            if (overlay_within(b, pieces[i].p, pieces[i].near, limit2, room)) {
+            if (overlay_within(b, pieces[i].p, pieces[i].near, limit2, buffers)) {
                 pieces[i].upper2 = limit2;
                 continue;
             }
-            for (std::size_t k = 0; k < std::min<std::size_t>(room.open.size(), 8); ++k)
-                for (int c = 0; c < room.open[k].corners; ++c)
-                    own.meet(room.open[k].p[c], b.nearest(room.open[k].p[c], pieces[i].near[3]));
+            for (std::size_t k = 0; k < std::min<std::size_t>(buffers.open.size(), 8); ++k)
+                for (int c = 0; c < buffers.open[k].corners; ++c)
+                    own.include(buffers.open[k].p[c], b.nearest(buffers.open[k].p[c], pieces[i].near[3]));
         }
     });
-    for (const Farthest& f : found) farthest.meet(f);
+    for (const Farthest& f : found) farthest.include(f);
 }
 
 } // namespace
@@ -163,12 +163,12 @@ double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const 
     for_rows(std::int64_t(pieces.size()), 512, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) bound_piece(other, pieces[i]);
     });
-    const double gap2 = (1 + options.gap) * (1 + options.gap), least2 = options.nothing * options.nothing;
-    // A few first, which raise the lower bound that the others are measured by.
+    const double gap2 = (1 + options.gap) * (1 + options.gap), least2 = options.negligible * options.negligible;
+    // A few pieces first: they raise the lower bound, which defines the limit of the others.
     for (const int stride : {32, 1, 1}) overlay(pieces, other, gap2, least2, stride, farthest);
     std::size_t left = options.most_cuts;
-    double upper2 = 0; // of what needs no more cuts
-    // Most pieces need few cuts, a few need many: those not done start again with eight times as many.
+    double upper2 = 0; // of the pieces that need no more cuts
+    // Most pieces need few cuts, a few need many: unfinished pieces start again with eight times as many.
     for (std::size_t round = 32;; round *= 8) {
         const double limit2 = std::max(gap2 * farthest.distance2, least2);
         const auto done =
@@ -187,7 +187,7 @@ double upper_bound2(std::vector<Piece> pieces, const TriangleTree& other, const 
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             pieces[i].upper2 = refined[i].upper2;
             used += refined[i].cuts;
-            farthest.meet(refined[i].farthest);
+            farthest.include(refined[i].farthest);
         }
         left -= std::min(left, used);
     }

@@ -1,8 +1,8 @@
-// The one file that sees CGAL: with it the binary is GPL-3.0-or-later as a whole, and this file is compiled with
-// -frounding-math, which interval arithmetic needs. Self intersections are looked for in the soup, so that meshes no
-// half-edge structure can hold are audited too: pairs whose boxes touch by our tree, decisions by CGAL's exact
-// predicates. With its box sweep and no order among the faces, the audit of a million triangles took 5 s of processor time,
-// and 22 s when they were shuffled, against 3 and 3.
+// The only file that includes CGAL: with CGAL the binary is GPL-3.0-or-later as a whole, and this file is compiled with
+// -frounding-math, which interval arithmetic needs. Self intersections are searched in the triangle soup, so that
+// non-manifold meshes can be audited too. Our tree finds the pairs whose boxes overlap; CGAL's exact predicates decide.
+// With CGAL's box sweep and unsorted faces, the audit of a million triangles took 5 s of processor time, and 22 s if they
+// were shuffled; with the tree both take 3 s.
 #include "bake/mesh/check/mesh_audit.h"
 
 #ifndef BAKE_WITH_CGAL
@@ -39,9 +39,9 @@ using Corners = std::array<Vec3f, 3>;
 
 Point point(const Vec3f& p) { return Point(p.x, p.y, p.z); }
 
-// Whether two triangles with area meet elsewhere than in the points they share.
+/// Whether two triangles with area intersect beyond the corners that they share.
 bool intersect(Corners s, Corners t) {
-    // Turned so that shared points come first, in the same order in both.
+    // Reordered so that shared corners come first, in the same order in both.
     int shared = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = shared; j < 3; ++j)
@@ -58,7 +58,7 @@ bool intersect(Corners s, Corners t) {
                CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
     const CGAL::Orientation first_side = CGAL::orientation(p[0], p[1], p[2], q[2]);
     if (shared == 1) {
-        // Most pairs of a fan end here: the other edge lies on one side of the plane.
+        // Most pairs of a fan end here: the opposite edge is on one side of the plane.
         if (first_side != CGAL::COPLANAR && first_side == CGAL::orientation(p[0], p[1], p[2], q[1])) return false;
         return CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), Kernel::Segment_3(q[1], q[2])) ||
                CGAL::do_intersect(Kernel::Triangle_3(q[0], q[1], q[2]), Kernel::Segment_3(p[1], p[2]));
@@ -83,7 +83,7 @@ using Pair = std::array<Index, 2>; // the lower first
 struct Cuts {
     std::size_t count = 0;
     Pair first = {no_index, no_index}; ///< triangles
-    std::vector<Pair> components;      ///< that cut each other
+    std::vector<Pair> components;      ///< that intersect each other
 };
 
 void sort_unique(std::vector<Pair>& pairs) {
@@ -124,7 +124,7 @@ Cuts find_cuts(const TriangleTree& tree, const std::vector<Index>& component) {
     return all;
 }
 
-// Corners of each triangle as welded positions.
+/// Corners of each triangle as welded positions.
 std::vector<std::array<Index, 3>> welded(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     const std::vector<Index> first = first_equal(mesh.positions);
     std::vector<std::array<Index, 3>> corners(triangles.size());
@@ -135,8 +135,8 @@ std::vector<std::array<Index, 3>> welded(const Mesh& mesh, const std::vector<Tri
 
 bool flat(const std::array<Index, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
 
-// Per triangle the number of its set of triangles connected through edges; no_index for a triangle that uses a position
-// twice. Sets are numbered in the order of their first triangles.
+/// Per triangle the number of its set of triangles connected through edges; no_index for a triangle that uses a position
+/// twice. Sets are numbered in the order of their first triangles.
 std::vector<Index> components(const std::vector<std::array<Index, 3>>& corners, Index positions, std::size_t& count) {
     const EdgeTable edges = make_edges(positions, Index(3 * corners.size()), [&](Index side) -> SideEnds {
         const std::array<Index, 3>& c = corners[side / 3];
@@ -159,10 +159,10 @@ struct Shell {
     CGAL::Bbox_3 box;
     Index component = 0;
     bool outward = false;
-    std::size_t depth = 0; ///< shells it lies in
+    std::size_t depth = 0; ///< number of shells that contain it
 };
 
-// The components that are closed manifolds.
+/// The components that are closed manifolds.
 std::vector<Shell> closed_shells(const Mesh& mesh, const std::vector<std::array<Index, 3>>& corners,
                                  const TriangleTree& tree, const std::vector<Index>& component, std::size_t count) {
     namespace pmp = CGAL::Polygon_mesh_processing;
@@ -172,7 +172,8 @@ std::vector<Shell> closed_shells(const Mesh& mesh, const std::vector<std::array<
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<Index> sorted(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (Index place = 0; place < tree.size(); ++place) { // neighbours together: shuffled ones take six times as long
+    for (Index place = 0; place < tree.size();
+         ++place) { // in the order of the tree: six times as fast for shuffled triangles
         const Index t = tree.index(place);
         if (component[t] != no_index) sorted[next[component[t]]++] = t;
     }
@@ -216,13 +217,13 @@ bool contains(const CGAL::Bbox_3& outer, const CGAL::Bbox_3& inner) {
 
 void nest(std::vector<Shell>& shells, const std::vector<Pair>& cutting) {
     for (const Shell& outer : shells) {
-        std::unique_ptr<CGAL::Side_of_triangle_mesh<Surface, Kernel>> side; // made when first needed
+        std::unique_ptr<CGAL::Side_of_triangle_mesh<Surface, Kernel>> side; // built on first use
         for (Shell& inner : shells) {
             if (&inner == &outer || !contains(outer.box, inner.box)) continue;
             const auto [a, b] = std::minmax({inner.component, outer.component});
             if (std::binary_search(cutting.begin(), cutting.end(), Pair{a, b})) continue;
             if (!side) side = std::make_unique<CGAL::Side_of_triangle_mesh<Surface, Kernel>>(outer.surface);
-            // Shells may touch in points: the first that does not touch tells.
+            // Shells may touch at vertices: the first vertex that is not on the other shell decides.
             for (const auto v : inner.surface.vertices()) {
                 const CGAL::Bounded_side where = (*side)(inner.surface.point(v));
                 if (where == CGAL::ON_BOUNDARY) continue;
@@ -250,7 +251,7 @@ MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
             result.first_faces[i] = t.face;
             for (int k = 0; k < 3; ++k) c[i][k] = mesh.positions[mesh.corner_position[t.corner[k]]];
         }
-        // The middle of what both boxes hold.
+        // The centre of the overlap of both boxes.
         for (int k = 0; k < 3; ++k)
             result.first_place[k] =
                 0.5 * (double(std::max(low(c[0])[k], low(c[1])[k])) + double(std::min(high(c[0])[k], high(c[1])[k])));

@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t grain = 512;
 constexpr double degrees = 57.29577951308232;
 
-struct Side {
+struct MeshWithTree {
     const Mesh& mesh;
     const std::vector<Triangle>& triangles;
     const TriangleTree& tree;
@@ -23,15 +23,15 @@ Vec3d facet_normal(const TriangleTree& tree, std::uint32_t place) {
     return glm::cross(corner(tree, place, 1) - p0, corner(tree, place, 2) - p0);
 }
 
-// The file's normal at a point of a triangle; zero where a corner has none.
-Vec3d shading_normal(const Side& side, std::uint32_t place, double b1, double b2) {
-    if (side.mesh.corner_normal.empty()) return Vec3d(0);
+/// The interpolated normal of the file at a point of a triangle; zero if a corner has no normal.
+Vec3d shading_normal(const MeshWithTree& m, std::uint32_t place, double b1, double b2) {
+    if (m.mesh.corner_normal.empty()) return Vec3d(0);
     Vec3d sum(0);
     const double weight[3] = {1 - b1 - b2, b1, b2};
     for (int k = 0; k < 3; ++k) {
-        const std::uint32_t n = side.mesh.corner_normal[side.triangles[side.tree.index(place)].corner[k]];
+        const std::uint32_t n = m.mesh.corner_normal[m.triangles[m.tree.index(place)].corner[k]];
         if (n == no_index) return Vec3d(0);
-        sum += weight[k] * Vec3d(side.mesh.normals[n]);
+        sum += weight[k] * Vec3d(m.mesh.normals[n]);
     }
     return sum;
 }
@@ -40,7 +40,7 @@ struct Weighted {
     float value, weight;
 };
 
-// Angle between two normals of any length; nothing when one is zero.
+/// Adds the angle between two normals of any length, unless one of them is zero.
 void add_angle(std::vector<Weighted>& to, const Vec3d& a, const Vec3d& b, double weight) {
     const Vec3d m = unit_or_zero(a), n = unit_or_zero(b);
     if (m == Vec3d(0) || n == Vec3d(0)) return;
@@ -67,10 +67,10 @@ NormalDeviation deviation(std::vector<Weighted> angles) {
     return d;
 }
 
-// Triangles of B nearest to points of A, by places.
+/// Triangles of B nearest to points of A. Triangles of both are numbered in the order of their trees.
 struct NearestPlaces {
-    std::vector<std::uint32_t> position; ///< of A's mesh; no_index where no triangle uses it
-    std::vector<std::uint32_t> inside;   ///< per place of A: of one sample on it
+    std::vector<std::uint32_t> position; ///< per position of A's mesh; no_index if no triangle uses the position
+    std::vector<std::uint32_t> inside;   ///< per triangle of A: nearest to one sample on the triangle
 };
 
 struct Sampled {
@@ -79,29 +79,31 @@ struct Sampled {
     std::vector<Weighted> facet, shading;
 };
 
-std::uint32_t position_of(const Side& side, std::uint32_t place, int k) {
-    return side.mesh.corner_position[side.triangles[side.tree.index(place)].corner[k]];
+std::uint32_t position_of(const MeshWithTree& m, std::uint32_t place, int k) {
+    return m.mesh.corner_position[m.triangles[m.tree.index(place)].corner[k]];
 }
 
-// Segments a triangle's edges are cut into, so that its sub-triangles are about of the wanted area.
+/// Number of segments that each edge of a triangle is cut into for sub-triangles of about the wanted area.
 int segments(double area, double wanted) {
     return std::clamp(int(std::sqrt(std::min(area / wanted, 1e7)) + 0.5), 1, 2048);
 }
 
-// Centroids of sub-triangles of equal area of one triangle of A. `hint` goes from point to point.
-void sample(const Side& a, const Side& b, double wanted, std::uint32_t place, std::uint32_t& hint, Sampled& to) {
+/// Samples the centroids of sub-triangles of equal area of one triangle of A. `hint` is the nearest triangle of the
+/// previous point, from which the search for the next one starts.
+void sample(const MeshWithTree& a, const MeshWithTree& b, double wanted, std::uint32_t place, std::uint32_t& hint,
+            Sampled& to) {
     const Vec3d p0 = corner(a.tree, place, 0), e1 = corner(a.tree, place, 1) - p0, e2 = corner(a.tree, place, 2) - p0;
     const Vec3d normal = glm::cross(e1, e2);
     const double area = glm::length(normal) / 2;
     const int n = segments(area, wanted);
     const double weight = area / (double(n) * n);
     for (int i = 0; i < n; ++i)
-        for (int j = 0; j < 2 * (n - i) - 1; ++j) { // upright and turned ones by turns
+        for (int j = 0; j < 2 * (n - i) - 1; ++j) { // upright and inverted ones alternate
             const double third = j % 2 ? 2.0 / 3 : 1.0 / 3, b1 = (j / 2 + third) / n, b2 = (i + third) / n;
             const Vec3d p = p0 + b1 * e1 + b2 * e2;
             const NearestPoint found = b.tree.nearest(p, hint);
             hint = found.triangle;
-            to.farthest.meet(p, found);
+            to.farthest.include(p, found);
             to.sum += weight * std::sqrt(found.distance2);
             to.squares += weight * found.distance2;
             add_angle(to.facet, normal, facet_normal(b.tree, found.triangle), weight);
@@ -111,9 +113,9 @@ void sample(const Side& a, const Side& b, double wanted, std::uint32_t place, st
     to.area += area;
 }
 
-Sampled sample_all(const Side& a, const Side& b, std::size_t samples, NearestPlaces& nearest) {
+Sampled sample_all(const MeshWithTree& a, const MeshWithTree& b, std::size_t samples, NearestPlaces& nearest) {
     double area = 0;
-    std::vector<std::uint32_t> owner(a.mesh.positions.size(), no_index); // the first place that uses a position
+    std::vector<std::uint32_t> owner(a.mesh.positions.size(), no_index); // the first triangle that uses each position
     for (std::uint32_t place = 0; place < a.tree.size(); ++place) {
         area += glm::length(facet_normal(a.tree, place)) / 2;
         for (int k = 0; k < 3; ++k) {
@@ -136,7 +138,7 @@ Sampled sample_all(const Side& a, const Side& b, std::size_t samples, NearestPla
                 const Vec3d p(a.mesh.positions[position]);
                 const NearestPoint found = b.tree.nearest(p, hint);
                 nearest.position[position] = hint = found.triangle;
-                part.farthest.meet(p, found);
+                part.farthest.include(p, found);
             }
             sample(a, b, wanted, place, hint, part);
             nearest.inside[place] = hint;
@@ -144,7 +146,7 @@ Sampled sample_all(const Side& a, const Side& b, std::size_t samples, NearestPla
     });
     Sampled all;
     for (Sampled& part : parts) { // in the order of the parts, so that sums do not depend on threads
-        all.farthest.meet(part.farthest);
+        all.farthest.include(part.farthest);
         all.area += part.area;
         all.sum += part.sum;
         all.squares += part.squares;
@@ -155,7 +157,7 @@ Sampled sample_all(const Side& a, const Side& b, std::size_t samples, NearestPla
     return all;
 }
 
-std::vector<Piece> pieces_of(const Side& a, const NearestPlaces& nearest) {
+std::vector<Piece> pieces_of(const MeshWithTree& a, const NearestPlaces& nearest) {
     std::vector<Piece> pieces(a.tree.size());
     for_rows(a.tree.size(), grain, [&](std::int64_t begin, std::int64_t end) {
         for (auto place = std::uint32_t(begin); place < end; ++place) {
@@ -170,7 +172,7 @@ std::vector<Piece> pieces_of(const Side& a, const NearestPlaces& nearest) {
     return pieces;
 }
 
-OneWayDistance one_way(const Side& a, const Side& b, const MeshDistanceOptions& options, double least) {
+OneWayDistance one_way(const MeshWithTree& a, const MeshWithTree& b, const MeshDistanceOptions& options, double least) {
     NearestPlaces nearest;
     Sampled sampled = sample_all(a, b, options.samples, nearest);
     OneWayDistance d;
@@ -193,7 +195,7 @@ OneWayDistance one_way(const Side& a, const Side& b, const MeshDistanceOptions& 
 MeshDistance mesh_distance(const Mesh& a, const std::vector<Triangle>& a_triangles, const Mesh& b,
                            const std::vector<Triangle>& b_triangles, const MeshDistanceOptions& options) {
     const TriangleTree a_tree(a, a_triangles), b_tree(b, b_triangles);
-    const Side a_side = {a, a_triangles, a_tree}, b_side = {b, b_triangles, b_tree};
+    const MeshWithTree whole_a = {a, a_triangles, a_tree}, whole_b = {b, b_triangles, b_tree};
     Bounds box = bounds(a);
     const Bounds other = bounds(b);
     for (int k = 0; k < 3; ++k) {
@@ -203,8 +205,8 @@ MeshDistance mesh_distance(const Mesh& a, const std::vector<Triangle>& a_triangl
     MeshDistance d;
     d.diagonal = diagonal(box);
     d.shading = !a.corner_normal.empty() && !b.corner_normal.empty();
-    d.there = one_way(a_side, b_side, options, options.nothing * d.diagonal);
-    d.back = one_way(b_side, a_side, options, options.nothing * d.diagonal);
+    d.there = one_way(whole_a, whole_b, options, options.negligible * d.diagonal);
+    d.back = one_way(whole_b, whole_a, options, options.negligible * d.diagonal);
     d.lower = std::max(d.there.lower, d.back.lower);
     d.upper = std::max(d.there.upper, d.back.upper);
     return d;
