@@ -1,7 +1,7 @@
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "mesh/by_openmesh.h"
 #include "mesh/check/triangle_soups.h"
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -35,17 +35,11 @@ std::filesystem::path shared_data() {
     return std::filesystem::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
 }
 
-// Boundary loops and components as OpenMesh's half-edges have them; the mesh must be manifold.
-std::pair<std::size_t, std::size_t> by_openmesh(const Mesh& mesh) {
-    OpenMesh::PolyMesh_ArrayKernelT<> open;
-    std::vector<OpenMesh::VertexHandle> vertices;
-    for (const Vec3f& p : mesh.positions) vertices.push_back(open.add_vertex({p.x, p.y, p.z}));
-    for (std::size_t f = 0; f < mesh.faces(); ++f) {
-        std::vector<OpenMesh::VertexHandle> ring;
-        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-            ring.push_back(vertices[mesh.corner_position[c]]);
-        REQUIRE(open.add_face(ring).is_valid());
-    }
+// Boundary loops and components of OpenMesh's half-edges; the mesh must be manifold.
+std::pair<std::size_t, std::size_t> loops_and_components(const Mesh& mesh) {
+    const ByOpenMesh other = by_openmesh(mesh);
+    REQUIRE(other.refused == 0);
+    const OpenMesh::PolyConnectivity& open = other.mesh;
     std::set<int> seen;
     std::size_t loops = 0, components = 0;
     for (const auto& h : open.halfedges()) {
@@ -241,7 +235,7 @@ TEST_SUITE("oracle") {
             const Mesh mesh = sheet(16, [&](int x, int y) { return !hole[y * 16 + x]; });
             const Topology t = check(mesh).topology;
             if (t.nonmanifold_vertices > 0) continue; // a hole met the cut at a corner
-            const auto [loops, components] = by_openmesh(mesh);
+            const auto [loops, components] = loops_and_components(mesh);
             CHECK(t.boundary_loops == loops);
             CHECK(t.components == components);
         }
@@ -285,7 +279,7 @@ TEST_SUITE("real") {
             CAPTURE(name);
             const Mesh mesh = read_mesh((data / name).string());
             const Topology t = check(mesh).topology;
-            const auto [loops, components] = by_openmesh(mesh);
+            const auto [loops, components] = loops_and_components(mesh);
             CHECK(t.boundary_loops == loops);
             CHECK(t.components == components);
         }

@@ -1,7 +1,9 @@
+#include "bake/mesh/topology.h"
 #include "bake/surface/subdivision/subdivision.h"
 #include "mesh/file/mesh_files.h"
 #include "oracle/surfaces.h"
 #include "surface/subdivision/cages.h"
+#include <random>
 
 using namespace bake;
 using namespace bake_tests;
@@ -51,6 +53,39 @@ TEST_SUITE("unit") {
                      "face 1 and face 2 lie on the same vertices"));
         CHECK(begins(refusal(cage_of(points, {{0, 1, 2, 3}, {0, 2, 1, 3}})),
                      "face 1 and face 2 lie on the same vertices"));
+    }
+
+    TEST_CASE("check_cage: exactly the oriented manifolds are taken, in any order of their faces") {
+        // Parts of a torus, with holes that may touch at a vertex; in some a face is turned.
+        const Mesh whole = oracle::torus_mesh(6, 4, true);
+        std::mt19937 random(5);
+        int taken = 0, refused = 0;
+        for (int round = 0; round < 400; ++round) {
+            std::vector<std::size_t> order;
+            for (std::size_t f = 0; f < whole.faces(); ++f)
+                if (random() % 16 > unsigned(round % 8)) order.push_back(f);
+            std::shuffle(order.begin(), order.end(), random);
+            Faces faces;
+            for (const std::size_t f : order)
+                faces.emplace_back(whole.corner_position.begin() + whole.face_begin[f],
+                                   whole.corner_position.begin() + whole.face_begin[f + 1]);
+            if (round % 5 == 0) std::reverse(faces[0].begin(), faces[0].end());
+            const Mesh cage = cage_of(whole.positions, faces);
+            const HalfEdges he = make_half_edges(cage);
+            const EdgeTable edges = make_edges(he);
+            bool manifold = true;
+            for (std::uint32_t e = 0; e < edges.edges(); ++e) {
+                const auto sides = edges.of(e);
+                manifold &= sides.size() == 1 || (sides.size() == 2 && he.origin[sides[0]] != he.origin[sides[1]]);
+            }
+            DisjointSets fans = find_fans(he, edges);
+            std::vector<int> fans_at(he.vertices, 0);
+            for (std::uint32_t h = 0; h < he.size(); ++h) manifold &= fans.find(h) != h || ++fans_at[he.origin[h]] == 1;
+            CHECK((refusal(cage) == "") == manifold);
+            ++(manifold ? taken : refused);
+        }
+        CHECK(taken > 50);
+        CHECK(refused > 50);
     }
 
     TEST_CASE("check_cage: of several places the first is named") {
