@@ -11,27 +11,50 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <limits>
+#include <link.h>
 #include <optional>
 
 namespace bake {
 
 namespace {
 
-/// OpenImageIO's room, loaded when it is first needed.
+/// The folder of the program or shared library that holds this function; empty when it is unknown.
+std::filesystem::path own_folder() {
+    Dl_info found;
+    link_map* object = nullptr;
+    if (!dladdr1(reinterpret_cast<void*>(&own_folder), &found, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP))
+        return {};
+    // The program itself has no name in the list of loaded objects.
+    std::error_code failed;
+    const std::filesystem::path file = *object->l_name ? object->l_name : "/proc/self/exe";
+    return std::filesystem::canonical(file, failed).parent_path();
+}
+
+/// OpenImageIO's library, loaded when it is first needed.
 const PictureFormats& picture_formats() {
     static const PictureFormats& formats = [&]() -> const PictureFormats& {
-        // By its whole path: under the address sanitizer a search beside the program is one beside the sanitizer.
-        std::error_code unknown;
-        const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-        const std::string path = unknown ? "bake_formats.so" : (program.parent_path() / "bake_formats.so").string();
-        void* const library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
-        void* const entry = library ? dlsym(library, "bake_picture_formats") : nullptr;
-        if (!entry)
-            throw Error(Refusal::unreadable,
-                        std::string(dlerror()) + "; put bake_formats.so beside the command, as it was built");
-        return *reinterpret_cast<const PictureFormats* (*)()>(entry)();
+        std::string refused;
+        for (const char* folder : {"", BAKE_FORMATS_FROM_PROGRAM, BAKE_FORMATS_FOLDER}) {
+            // By its whole path: the linker's own search depends on who calls dlopen, which under the address sanitizer
+            // is the sanitizer. An absolute folder replaces the one that it is appended to.
+            const std::string path = (own_folder() / folder / "bake_formats.so").lexically_normal().string();
+            if (void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
+                if (void* const entry = dlsym(library, "bake_picture_formats"))
+                    return *reinterpret_cast<const PictureFormats* (*)()>(entry)();
+            // A library that is there and cannot be loaded is the better reason.
+            if (const char* const reason = dlerror(); refused.empty() || std::filesystem::exists(path))
+                refused = reason;
+        }
+        throw Error(Refusal::unreadable,
+                    refused + "; put bake_formats.so beside the program or into " BAKE_FORMATS_FOLDER);
     }();
     return formats;
+}
+
+FormatHost format_host() { return {.threads = thread_count(), .interrupted = interrupted}; }
+
+void throw_failure(const FormatResult& result) {
+    if (result) throw Error(result->refusal, result->message);
 }
 
 } // namespace
@@ -50,7 +73,9 @@ const char* name(SampleType type) noexcept {
 
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
     if (const auto tiff = find_plain_tiff(path, limits)) return tiff->info;
-    return picture_formats().read_info(path, limits);
+    ImageInfo info;
+    throw_failure(picture_formats().read_info(format_host(), path, limits, info));
+    return info;
 }
 
 Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
@@ -65,7 +90,7 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
     } else {
         if (is_cut_short_tiff(path))
             throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
-        image = picture_formats().read(path, info, limits);
+        throw_failure(picture_formats().read(format_host(), path, limits, info, image));
     }
     if (info_out) *info_out = std::move(info);
     return image;
@@ -150,7 +175,7 @@ struct ImageWriter::Impl {
 
     void write_rows(const void* values, int rows) {
         if (plain) plain->write(values, rows);
-        else picture_formats().write(*format, values, rows);
+        else throw_failure(picture_formats().write(*format, values, rows));
     }
 
     template <class Level> void write_levels(const float* values, int rows) {
@@ -171,7 +196,9 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     impl_.reset(new Impl{path, OutputFile(path), resolved.depth, width, channels});
     const PictureSize size{width, height, channels};
     if (fits_plain_tiff(path, size, resolved)) impl_->plain.emplace(path, impl_->file.temporary(), size, resolved);
-    else impl_->format = picture_formats().open(path, impl_->file.temporary(), size, resolved);
+    else
+        throw_failure(
+            picture_formats().open(format_host(), path, impl_->file.temporary(), size, resolved, impl_->format));
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -192,13 +219,13 @@ void ImageWriter::write(const float* values, int rows) {
 
 void ImageWriter::next_level() {
     impl_->width = std::max(1, impl_->width / 2);
-    picture_formats().next_level(*impl_->format);
+    throw_failure(picture_formats().next_level(*impl_->format));
 }
 
 void ImageWriter::close() {
     if (impl_->closed) return;
     if (impl_->plain) impl_->plain->finish();
-    else picture_formats().finish(*impl_->format);
+    else throw_failure(picture_formats().finish(*impl_->format));
     impl_->closed = true;
 }
 

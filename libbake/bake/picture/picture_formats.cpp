@@ -1,7 +1,5 @@
 #include "bake/picture/picture_formats.h"
 #include "bake/base/error.h"
-#include "bake/base/parallel.h"
-#include "bake/base/progress.h"
 #include "bake/picture/image_guard.h"
 #include "bake/picture/png_header.h"
 #include <OpenImageIO/imageio.h>
@@ -19,14 +17,14 @@ namespace {
 
 constexpr int band_rows = 256; // a multiple of every compression's block of scanlines
 
-void configure_oiio() {
+void configure_oiio(int threads) {
     static std::once_flag once;
     std::call_once(once, [] {
         OIIO::attribute("threads", 1);
         OIIO::attribute("limits:channels", 64);
         OIIO::attribute("limits:imagesize_MB", 64 * 1024);
     });
-    OIIO::attribute("exr_threads", thread_count() > 1 ? thread_count() : 0);
+    OIIO::attribute("exr_threads", threads > 1 ? threads : 0);
 }
 
 // OIIO's messages may span lines and repeat the file's name; ours are one line.
@@ -144,9 +142,10 @@ bool looks_like_png(const std::string& path) {
     return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path, const ReadLimits& limits, ImageInfo& info) {
+std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const std::string& path, const ReadLimits& limits,
+                                             ImageInfo& info) {
     namespace fs = std::filesystem;
-    configure_oiio();
+    configure_oiio(host.threads);
     std::error_code failed;
     const fs::file_status status = fs::status(path, failed);
     if (!fs::exists(status)) throw unreadable(path, "no such file", "check the name");
@@ -196,12 +195,12 @@ bool says_cut_short(const std::string& message) {
     return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
 }
 
-void read_window(OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
+void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
     const OIIO::ImageSpec& spec = in.spec();
     bool whole = true;
     if (spec.tile_width == 0) {
         for (int y = 0; y < spec.height && whole; y += band_rows) {
-            throw_if_interrupted();
+            if (host.interrupted()) throw Error(Refusal::interrupted, "interrupted");
             const int end = std::min(spec.height, y + band_rows);
             whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
                                       image.row(y));
@@ -229,21 +228,19 @@ Image<float> place(const Image<float>& data, const OIIO::ImageSpec& spec, const 
 
 namespace {
 
-ImageInfo read_info(const std::string& path, const ReadLimits& limits) {
-    ImageInfo info;
-    open_image(path, limits, info);
-    return info;
+void read_info(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info) {
+    open_image(host, path, limits, info);
 }
 
-Image<float> read(const std::string& path, ImageInfo& info, const ReadLimits& limits) {
-    const auto in = open_image(path, limits, info);
+void read_pixels(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info,
+                 Image<float>& image) {
+    const auto in = open_image(host, path, limits, info);
     const OIIO::ImageSpec spec = in->spec();
     const Window window = picture_window(spec);
-    Image<float> image;
     try {
         image = Image<float>(spec.width, spec.height, spec.nchannels);
         const MutedStderr muted(info.format == "png");
-        read_window(*in, path, image);
+        read_window(host, *in, path, image);
         if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
             image = place(image, spec, window);
     } catch (const std::bad_alloc&) {
@@ -251,7 +248,6 @@ Image<float> read(const std::string& path, ImageInfo& info, const ReadLimits& li
     } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
         throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
     }
-    return image;
 }
 
 OIIO::TypeDesc stored_type(Depth depth) {
@@ -289,12 +285,12 @@ struct FormatWriter {
 
 namespace {
 
-std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::string& temporary,
-                                          const PictureSize& size, const WriteOptions& options) {
-    configure_oiio();
+void open_writer(const FormatHost& host, const std::string& path, const std::string& temporary, const PictureSize& size,
+                 const WriteOptions& options, std::shared_ptr<FormatWriter>& writer) {
+    configure_oiio(host.threads);
     const OIIO::TypeDesc stored = stored_type(options.depth);
     const bool integers = options.depth == Depth::u8 || options.depth == Depth::u16;
-    const auto writer =
+    writer =
         std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
                                        integers ? stored : OIIO::TypeDesc::FLOAT);
     writer->out = OIIO::ImageOutput::create(path);
@@ -326,7 +322,6 @@ std::shared_ptr<FormatWriter> open_writer(const std::string& path, const std::st
         if (options.environment == EnvironmentTag::none) spec.attribute("textureformat", "Plain Texture");
     }
     if (!writer->out->open(temporary, spec)) writer->fail(writer->out->geterror());
-    return writer;
 }
 
 // TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
@@ -346,7 +341,7 @@ bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
     return true;
 }
 
-void write(FormatWriter& writer, const void* values, int rows) {
+void write_rows(FormatWriter& writer, const void* values, int rows) {
     OIIO::ImageOutput& out = *writer.out;
     const int first = writer.next_row, end = first + rows;
     const bool written = !writer.spec.tile_width ? out.write_scanlines(first, end, 0, writer.type, values)
@@ -375,11 +370,26 @@ void finish(FormatWriter& writer) {
     if (!reaches_its_end(writer.temporary)) writer.fail("is cut short");
 }
 
+/// The same function with its exceptions as values.
+template <auto Function> struct Returned;
+template <class... Arguments, void (*Function)(Arguments...)> struct Returned<Function> {
+    static FormatResult call(Arguments... arguments) try {
+        Function(arguments...);
+        return {};
+    } catch (const Error& error) {
+        return FormatFailure{error.refusal, error.what()};
+    } catch (const std::exception& error) {
+        return FormatFailure{Refusal::unsuitable, std::string("the picture cannot be handled (") + error.what() + ")"};
+    }
+};
+
 } // namespace
 } // namespace bake
 
 extern "C" const bake::PictureFormats* bake_picture_formats() {
-    static const bake::PictureFormats formats{bake::read_info, bake::read,       bake::open_writer,
-                                              bake::write,     bake::next_level, bake::finish};
+    using namespace bake;
+    static const PictureFormats formats{Returned<read_info>::call,   Returned<read_pixels>::call,
+                                        Returned<open_writer>::call, Returned<write_rows>::call,
+                                        Returned<next_level>::call,  Returned<finish>::call};
     return &formats;
 }
