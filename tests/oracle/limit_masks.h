@@ -1,5 +1,5 @@
-// Catmull-Clark and Loop subdivision by their rules and limit masks, in double, without OpenSubdiv: what the limit
-// surfaces are measured against. Slow and plain.
+// Catmull-Clark and Loop subdivision rules and limit masks in double, without OpenSubdiv: the reference for limit surfaces.
+// Written for clarity, not speed.
 //
 //   rules, semi-sharp creases   DeRose, Kass, Truong, Subdivision Surfaces in Character Animation, 1998
 //   Catmull-Clark limit masks   Halstead, Kass, DeRose, Efficient, Fair Interpolation, 1993
@@ -16,11 +16,11 @@ namespace oracle {
 using bake::Vec2d;
 using bake::Vec3d;
 
-/// Sharpness that never ends.
+/// Infinite sharpness.
 inline constexpr double infinite = 10;
 
-/// A cage at some level of refinement. Faces know the patch of the surface (numbered as bake::SubdivisionSurface does)
-/// that they are part of, and the parameters at their corners; those of level 0 other than quads have none yet.
+/// A cage at some level of refinement. Each face has the number of its patch in bake::SubdivisionSurface and the parameters
+/// at its corners; faces of level 0 that are not quads have none.
 struct Cage {
     struct Face {
         std::vector<std::uint32_t> vertex;
@@ -30,21 +30,21 @@ struct Cage {
     bake::Scheme scheme = bake::Scheme::catmark;
     std::vector<Vec3d> points;
     std::vector<Face> faces;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, double> creases; ///< lower end first
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> creases; ///< key: lower index first
     std::vector<double> corners;                                       ///< sharpness of each point
 };
 Cage cage_of(const bake::Mesh& mesh, bake::Scheme scheme);
 
-/// One level: vertex points first, in their order, then edge points, then face points.
+/// One level of refinement. Vertex points come first, in their order, then edge points, then face points.
 Cage subdivide(const Cage& cage);
 
-/// Faces that share a point with a face at `vertex`; `vertex` is then point 0. Borders that this cut makes are not the
-/// surface's: after subdivide() the same cut is right again.
+/// The faces that share a point with a face at `vertex`, which becomes point 0. The new borders are not borders of the
+/// surface; apply neighbourhood() again after subdivide().
 Cage neighbourhood(const Cage& cage, std::uint32_t vertex);
 
-/// The limit at a face's corner, as seen from that face. No crease or corner may be semi-sharp any more, and Catmull-Clark
-/// cages must be of quads. `normal` is not unit, and none where the surface has no tangent plane of its own making
-/// (corners of more than one face) or approaches it only logarithmically (a border's vertex of one face).
+/// The limit at the corner of a face, on the side of that face. Creases and corners must not be semi-sharp, and Catmull-Clark
+/// cages must consist of quads. `normal` is not normalised. It is missing at corners of several faces, where the surface has
+/// no tangent plane, and at border vertices of one face, where the normal converges only logarithmically.
 struct Limit {
     Vec3d p;
     std::optional<Vec3d> normal;
@@ -63,7 +63,8 @@ private:
         bool closed = false;
     };
     Sector sector(Place at, bool stop_at_creases) const;
-    /// A crease's end has no mask of its own: twenty levels on, a smooth vertex's is right to 1e-8 of its edges.
+    /// The end of a crease (dart) has no mask. After twenty levels the mask of a smooth vertex is accurate to 1e-8 of the
+    /// edge length.
     Limit dart(std::uint32_t vertex) const;
 
     const Cage& cage_;

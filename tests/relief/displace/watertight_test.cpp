@@ -113,9 +113,7 @@ TEST_SUITE("real") {
             const Scheme scheme = cage.corners() == 3 * faces ? Scheme::loop : Scheme::catmark;
             if (faces > 6500 || !is_cage(cage, scheme)) continue; // the sweep has those
             ++cages;
-            // Fewer levels of isolation: those of large cages take most of the time, and no crack depends on them.
-            const BaseSurface base(std::move(cage),
-                                   SubdivisionOptions{.scheme = scheme, .isolation = faces > 500 ? 3 : 10});
+            const BaseSurface base(std::move(cage), SubdivisionOptions{.scheme = scheme});
             check_whole(base, uniform(faces > 5000 ? 0 : faces > 500 ? 1 : 3), Seam::blend);
             check_whole(base,
                         mixed_rates(base.mesh(), (faces > 5000  ? 0.5

@@ -19,7 +19,7 @@ inline bake::Mesh cage_of(std::vector<bake::Vec3f> positions, const Faces& faces
     return mesh;
 }
 
-/// A box of three different sides; face 5 is x = 0. Face 1 (top) is 4 5 6 7.
+/// A box with three different side lengths. Face 5 is at x = 0; face 1 (top) has the vertices 4 5 6 7.
 inline bake::Mesh box() {
     return cage_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 1.5f}, {2, 0, 1.5f}, {2, 1, 1.5f}, {0, 1, 1.5f}},
                    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}});
@@ -40,7 +40,7 @@ template <class Height> bake::Mesh sheet(int n, const Height& height) {
     return mesh;
 }
 
-/// An open dome of n quads round vertex 0, n >= 3: its rim zigzags, nothing lies in a plane.
+/// An open dome of n >= 3 quads around vertex 0, with a zigzag rim and no planar part.
 inline bake::Mesh dome(int n) {
     std::vector<bake::Vec3f> positions = {{0, 0, 1}};
     Faces faces;
@@ -51,14 +51,14 @@ inline bake::Mesh dome(int n) {
     }
     const auto rim = [n](int i) { return std::uint32_t(1 + i % (2 * n)); };
     for (int i = 0; i < n; ++i) faces.push_back({0, rim(2 * i), rim(2 * i + 1), rim(2 * i + 2)});
-    // A second ring, so that the first vertex is far from the border.
+    // The second ring keeps the border away from vertex 0.
     const auto outer = [n](int i) { return std::uint32_t(1 + 2 * n + i % (2 * n)); };
     for (int i = 0; i < 2 * n; ++i) positions.push_back(positions[std::size_t(1 + i)] * 2.0f - bake::Vec3f(0, 0, 1));
     for (int i = 0; i < 2 * n; ++i) faces.push_back({rim(i), outer(i), outer(i + 1), rim(i + 1)});
     return cage_of(std::move(positions), faces);
 }
 
-/// Faces cut into fans of triangles round their first corners.
+/// Faces split into fans of triangles around their first corners.
 inline bake::Mesh in_triangles(const bake::Mesh& mesh) {
     bake::Mesh cut = mesh;
     cut.face_begin = {0};
@@ -75,7 +75,7 @@ inline bake::Mesh in_triangles(const bake::Mesh& mesh) {
     return cut;
 }
 
-/// Uvs of a chart per face: corners on a circle, each face's its own.
+/// Gives each face its own chart, with the corners on a circle.
 inline void give_each_face_a_chart(bake::Mesh& mesh) {
     mesh.uvs.clear();
     mesh.corner_uv.clear();

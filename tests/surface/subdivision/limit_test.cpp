@@ -1,4 +1,4 @@
-// SubdivisionSurface against limit masks, on cages of our own and on the collection's.
+// SubdivisionSurface compared with limit masks, on small cages and on real ones.
 #include "bake/surface/subdivision/subdivision.h"
 #include "mesh/file/mesh_files.h"
 #include "oracle/limit_masks.h"
@@ -11,15 +11,16 @@ using namespace bake_tests;
 namespace {
 
 struct Worst {
-    double position = 0; ///< of the diagonal
+    double position = 0; ///< relative to the diagonal
     double normal_deg = 0;
     std::size_t points = 0, normals = 0;
     bool good() const {
         return points > 0 && normals > 0 && position <= 1e-6 && normal_deg <= 0.01;
-    } ///< the issue's limits
+    } ///< the documented bounds
 };
 
-// At the corners of some faces of a level. Normals of rings below `least_ring` of the diagonal are left out.
+// Errors at the corners of some faces of a level. Normals are skipped where the ring is smaller than `least_ring` of the
+// diagonal.
 template <class Wanted>
 void compare(const SubdivisionSurface& surface, const oracle::Cage& level, double diagonal, double least_ring,
              const Wanted& wanted, Worst& worst) {
@@ -41,7 +42,7 @@ void compare(const SubdivisionSurface& surface, const oracle::Cage& level, doubl
     }
 }
 
-// Semi-sharp tags end after at most so many levels.
+// Number of levels after which no tag is semi-sharp.
 int sharp_levels(const Mesh& cage) {
     float most = 0;
     for (const auto& crease : cage.tags.creases)
@@ -51,8 +52,8 @@ int sharp_levels(const Mesh& cage) {
     return int(std::ceil(most));
 }
 
-// All points of level `levels`, and round every `step`-th vertex those of each level down to 2^-`deepest`, where the
-// last irregular pieces are approximations.
+// Errors at all points of level `levels` and, around every `step`-th vertex, at the points of each level down to
+// 2^-`deepest`, where the last irregular pieces are approximations.
 Worst against_masks(const Mesh& cage, Scheme scheme, int levels, int deepest, std::uint32_t step = 1,
                     double least_ring = 1e-8) {
     const SubdivisionSurface surface(cage, {scheme});
@@ -89,7 +90,7 @@ void check_good(const Worst& worst, const std::string& name) {
 } // namespace
 
 TEST_SUITE("oracle") {
-    TEST_CASE("the masks themselves: one more level of subdivision changes no limit point and turns no normal") {
+    TEST_CASE("limit masks: one more level of subdivision changes neither limit points nor normals") {
         for (const Scheme scheme : {Scheme::catmark, Scheme::loop})
             for (const int n : {3, 4, 5, 6, 7, 9}) {
                 Mesh mesh = scheme == Scheme::loop ? in_triangles(dome(n)) : dome(n);
@@ -110,8 +111,8 @@ TEST_SUITE("oracle") {
             }
     }
 
-    TEST_CASE("SubdivisionSurface: smooth vertices of any valence lie on their masks, at every depth") {
-        // In triangles the valence is twice that.
+    TEST_CASE("SubdivisionSurface: smooth vertices of any valence agree with their masks, at every depth") {
+        // In triangles the valence is twice as large.
         for (const int n : {3, 5, 7, 12}) {
             check_good(against_masks(dome(n), Scheme::catmark, 3, 38, 100), "dome, valence " + std::to_string(n));
             check_good(against_masks(in_triangles(dome(n)), Scheme::loop, 3, 38, 100),
@@ -121,12 +122,12 @@ TEST_SUITE("oracle") {
 
     TEST_CASE(
         "SubdivisionSurface: at valence 8, and 10 under Loop, the normal is right down to 1e-11 of the diagonal") {
-        // Beyond these valences it turns by more than the bound within the last piece, 1e-8 of the diagonal.
+        // At higher valences the normal varies by more than the bound within the last piece of 1e-8 of the diagonal.
         check_good(against_masks(dome(8), Scheme::catmark, 3, 44, 100, 1e-11), "dome, valence 8");
         check_good(against_masks(in_triangles(dome(5)), Scheme::loop, 3, 44, 100, 1e-11), "triangle dome, valence 10");
     }
 
-    TEST_CASE("SubdivisionSurface: creases, darts, corners and borders lie on their masks, at every depth") {
+    TEST_CASE("SubdivisionSurface: creases, darts, corners and borders agree with their masks, at every depth") {
         Mesh cage = box();
         cage.tags.creases = {{4, 5, 10}, {5, 6, 10}, {6, 7, 10}, {7, 4, 10}};
         check_good(against_masks(cage, Scheme::catmark, 3, 16), "closed crease");
@@ -145,7 +146,7 @@ TEST_SUITE("oracle") {
         check_good(against_masks(in_triangles(open), Scheme::loop, 3, 16), "border and creases, triangles");
     }
 
-    TEST_CASE("SubdivisionSurface: semi-sharp creases and corners lie on their masks once their sharpness is used up") {
+    TEST_CASE("SubdivisionSurface: semi-sharp creases and corners agree with their masks after their sharp levels") {
         Mesh cage = box();
         cage.tags.creases = {{4, 5, 2.3f}, {5, 6, 1}, {6, 7, 3.5f}, {0, 1, 0.4f}};
         cage.tags.corners = {{3, 1.5f}, {6, 0.5f}};
@@ -155,7 +156,7 @@ TEST_SUITE("oracle") {
 }
 
 TEST_SUITE("real") {
-    TEST_CASE("SubdivisionSurface: every cage of the collection is within 1e-6 of the diagonal and 0.01 degrees of its "
+    TEST_CASE("SubdivisionSurface: every real cage is within 1e-6 of the diagonal and 0.01 degrees of its "
               "masks") {
         const auto meshes = source_folder() / "../shared/data/meshes";
         if (!std::filesystem::exists(meshes)) {

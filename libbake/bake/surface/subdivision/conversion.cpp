@@ -8,30 +8,30 @@ namespace {
 
 using namespace OpenSubdiv;
 
-// Exponents of a and b in the order of LimitPatches, and as many places in the leaf that determine a polynomial.
+// Exponents of a and b in the order of LimitPatches, and one interpolation point in the leaf per term.
 struct Terms {
     std::vector<std::pair<int, int>> exponents;
-    std::vector<Vec2d> places;
+    std::vector<Vec2d> samples;
     explicit Terms(bool triangles) {
         const int degree = triangles ? 4 : 3;
         for (int n = 0; n <= degree; ++n)
             for (int m = 0; m <= (triangles ? degree - n : degree); ++m) {
                 exponents.emplace_back(m, n);
-                places.emplace_back(double(m) / degree, double(n) / degree);
+                samples.emplace_back(double(m) / degree, double(n) / degree);
             }
     }
     int count() const noexcept { return int(exponents.size()); }
 };
 
-// The polynomials whose values at the places are given: Gauss's elimination, in place. values: places x points.
+// Replaces the values of polynomials at the samples (samples x points) by their coefficients, by Gaussian elimination.
 void interpolate(const Terms& terms, std::vector<double>& values, int points) {
     const int n = terms.count();
     std::vector<double> a(std::size_t(n * n));
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
             a[std::size_t(i * n + j)] =
-                std::pow(terms.places[std::size_t(i)].x, terms.exponents[std::size_t(j)].first) *
-                std::pow(terms.places[std::size_t(i)].y, terms.exponents[std::size_t(j)].second);
+                std::pow(terms.samples[std::size_t(i)].x, terms.exponents[std::size_t(j)].first) *
+                std::pow(terms.samples[std::size_t(i)].y, terms.exponents[std::size_t(j)].second);
     const auto at = [n](int i, int j) { return std::size_t(i * n + j); };
     for (int k = 0; k < n; ++k) {
         int pivot = k;
@@ -52,14 +52,14 @@ void interpolate(const Terms& terms, std::vector<double>& values, int points) {
         for (int j = 0; j < points; ++j) values[std::size_t(k * points + j)] /= a[at(k, k)];
 }
 
-// B-splines and box-splines, from Far's own weights at the places. Their coefficients are whole multiples of 1/36 and
-// 1/12: rounding to those takes away the elimination's noise.
+// B-splines and box splines, from Far's weights at the samples. Their coefficients are multiples of 1/36 and 1/12; rounding
+// to these multiples removes the noise of the elimination.
 Conversion spline_conversion(const Terms& terms, bool triangles, const Far::PatchTable& table,
                              const Far::PatchTable::PatchHandle& handle, const Far::PatchParam& param,
                              bool face_varying) {
     Conversion conversion{triangles ? 12 : 16, {}};
-    for (const Vec2d& place : terms.places) {
-        double s = place.x, t = place.y, weights[20] = {};
+    for (const Vec2d& sample : terms.samples) {
+        double s = sample.x, t = sample.y, weights[20] = {};
         if (triangles) param.UnnormalizeTriangle(s, t);
         else param.Unnormalize(s, t);
         if (face_varying) table.EvaluateBasisFaceVarying(handle, s, t, weights);
@@ -75,7 +75,7 @@ Conversion spline_conversion(const Terms& terms, bool triangles, const Far::Patc
     return conversion;
 }
 
-// Faces of uvs that are not smoothed.
+// Uvs that are interpolated linearly.
 Conversion linear_conversion(const Terms& terms, bool triangles) {
     Conversion conversion{triangles ? 3 : 4, {}};
     for (const auto& exponent : terms.exponents) {
@@ -95,7 +95,7 @@ double binomial(int n, int k) noexcept {
     return value;
 }
 
-// Far's Gregory points in the order of Bezier's, pairs where two are averaged: row after row along a.
+// Far's Gregory points in the order of Bezier points, row after row along a. The two points of a pair are averaged.
 constexpr int gregory_quad[16][2] = {{0, 0},   {1, 1},   {7, 7},   {5, 5},   {2, 2},   {3, 4},   {8, 9},   {6, 6},
                                      {16, 16}, {18, 19}, {13, 14}, {12, 12}, {15, 15}, {17, 17}, {11, 11}, {10, 10}};
 constexpr int gregory_triangle[15][2] = {{0, 0}, {1, 1},   {15, 15}, {7, 7},   {5, 5},   {2, 2},   {3, 4},  {8, 9},
@@ -109,7 +109,7 @@ Conversion gregory_conversion(const Terms& terms, bool triangles) {
         for (int i = 0; i <= (triangles ? degree - j : degree); ++i, ++at) {
             const int* pair = triangles ? gregory_triangle[at] : gregory_quad[at];
             for (int term = 0; term < terms.count(); ++term) {
-                // Bernstein's polynomial (i, j) in powers.
+                // Bernstein polynomial (i, j) in the power basis.
                 const auto [m, n] = terms.exponents[std::size_t(term)];
                 if (m < i || n < j) continue;
                 const double sign = (m - i + n - j) % 2 ? -1 : 1;

@@ -1,37 +1,37 @@
-// From the control points of OpenSubdiv's patches to polynomials in powers. Within its room only.
+// Conversion of OpenSubdiv's patches to polynomials in the power basis. Internal to this room.
 //
-// Gregory patches stand in for the surface where the splitting ends. Their three or four pairs of inner points are
-// averaged, which makes them polynomials with the same corners, tangents and borders.
+// Gregory patches approximate the surface where refinement ends. Their three or four pairs of inner points are averaged,
+// which makes them polynomials with the same corners, tangents and borders.
 #pragma once
 #include "bake/surface/subdivision/refiner.h"
 #include <opensubdiv/far/patchTable.h>
 
 namespace bake {
 
-/// Coefficients (limit_patches.h) from control points: weights, terms x points.
+/// Matrix of weights (terms x points) from control points to coefficients (limit_patches.h).
 struct Conversion {
     int points = 0;
     std::vector<double> weight;
 };
 
-/// The conversions of one patch table, each worked out when it is first asked for.
+/// The conversions of one patch table, computed on first use.
 class Conversions {
 public:
     Conversions(const OpenSubdiv::Far::PatchTable& table, bool triangles);
 
-    /// `array` and `patch` as the table has them, `index` counts patches through all arrays. The patch's own points, or
-    /// its uvs' with `face_varying`.
+    /// `array` and `patch` are those of the table; `index` counts patches over all arrays. The result converts the points
+    /// of the patch or, if `face_varying`, its uvs.
     const Conversion& of(int array, int patch, int index, bool face_varying);
 
 private:
     const OpenSubdiv::Far::PatchTable& table_;
     bool triangles_;
     Conversion gregory_, linear_;
-    Conversion spline_[32]; ///< by the sides that are borders
+    Conversion spline_[32]; ///< indexed by the bits of the sides that are borders
 };
 
 template <class V>
-void convert(const Conversion& conversion, const std::vector<Weighed<V>>& points,
+void convert(const Conversion& conversion, const std::vector<Weighted<V>>& points,
              const OpenSubdiv::Far::ConstIndexArray& index, double* out) noexcept {
     for (auto weight = conversion.weight.begin(); weight != conversion.weight.end();) {
         V sum(0);

@@ -1,6 +1,6 @@
-// One row of a leaf, b fixed, is a polynomial in a for each of the 30 numbers of a LimitPoint: row_of() works out its
-// coefficients once, and each point of the row is one Horner scheme over 30 numbers side by side. Single points go
-// through the same two steps, so that they get the same bits.
+// For fixed b each of the 30 numbers of a LimitPoint is a polynomial in a. row_of() computes its coefficients once per row;
+// each point of the row is one Horner scheme over 30 numbers, which the compiler vectorises. Single points use the same two
+// steps and have the same bits.
 #include "bake/surface/subdivision/limit_patches.h"
 #include <cassert>
 #include <cmath>
@@ -9,13 +9,13 @@
 namespace bake {
 namespace {
 
-constexpr int numbers = 30; // of a LimitPoint: six vectors of 3, six of 2
+constexpr int numbers = 30; // in a LimitPoint: six vectors of 3 and six of 2
 constexpr int uv_begin = 18;
 static_assert(sizeof(LimitPoint) == numbers * sizeof(double));
 
 // Degree is 3 for quads, 4 for triangles.
 template <int Degree> struct Row {
-    alignas(16) double k[Degree + 1][numbers]; // exponents of a
+    alignas(16) double k[Degree + 1][numbers]; // by exponent of a
 };
 
 template <int Degree> std::int32_t leaf_at(const LimitPatches& limit, std::int32_t root, double s, double t) noexcept {
@@ -27,13 +27,13 @@ template <int Degree> std::int32_t leaf_at(const LimitPatches& limit, std::int32
     return ~at;
 }
 
-// Coefficients in a of Size numbers and their derivatives, at k[.][at], k[.][at + Size] and so on.
+// Coefficients in a of Size numbers (at k[.][at]) and of their derivatives (at k[.][at + Size] and so on).
 template <int Degree, int Size, Derivatives Order>
 void collapse(const double* c, double b, double scale, Row<Degree>& row, int at) noexcept {
     constexpr bool firsts = Order != Derivatives::none, seconds = Order == Derivatives::second;
-    constexpr int width = (Degree + 3) * Size; // exponents of a, two of them zeros for the derivatives
+    constexpr int width = (Degree + 3) * Size; // two exponents of a are zero padding for the derivatives
     double value[width] = {}, first[width] = {}, second[width] = {};
-    // Horner in b, all exponents of a side by side. A triangle has fewer of them the higher b's.
+    // Horner scheme in b for all exponents of a. In a triangle a higher exponent of b has fewer exponents of a.
     const double* end = c + (Degree == 3 ? 16 : 15) * Size;
     for (int n = Degree; n >= 0; --n) {
         const int count = (Degree == 3 ? 4 : 5 - n) * Size;
@@ -108,8 +108,8 @@ void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2
     }
 }
 
-// The first point of a lattice row behind a leaf: past its far side for quads, in whose trees all numbers are exact. On
-// slanting lines rounding may put a point to either leaf, so triangles look again.
+// Index of the first point of a lattice row after the leaf. For quads the comparison with the far side of the leaf is exact.
+// For triangles rounding may assign points on the diagonal to either leaf, so the leaf of each candidate is looked up.
 template <int Degree, class LeafOf>
 int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps, int i, int last,
                const LeafOf& leaf_of) noexcept {
@@ -148,7 +148,7 @@ void rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begi
     }
 }
 
-// The one switch: work(degree, order, uvs) as constants.
+// Calls work(degree, order, has_uv) with compile-time constants.
 template <class Work> void choose(const LimitPatches& limit, Derivatives order, const Work& work) noexcept {
     using std::integral_constant;
     const auto with_uv = [&](auto degree, auto constant) {

@@ -1,10 +1,10 @@
-// Polynomial patches over quadtrees, and their evaluation: what a subdivision surface becomes once it is cut up.
+// Representation and evaluation of a limit surface as polynomials in the leaves of quadtrees.
 //
-// A patch is the unit square (s, t) or the triangle s, t >= 0, s + t <= 1. Its quadtree splits it into leaves; in each
-// the surface is one polynomial in the leaf's own parameters a and b,
+// A patch is the unit square (s, t) or the triangle s, t >= 0, s + t <= 1. A quadtree splits it into leaves. In each leaf
+// the surface is one polynomial in the leaf's parameters a and b:
 //
 //   quad      sum c[m][n] a^m b^n, m and n up to 3             a = scale s + origin.x, b = scale t + origin.y
-//   triangle  sum c[m][n] a^m b^n, m + n up to 4               scale is negative in triangles turned by 180 degrees
+//   triangle  sum c[m][n] a^m b^n, m + n up to 4               scale is negative in triangles rotated by 180 degrees
 #pragma once
 #include "bake/surface/subdivision/types.h"
 #include <cstdint>
@@ -24,23 +24,23 @@ struct LimitPatch {
     std::int32_t root;
 };
 
-/// Everything that evaluation needs.
 struct LimitPatches {
     bool triangles = false;
     bool has_uv = false;
     std::vector<LimitPatch> patches;
-    /// Four children each: 0 and up a node, below 0 the leaf ~child. Quads: 0 1 / 2 3 in a / b order. Triangles: 0 1 2
-    /// at the corners, 3 the turned one in the middle.
+    /// Four children per node. A child >= 0 is a node, a child < 0 is the leaf ~child. Children of quads: 0 1 at the lower
+    /// t, 2 3 at the upper t. Children of triangles: 0 1 2 at the corners, 3 (rotated) in the middle.
     std::vector<std::int32_t> nodes;
     std::vector<LimitLeaf> leaves;
-    std::vector<double> position; ///< leaves * terms * 3: exponents n of b, in each those of a, in each x y z
-    std::vector<double> uv;       ///< leaves * terms * 2, or none
+    std::vector<double> position; ///< leaves * terms * 3: by exponent of b, then exponent of a, then x y z
+    std::vector<double> uv;       ///< leaves * terms * 2; empty without uvs
 
-    /// Coefficients of a leaf.
+    /// Number of coefficients of a leaf.
     int terms() const noexcept { return triangles ? 15 : 16; }
 };
 
-/// The child in which (s, t) lies, on lines between children the one towards larger s and t; s and t become the child's.
+/// The child that contains (s, t); on borders between children the one at larger s and t. Converts s and t to the
+/// parameters of the child.
 inline int step_into_child(bool triangles, double& s, double& t) noexcept {
     if (!triangles) {
         const bool right = s >= 0.5, up = t >= 0.5;
@@ -54,7 +54,7 @@ inline int step_into_child(bool triangles, double& s, double& t) noexcept {
     return child;
 }
 
-/// SubdivisionSurface's functions of the same names.
+/// The functions of the same names in SubdivisionSurface.
 void evaluate(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2d> st, Derivatives order,
               std::span<LimitPoint> out) noexcept;
 void evaluate_rows(const LimitPatches& limit, std::uint32_t patch, int rate, int row_begin, int row_end,

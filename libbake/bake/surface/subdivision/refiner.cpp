@@ -85,7 +85,7 @@ std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const RefinerInpu
     const Sdc::SchemeType scheme = options.scheme == Scheme::loop ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK;
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
     std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(cage, Factory::Options(scheme, rules)));
-    assert(refiner); // check_cage came first
+    assert(refiner); // check_cage() excludes failures
     return refiner;
 }
 

@@ -1,7 +1,6 @@
 #include "bake/surface/subdivision/subdivision.h"
 #include "bake/base/error.h"
 #include "bake/surface/subdivision/stage.h"
-#include <cassert>
 #include <new>
 
 namespace bake {
@@ -12,13 +11,11 @@ struct SubdivisionSurface::Limit {
 
 SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options)
     : limit_(std::make_unique<Limit>()) {
-    assert(options.isolation >= 1 && options.isolation <= stage_levels);
     try {
         make_patches(cage, options, limit_->patches);
     } catch (const std::bad_alloc&) {
         throw Error(Refusal::unsuitable,
-                    "the subdivision surface needs more memory than there is; use a smaller cage or "
-                    "fewer semi-sharp creases");
+                    "the subdivision surface does not fit in memory; use a smaller cage or fewer semi-sharp creases");
     }
 }
 SubdivisionSurface::~SubdivisionSurface() = default;
