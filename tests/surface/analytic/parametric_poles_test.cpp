@@ -1,4 +1,4 @@
-// Points where p_u x p_v vanishes: poles, tips, collapsed edges.
+// Points where p_u x p_v = 0: poles, tips, collapsed edges.
 #include "bake/surface/analytic/parametric.h"
 #include "oracle/surfaces.h"
 #include "surface/analytic/shapes.h"
@@ -37,7 +37,7 @@ TEST_SUITE("stability") {
         CHECK(s.pole(0.3, 0) == Pole::none);
     }
 
-    TEST_CASE("parametric: a cone's apex has no normal, but each meridian tends to one") {
+    TEST_CASE("parametric: a cone's apex has no normal, but each meridian has a limit") {
         const ParametricSurface s("cone:R=1,h=1");
         for (double u : {0.0, 0.2, 0.5}) {
             CHECK(s.pole(u, 1) == Pole::without_normal);
@@ -46,13 +46,13 @@ TEST_SUITE("stability") {
             CHECK(glm::length(s.side_normal(u, 1) - s.jet(u, 0.5).n) < 1e-12);
         }
         CHECK(ParametricSurface("cone:R=1,h=1,r=0.5").pole(0, 1) == Pole::none);
-        // One apex, as many normals as meridians; all of them unit.
+        // One apex with a unit normal per meridian.
         const Mesh mesh = tessellate(s, 8, 2);
         CHECK(manifold(without_repeats(mesh)).boundary == 8);
         for (const Vec3f& n : mesh.normals) CHECK(glm::length(n) == doctest::Approx(1));
     }
 
-    TEST_CASE("parametric: a revolution's ends on the axis are smooth, or pointed when asked") {
+    TEST_CASE("parametric: ends of a revolution on the axis are smooth, or pointed if requested") {
         const Shapes shapes;
         const ParametricSurface s("revolution:profile=" + shapes.drop_file),
             point("revolution:pointed=1,profile=" + shapes.drop_file);
@@ -79,7 +79,7 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("parametric: a patch that is a pyramid's tip has none, a single point nowhere") {
+    TEST_CASE("parametric: the tip of a pyramid has no limit normal, and a patch that is one point has none anywhere") {
         const Shapes shapes;
         std::string tip = "1\n", point = "1\n";
         for (int j = 0; j < 4; ++j)

@@ -12,7 +12,7 @@ using oracle::angle_deg;
 
 namespace {
 
-/// Derivative of f at x: central differences at three steps, their h^2 and h^4 errors taken out (Richardson).
+/// Derivative of f at x by central differences with three steps; Richardson extrapolation removes the h^2 and h^4 errors.
 template <class F> Vec3d derivative(const F& f, double x) {
     const double h = 0.004;
     const auto d = [&](double step) { return (f(x + step) - f(x - step)) / (2 * step); };
@@ -21,7 +21,7 @@ template <class F> Vec3d derivative(const F& f, double x) {
     return (16.0 * bc - ab) / 15.0;
 }
 
-/// Largest first and second derivative: what a relative error is relative to.
+/// Largest first and second derivative, the reference of relative errors.
 struct Sizes {
     double first = 0, second = 0;
 };
@@ -53,7 +53,7 @@ TEST_SUITE("oracle") {
         for (const std::string& text : shapes.all()) {
             INFO(text);
             const ParametricSurface s(text);
-            // Not on knots of the splines, where the third derivative jumps; off the plane of the superellipsoid's |x|^n.
+            // Avoids the knots of splines, where the third derivative jumps, and the zeros of |x|^n of the superellipsoid.
             Sizes size;
             double first = 0, second = 0, normal = 0;
             for (int patch = 0; patch < s.patches(); ++patch)
@@ -78,14 +78,14 @@ TEST_SUITE("oracle") {
                         normal = std::max({normal, glm::length(jet.n_u - n_u) / (1 + glm::length(n_u)),
                                            glm::length(jet.n_v - n_v) / (1 + glm::length(n_v))});
                     }
-            // The issue's bound, and five times looser per order for the numeric side.
+            // The bound is five times larger per order, for the error of the numeric derivatives.
             CHECK(first <= 1e-7 * size.first);
             CHECK(second <= 5e-7 * std::max(size.second, size.first));
             CHECK(normal <= 5e-7);
         }
     }
 
-    TEST_CASE("parametric: jets of torus, sphere and cylinder are the closed forms turned to y up") {
+    TEST_CASE("parametric: jets of torus, sphere and cylinder agree with the closed forms, rotated to y up") {
         const auto up = [](const Vec3d& a) { return Vec3d(a.x, a.z, -a.y); };
         const ParametricSurface torus("torus:R=2,r=0.7"), sphere("sphere:R=1.5"), cylinder("cylinder:R=0.7,h=3");
         for (double u : {0.0, 0.2, 0.61, 0.9})
@@ -106,7 +106,7 @@ TEST_SUITE("oracle") {
             }
     }
 
-    TEST_CASE("parametric: a superellipsoid lies on its implicit surface, and is the ellipsoid at exponents of 1") {
+    TEST_CASE("parametric: a superellipsoid satisfies its implicit equation, and is an ellipsoid for exponents of 1") {
         const ParametricSurface box("superellipsoid:a=1,b=2,c=3,e1=0.3,e2=0.7"),
             round("superellipsoid:a=1,b=2,c=3,e1=1,e2=1"), ellipsoid("ellipsoid:a=1,b=2,c=3");
         for (double u : {0.0, 0.11, 0.25, 0.4, 0.7})
@@ -134,13 +134,13 @@ TEST_SUITE("oracle") {
             CHECK(glm::length(before.p_v - after.p_v) < 1e-6);   // second derivative times the step
             CHECK(glm::length(before.p_vv - after.p_vv) < 1e-5); // third derivative times the step
         }
-        // A loop has no knot that could be told from the others.
+        // A loop is as smooth at its first knot as at the others.
         const ParametricSurface ring("revolution:profile=" + shapes.ring_file);
         const Jet2<double> start = ring.derivatives(0.2, 1e-9), end = ring.derivatives(0.2, 1 - 1e-9);
         CHECK(glm::length(start.p - end.p) < 1e-7);
         CHECK(glm::length(start.p_v - end.p_v) < 1e-6);
         CHECK(glm::length(start.p_vv - end.p_vv) < 1e-5);
-        // A sphere's profile in 32 points: the spline's error is of fourth order in the step of 5.6 degrees.
+        // The profile of a sphere in 32 points: the error of the spline is of fourth order in the step of 5.6 degrees.
         std::string half;
         for (int i = 0; i <= 32; ++i)
             half += format("%.17g %.17g\n", i % 32 == 0 ? 0 : std::sin(pi * i / 32), -std::cos(pi * i / 32));
@@ -153,7 +153,7 @@ TEST_SUITE("oracle") {
     }
 
     TEST_CASE("parametric: a bicubic patch of a cubic is that cubic") {
-        // x = u, z = -v, y = 1 + 2u - v + u^2 v^3: control values by the blossom of each power.
+        // x = u, z = -v, y = 1 + 2u - v + u^2 v^3. The control values are the blossoms of the powers.
         std::string text = "1\n";
         for (int j = 0; j < 4; ++j)
             for (int i = 0; i < 4; ++i) {
@@ -175,7 +175,7 @@ TEST_SUITE("oracle") {
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("parametric: closures meet, twisted ones the other way round") {
+    TEST_CASE("parametric: opposite edges are equal at periodic closures, and reversed at twisted ones") {
         const Shapes shapes;
         for (const std::string& text : shapes.all()) {
             INFO(text);
@@ -185,13 +185,13 @@ TEST_SUITE("unit") {
                 if (s.closure_v() == Closure::periodic) CHECK(s.derivatives(t, 1).p == s.derivatives(t, 0).p);
                 if (s.closure_u() == Closure::twisted) {
                     CHECK(glm::length(s.derivatives(1, t).p - s.derivatives(0, 1 - t).p) < 1e-15);
-                    CHECK(glm::length(s.jet(1, t).n + s.jet(0, 1 - t).n) < 1e-14); // the other side
+                    CHECK(glm::length(s.jet(1, t).n + s.jet(0, 1 - t).n) < 1e-14); // opposite normals
                 }
             }
         }
     }
 
-    TEST_CASE("parametric: patch files with indices, with degrees and with plain points give the same patches") {
+    TEST_CASE("parametric: patch files with indices, with degrees and with plain points yield the same patches") {
         const Shapes shapes;
         const std::string plain = bake_tests::sheet();
         std::string points = plain.substr(2), indexed = "1\n1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n16\n" + points,
@@ -204,7 +204,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("parametric: a profile may run either way; its outside stays outside") {
+    TEST_CASE("parametric: normals point outward for both orders of a profile's points") {
         const Shapes shapes;
         const std::string down = "0 1.1\n0.5 0.7\n0.9 0\n0.8 -0.6\n0 -1\n";
         const ParametricSurface up("revolution:profile=" + shapes.drop_file),
@@ -213,7 +213,7 @@ TEST_SUITE("unit") {
         CHECK(volume(tessellate(turned, 16, 16)) > 0);
     }
 
-    TEST_CASE("parametric: help names every shape with its keys") {
+    TEST_CASE("parametric: the help lists every shape with its keys") {
         const std::string help = parametric_shapes();
         for (const char* name :
              {"plane", "disc", "sphere", "ellipsoid", "cylinder", "cone", "torus", "helicoid", "saddle", "moebius",
@@ -231,7 +231,7 @@ TEST_SUITE("unit") {
 
 TEST_SUITE("stability") {
 
-    TEST_CASE("parametric: any finite parameter gives finite values, on all shapes") {
+    TEST_CASE("parametric: all shapes have finite values at every finite parameter") {
         const Shapes shapes;
         for (const std::string& text : shapes.all()) {
             const ParametricSurface s(text);
@@ -247,10 +247,10 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("parametric: bad shapes are refused with the nearest name or the keys there are") {
+    TEST_CASE("parametric: bad shapes are refused with the nearest name or the valid keys") {
         check_refused("tours:R=2", Refusal::usage, "did you mean torus?");
         check_refused("", Refusal::usage, "plane, disc, sphere");
-        check_refused("qwertyuiop", Refusal::usage, "The shapes are");
+        check_refused("qwertyuiop", Refusal::usage, "the shapes are");
         check_refused("torus:Q=2", Refusal::usage, "torus:R=1,r=0.4");
         check_refused("torus:R", Refusal::usage, "needs a number");
         check_refused("torus:R=two", Refusal::usage, "needs a number");
@@ -265,7 +265,7 @@ TEST_SUITE("stability") {
         check_refused("superellipsoid:e1=1.5", Refusal::usage, "between");
         check_refused("revolution", Refusal::usage, "profile=FILE");
         check_refused("bezier:file=", Refusal::usage, "file=FILE");
-        check_refused("plane:profile=x", Refusal::usage, "no key of plane");
+        check_refused("plane:profile=x", Refusal::usage, "not a key of plane");
     }
 
     TEST_CASE("parametric: bad profiles and patch files are refused with their line") {
@@ -281,7 +281,7 @@ TEST_SUITE("stability") {
         check_refused(profile(""), unreadable, "fewer than two points");
         check_refused(profile("1 0\n"), unreadable, "fewer than two points");
         check_refused(profile("1 0\n\n# comment\n1 2 3\n"), unreadable, "line 4");
-        check_refused(profile("1 0\n-1 2\n"), unreadable, "line 2: a negative radius");
+        check_refused(profile("1 0\n-1 2\n"), unreadable, "line 2: negative radius");
         check_refused(profile("1 0\n1 0\n2 1\n"), unreadable, "line 2");
         check_refused(profile("1 0\n2 one\n"), unreadable, "'one' is not a number");
         check_refused(profile("1 0\n2 nan\n"), unreadable, "'nan'");
@@ -295,8 +295,8 @@ TEST_SUITE("stability") {
         check_refused(patches("1\n"), unreadable, "ends too soon");
         check_refused(patches("1\n1 2 3\n"), unreadable, "ends too soon");
         check_refused(patches("1\n1 2 3 4 5\n"), unreadable, "line 2");
-        check_refused(patches("1\n2 2\n0 0 0\n"), unreadable, "line 2: only bicubic");
+        check_refused(patches("1\n2 2\n0 0 0\n"), unreadable, "line 2: not a bicubic");
         check_refused(patches("1\n1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 17\n1\n0 0 0\n"), unreadable, "line 2: an index");
-        check_refused(patches(bake_tests::sheet() + "1 2 3\n"), unreadable, "more than the patches it names");
+        check_refused(patches(bake_tests::sheet() + "1 2 3\n"), unreadable, "more lines than the given number");
     }
 }

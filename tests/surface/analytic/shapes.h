@@ -1,4 +1,4 @@
-// The analytic shapes of the tests: some of every kind, with the files that two of them need.
+// Analytic shapes of every kind for tests, with the files of `revolution` and `bezier`.
 #pragma once
 #include "bake/base/text.h"
 #include "bake/surface/analytic/parametric.h"
@@ -7,13 +7,13 @@
 
 namespace bake_tests {
 
-/// A vase open above, its foot on the axis; a drop closed at both ends; a ring's section.
+/// Profiles: a vase with its foot on the axis, open above; a drop, closed at both ends; the section of a ring.
 inline const char* const vase = "# radius height\n0 0\n0.5 0\n0.7 0.4\n0.4 0.9\n0.3 1.2\n0.45 1.4\n";
 inline const char* const drop = "0 -1\n0.8 -0.6\n0.9 0\n0.5 0.7\n0 1.1\n";
 inline const char* const ring = "1.4 0\n1.1 0.35\n0.6 0.2\n0.7 -0.3\n1.2 -0.3\n1.4 0\n";
 
-/// Eight patches, nearly a unit sphere: two borders of each are quarters of great circles, one is a pole. Tangents at
-/// the borders run across the planes of symmetry, so that the patches meet smoothly.
+/// Eight patches that approximate a unit sphere. Two borders of each are quarters of great circles, one is a pole. Tangents
+/// across the borders are perpendicular to the planes of symmetry, so that the surface is smooth there.
 inline std::string octants() {
     const double k = 4.0 / 3 * (std::numbers::sqrt2 - 1);
     // A quarter circle from the equator up, and one from x to -z.

@@ -1,4 +1,4 @@
-// Meshes of analytic shapes: closed where they are, and on the surface.
+// Tessellations of analytic shapes.
 #include "bake/base/error.h"
 #include "bake/surface/analytic/parametric.h"
 #include "surface/analytic/shapes.h"
@@ -17,7 +17,6 @@ TEST_SUITE("unit") {
             INFO(text);
             const ParametricSurface s(text);
             CHECK(s.closed());
-            CHECK(s.orientable());
             const Mesh mesh = tessellate(s, 12, 10);
             const Manifold m = manifold(without_repeats(mesh));
             CHECK(m.boundary == 0);
@@ -30,11 +29,11 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("parametric: tessellations of one-sided shapes have no crack, and one seam where faces run against each "
-              "other") {
+    TEST_CASE("parametric: tessellations of one-sided shapes have no crack, and one seam where faces have opposite "
+              "orientation") {
         const Manifold strip = manifold(tessellate(ParametricSurface("moebius"), 24, 4));
         CHECK(strip.euler() == 0);
-        CHECK(strip.boundary == 2 * 24); // one border, twice round
+        CHECK(strip.boundary == 2 * 24); // one border that goes around twice
         CHECK(strip.crowded == 0);
         CHECK(strip.against == 4);
         const Manifold bottle = manifold(tessellate(ParametricSurface("klein"), 24, 12));
@@ -42,11 +41,10 @@ TEST_SUITE("unit") {
         CHECK(bottle.boundary == 0);
         CHECK(bottle.crowded == 0);
         CHECK(bottle.against == 12);
-        CHECK_FALSE(ParametricSurface("klein").orientable());
         CHECK_FALSE(ParametricSurface("klein").closed());
     }
 
-    TEST_CASE("parametric: tessellations of open shapes have their borders and nothing else") {
+    TEST_CASE("parametric: tessellations of open shapes have no other boundary than that of the shape") {
         const Shapes shapes;
         const std::map<std::string, std::size_t> borders = {{"plane:w=2,d=3", 44},
                                                             {"disc:R=1.5", 12},
@@ -84,7 +82,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("parametric: faces come row by row, (i,j) (i+1,j) (i+1,j+1) (i,j+1)") {
+    TEST_CASE("parametric: faces are in row order, with corners (i,j) (i+1,j) (i+1,j+1) (i,j+1)") {
         const Mesh mesh = tessellate(ParametricSurface("plane"), 3, 2);
         CHECK(mesh.faces() == 6);
         const auto uv = [&](std::uint32_t c) { return mesh.uvs[mesh.corner_uv[c]]; };
@@ -94,7 +92,7 @@ TEST_SUITE("unit") {
         CHECK(uv(4 * 4 + 3) == Vec2f(1.f / 3, 1));
     }
 
-    TEST_CASE("parametric: patches with unequal cells share the borders that run alike") {
+    TEST_CASE("parametric: patches with unequal cells share borders along the same parameter") {
         const Shapes shapes;
         const ParametricSurface s("bezier:file=" + shapes.octants_file);
         CHECK(s.patches() == 8);
@@ -105,7 +103,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("parametric: flip turns a patch inside out") {
+    TEST_CASE("parametric: flip reverses the normals of a patch") {
         const Shapes shapes;
         const ParametricSurface s("bezier:file=" + shapes.octants_file),
             flipped("bezier:flip=1,file=" + shapes.octants_file);
@@ -118,7 +116,7 @@ TEST_SUITE("unit") {
 
 TEST_SUITE("stability") {
 
-    TEST_CASE("parametric: resolutions that cannot close a shape, or would fill any memory, are refused") {
+    TEST_CASE("parametric: resolutions that cannot close a shape, or need too much memory, are refused") {
         const auto refused = [](const char* shape, int columns, int rows) {
             try {
                 tessellate(ParametricSurface(shape), columns, rows);

@@ -10,19 +10,27 @@ using doctest::Approx;
 
 namespace {
 
-/// A monkey of a patch: nothing orthogonal, nothing unit.
+/// A generic point: its derivatives are neither orthogonal nor of unit length.
 const Jet2<double> skew = {{1, 2, 3},        {1, 0.2, -0.3},   {0.4, 1.7, 0.5},
                            {0.3, -0.2, 0.9}, {-0.4, 0.1, 0.6}, {0.2, 0.5, -0.8}};
 
-/// Curvatures by the classic quotients of the forms (do Carmo, section 3.3; signs for n outward).
-std::pair<double, double> mean_and_gauss(const Forms<double>& f) {
+/// First form p_i . p_j and second form n_i . p_j = -n . p_ij, positive where the surface bends away from n.
+struct Forms {
+    double E = 0, F = 0, G = 0, L = 0, M = 0, N = 0;
+};
+Forms forms(const Jet<double>& s) {
+    return {glm::dot(s.p_u, s.p_u), glm::dot(s.p_u, s.p_v), glm::dot(s.p_v, s.p_v),
+            glm::dot(s.n_u, s.p_u), glm::dot(s.n_u, s.p_v), glm::dot(s.n_v, s.p_v)};
+}
+
+/// Curvatures as quotients of the forms (do Carmo, section 3.3, with the signs for outward n).
+std::pair<double, double> mean_and_gauss(const Forms& f) {
     const double area = f.E * f.G - f.F * f.F;
     return {(f.L * f.G - 2 * f.M * f.F + f.N * f.E) / (2 * area), (f.L * f.N - f.M * f.M) / area};
 }
 
-/// Gauss's rule of two points per cell over [0, 1], in parts between `breaks` where the integrand is no smooth function,
-/// the points closer together there: the curvature of superellipsoids goes as |x|^(n-2) at the quarters, that of a spline
-/// has a corner at each knot.
+/// Gauss's rule with two points per cell over [0, 1], graded towards the `breaks` where the integrand is not smooth: the
+/// curvature of superellipsoids varies as |x|^(n-2) at the quarters, and that of a spline has a kink at each knot.
 struct Sample {
     double at, weight;
 };
@@ -38,7 +46,7 @@ std::vector<Sample> graded(const std::vector<double>& breaks, int cells) {
     return samples;
 }
 
-/// The knots of a profile: by the length of its chords.
+/// The knots of a profile: chord-length parametrisation.
 std::vector<double> knots(const std::string& profile) {
     std::istringstream text(profile);
     std::vector<double> at;
@@ -52,7 +60,7 @@ std::vector<double> knots(const std::string& profile) {
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("curvature: the frame of A agrees with the quotients of the fundamental forms") {
+    TEST_CASE("curvature: the eigenvalues of A agree with the quotients of the fundamental forms") {
         for (const double outward : {1.0, -1.0}) {
             const Jet<double> jet = jet_of(skew, outward);
             const Curvature<double> c = curvature(jet);
@@ -68,41 +76,41 @@ TEST_SUITE("unit") {
         const Jet<double> jet = jet_of(skew);
         const Curvature<double> c = curvature(jet);
         // The derivative of n along a tangent vector w = x p_u + y p_v.
-        const auto turn_along = [&](const Vec3d& w) {
-            const Forms<double> f = forms(jet);
+        const auto normal_derivative = [&](const Vec3d& w) {
+            const Forms f = forms(jet);
             const double a = glm::dot(w, jet.p_u), b = glm::dot(w, jet.p_v), area = f.E * f.G - f.F * f.F;
             return (a * f.G - b * f.F) / area * jet.n_u + (b * f.E - a * f.F) / area * jet.n_v;
         };
-        CHECK(glm::length(turn_along(c.e1) - c.a1 * c.e1) < 1e-12);
-        CHECK(glm::length(turn_along(c.e2) - c.a2 * c.e2) < 1e-12);
+        CHECK(glm::length(normal_derivative(c.e1) - c.a1 * c.e1) < 1e-12);
+        CHECK(glm::length(normal_derivative(c.e2) - c.a2 * c.e2) < 1e-12);
         CHECK(glm::length(c.e2 - glm::cross(jet.n, c.e1)) < 1e-15);
     }
 
     TEST_CASE("curvature: the second form is -n . p_ij") {
         for (const double outward : {1.0, -1.0}) {
             const Jet<double> jet = jet_of(skew, outward);
-            const Forms<double> f = forms(jet);
+            const Forms f = forms(jet);
             CHECK(f.L == Approx(-glm::dot(jet.n, skew.p_uu)).epsilon(1e-13));
             CHECK(f.M == Approx(-glm::dot(jet.n, skew.p_uv)).epsilon(1e-13));
+            CHECK(f.M == Approx(glm::dot(jet.n_v, jet.p_u)).epsilon(1e-13));
             CHECK(f.N == Approx(-glm::dot(jet.n, skew.p_vv)).epsilon(1e-13));
-            CHECK(f.E == glm::dot(skew.p_u, skew.p_u));
         }
     }
 
-    TEST_CASE("curvature: another side turns every curvature's sign, another chart none") {
+    TEST_CASE("curvature: the opposite normal changes the signs of a1 and a2, another chart changes nothing") {
         const Curvature<double> c = curvature(jet_of(skew)), inside = curvature(jet_of(skew, -1.0));
         CHECK(inside.a1 == Approx(-c.a2).epsilon(1e-13));
         CHECK(inside.gauss == Approx(c.gauss).epsilon(1e-13));
         const Curvature<double> rechart = curvature(oracle::rechart(jet_of(skew), 0.3, -2, 1.1, 0.7));
         CHECK(rechart.a1 == Approx(c.a1).epsilon(1e-12));
         CHECK(rechart.a2 == Approx(c.a2).epsilon(1e-12));
-        // Mirrored: the same outside, sigma -1.
+        // A mirrored chart has the same outside and sigma -1.
         Jet<double> mirrored = oracle::rechart(jet_of(skew), 0, 1, 1, 0);
         CHECK(mirrored.sigma == -1);
         CHECK(curvature(mirrored).a1 == Approx(c.a1).epsilon(1e-12));
     }
 
-    TEST_CASE("curvature: at an umbilic e1 runs along p_u") {
+    TEST_CASE("curvature: at an umbilic e1 is parallel to p_u") {
         const Jet<double> jet = oracle::sphere(2, 0.3, 0.4);
         const Curvature<double> c = curvature(jet);
         CHECK(c.a1 == Approx(0.5));
@@ -125,7 +133,7 @@ TEST_SUITE("unit") {
 
 TEST_SUITE("stability") {
 
-    TEST_CASE("curvature: derivatives that vanish or are parallel give zeros, never NaN") {
+    TEST_CASE("curvature: zero or parallel derivatives give zeros, never NaN") {
         for (const auto& [p_u, p_v] : {std::pair(Vec3d(0), Vec3d(1, 0, 0)),
                                        {Vec3d(1, 0, 0), Vec3d(0)},
                                        {Vec3d(0), Vec3d(0)},
@@ -137,7 +145,6 @@ TEST_SUITE("stability") {
             CHECK(jet.n == Vec3d(0));
             CHECK(jet.n_u == Vec3d(0));
             CHECK(jet.p == s.p);
-            CHECK(forms(jet).E == 0);
             const Curvature<double> c = curvature(jet);
             CHECK(c.a1 == 0);
             CHECK(c.gauss == 0);
@@ -145,7 +152,7 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("curvature: a nanometre and a light year have the curvatures of a metre") {
+    TEST_CASE("curvature: scaling by 1e-9 and 1e16 divides the curvature by the scale") {
         const Curvature<double> c = curvature(jet_of(skew));
         for (const double k : {1e-9, 1e16}) {
             Jet2<double> s = skew;
@@ -167,11 +174,11 @@ TEST_SUITE("oracle") {
             CHECK(c.a2 == Approx(ring).epsilon(1e-12).scale(1));
             CHECK(c.gauss == Approx(ring / r).epsilon(1e-12).scale(1));
         }
-        // y = h (x^2 - z^2) at the origin: normal curvatures 2h along x (up, against n) and -2h along z.
+        // y = h (x^2 - z^2) at the origin: the principal curvatures are -2h along x and 2h along z.
         const Curvature<double> c = curvature(ParametricSurface("saddle:R=1,h=0.4").jet(0.5, 0.5));
         CHECK(c.a1 == Approx(0.8));
         CHECK(c.a2 == Approx(-0.8));
-        CHECK(std::abs(c.e1.z) == Approx(1)); // it bends away from n along z
+        CHECK(std::abs(c.e1.z) == Approx(1)); // the surface bends away from n along z
     }
 
     TEST_CASE("curvature: spheres have 1/R, cylinders 1/R and 0, minimal surfaces mean 0") {

@@ -32,7 +32,7 @@ struct Reader {
         return std::size_t(value);
     }
     Vec3d point() {
-        const auto& v = take(3, "no point; 'x y z' belongs here");
+        const auto& v = take(3, "not a point; write 'x y z'");
         return {v[0], v[1], v[2]};
     }
 };
@@ -43,7 +43,8 @@ std::array<double, 4> basis(double t) noexcept {
     return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
 }
 
-/// Sums of differences, so that coincident points give a derivative of exactly 0.
+/// Value and first two derivatives of a cubic curve. They are sums of differences of control points, so that coincident
+/// points give derivatives of exactly 0.
 struct Curve {
     Vec3d p, d, dd;
 };
@@ -53,60 +54,68 @@ Curve curve_at(const std::array<Vec3d, 4>& c, double t) noexcept {
     return {bezier_curve(c, t), 3.0 * (s * s * a + 2 * s * t * b + t * t * e), 6.0 * (s * (b - a) + t * (e - b))};
 }
 
+/// The control points of a border as a map key.
 using Key = std::array<double, 12>;
 Key key_of(const std::array<Vec3d, 4>& c, bool reversed) {
     Key key;
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k)
-            key[std::size_t(3 * i + k)] = c[std::size_t(reversed ? 3 - i : i)][k] + 0.0; // -0 is 0
+            key[std::size_t(3 * i + k)] = c[std::size_t(reversed ? 3 - i : i)][k] + 0.0; // turns -0 into 0
     return key;
+}
+
+/// 16 points per patch, with the line "3 3" before them if `with_degrees`.
+std::vector<BezierPatch> read_points(Reader& in, std::size_t patches, bool with_degrees) {
+    std::vector<BezierPatch> out;
+    for (std::size_t i = 0; i < patches; ++i) {
+        if (with_degrees && in.take(2, "no degrees; write '3 3' before every patch") != std::vector<double>{3, 3}) {
+            --in.next;
+            in.refuse("not a bicubic patch; its degrees must be '3 3'");
+        }
+        BezierPatch& patch = out.emplace_back();
+        for (Vec3d& p : patch.points) p = in.point();
+    }
+    return out;
+}
+
+/// 16 indices per patch, then the points.
+std::vector<BezierPatch> read_indexed(Reader& in, std::size_t patches) {
+    const std::size_t first = in.next;
+    bool from_zero = false;
+    for (std::size_t i = 0; i < patches; ++i) {
+        const auto& indices = in.take(16, "not a patch; write 16 indices on one line");
+        from_zero = from_zero || std::find(indices.begin(), indices.end(), 0.0) != indices.end();
+    }
+    const std::size_t count = in.count("not a number of points; write it alone on its line");
+    std::vector<Vec3d> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back(in.point());
+    const std::size_t end = in.next;
+    std::vector<BezierPatch> out;
+    for (in.next = first; in.next < first + patches; ++in.next) {
+        BezierPatch& patch = out.emplace_back();
+        for (std::size_t i = 0; i < 16; ++i) {
+            const double index = in.lines[in.next].values[i] - (from_zero ? 0 : 1);
+            if (!(index >= 0 && index < double(count) && index == std::floor(index)))
+                in.refuse("an index is not the number of a point; there are " + std::to_string(count) + " points");
+            patch.points[i] = points[std::size_t(index)];
+        }
+    }
+    in.next = end;
+    return out;
 }
 
 } // namespace
 
 std::vector<BezierPatch> read_bezier(const std::string& path) {
     Reader in{path, read_number_lines(path)};
-    const std::size_t patches = in.count("no number of patches; it belongs here, alone on its line");
-    if (in.next == in.lines.size()) in.refuse("no patches; they belong after their number");
-    const std::size_t form = in.lines[in.next].values.size();
-    std::vector<BezierPatch> out;
-    if (form == 16) {
-        std::vector<std::size_t> at;
-        for (std::size_t i = 0; i < patches; ++i, at.push_back(in.next - 1))
-            in.take(16, "no patch; 16 indices on one line belong here");
-        const std::size_t points = in.count("no number of points; it belongs here, alone on its line");
-        std::vector<Vec3d> list;
-        for (std::size_t i = 0; i < points; ++i) list.push_back(in.point());
-        const bool from_zero = std::any_of(at.begin(), at.end(), [&](std::size_t line) {
-            const auto& v = in.lines[line].values;
-            return std::find(v.begin(), v.end(), 0.0) != v.end();
-        });
-        const std::size_t behind = in.next;
-        for (const std::size_t line : at) {
-            BezierPatch& patch = out.emplace_back();
-            for (std::size_t i = 0; i < 16; ++i) {
-                const double index = in.lines[line].values[i] - (from_zero ? 0 : 1);
-                in.next = line;
-                if (!(index >= 0 && index < double(points) && index == std::floor(index)))
-                    in.refuse("an index is no number of a point; there are " + std::to_string(points) + " of them");
-                patch.points[i] = list[std::size_t(index)];
-            }
-        }
-        in.next = behind;
-    } else if (form == 2 || form == 3) {
-        for (std::size_t i = 0; i < patches; ++i) {
-            if (form == 2 &&
-                in.take(2, "no degrees; every patch begins with '3 3' here") != std::vector<double>{3, 3}) {
-                --in.next;
-                in.refuse("only bicubic patches can be read; their degrees are '3 3'");
-            }
-            BezierPatch& patch = out.emplace_back();
-            for (Vec3d& p : patch.points) p = in.point();
-        }
-    } else {
-        in.refuse("no patch; a point 'x y z', the degrees '3 3' or 16 indices belong here");
-    }
-    if (in.next < in.lines.size()) in.refuse("more than the patches it names; is their number right?");
+    const std::size_t patches = in.count("not a number of patches; write it alone on its line");
+    if (in.next == in.lines.size()) in.refuse("there are no patches; write them after their number");
+    const std::size_t numbers = in.lines[in.next].values.size();
+    if (numbers != 2 && numbers != 3 && numbers != 16)
+        in.refuse("not a patch; write a point 'x y z', the degrees '3 3' or 16 indices");
+    std::vector<BezierPatch> out = numbers == 16 ? read_indexed(in, patches) : read_points(in, patches, numbers == 2);
+    if (in.next < in.lines.size())
+        in.refuse("there are more lines than the given number of patches; correct the number");
     return out;
 }
 

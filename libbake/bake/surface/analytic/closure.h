@@ -1,12 +1,12 @@
-// How the edges of the unit square of parameters meet in space.
+// Identification of opposite edges of the unit parameter square.
 #pragma once
 
 namespace bake {
 
 enum class Closure {
-    open,     ///< they do not
-    periodic, ///< u (or v) = 0 and 1 are the same curve
-    twisted,  ///< the same curve run the other way: Moebius strip, Klein bottle
+    open,     ///< the edges are different curves
+    periodic, ///< u (or v) = 0 and u (or v) = 1 are the same curve
+    twisted,  ///< the same curve in opposite directions: Moebius strip, Klein bottle
 };
 
 } // namespace bake

@@ -11,7 +11,7 @@
 namespace bake {
 namespace {
 
-/// Letters to change, add or take out (Levenshtein 1966).
+/// Edit distance (Levenshtein 1966).
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t(0));
@@ -26,11 +26,14 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// "torus:R=1,r=0.4".
+/// For example "torus:R=1,r=0.4".
 std::string spelled(const ShapeKind& kind) {
     std::string out = kind.name;
     char mark = ':';
-    const auto add = [&](const std::string& text) { out += mark + text, mark = ','; };
+    const auto add = [&](const std::string& text) {
+        out += mark + text;
+        mark = ',';
+    };
     if (kind.file_key) add(kind.file_key + std::string("=FILE"));
     for (const ShapeKey& key : kind.keys) add(key.name + format("=%g", key.value));
     return out;
@@ -47,10 +50,11 @@ const ShapeKind& kind_named(std::string_view name, const std::string& head) {
     for (const ShapeKind& kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kind.name);
     const std::string near =
         distance(nearest->name, name) <= 3 ? "did you mean " + std::string(nearest->name) + "? " : "";
-    throw Error{Refusal::usage, head + "no such shape; " + near + "The shapes are " + all};
+    throw Error{Refusal::usage, head + "no such shape; " + near + "the shapes are " + all};
 }
 
-/// Puts what "key=value,..." says in place of the defaults, and gives the file it names. `head` is what refusals begin with.
+/// Replaces defaults in `values` by those in "key=value,..." and returns the file name among them. Refusals start with
+/// `head`.
 std::string read_values(const ShapeKind& kind, const std::string& head, std::string_view text,
                         std::vector<double>& values) {
     const auto refuse = [&](const std::string& what) { throw Error{Refusal::usage, head + what}; };
@@ -66,8 +70,8 @@ std::string read_values(const ShapeKind& kind, const std::string& head, std::str
             std::find_if(kind.keys.begin(), kind.keys.end(), [&](const ShapeKey& k) { return k.name == name; });
         const bool is_file = kind.file_key && name == kind.file_key;
         if (key == kind.keys.end() && !is_file)
-            refuse(shown(name) + " is no key of " + kind.name + "; write " + spelled(kind));
-        if (std::find(given.begin(), given.end(), name) != given.end()) refuse(name + " is given twice; take one out");
+            refuse(shown(name) + " is not a key of " + kind.name + "; write " + spelled(kind));
+        if (std::find(given.begin(), given.end(), name) != given.end()) refuse(name + " is given twice; remove one");
         given.push_back(entry.substr(0, equals));
         if (is_file) {
             file = value;
@@ -78,33 +82,33 @@ std::string read_values(const ShapeKind& kind, const std::string& head, std::str
         if (read.ec != std::errc() || read.ptr != value.data() + value.size())
             refuse(name + " needs a number, not " + shown(value) + "; write " + spelled(kind));
         if (!(number >= key->least && number <= key->most))
-            refuse(name + format(" must lie between %g and %g; its default is %g", key->least, key->most, key->value));
+            refuse(name + format(" must be between %g and %g; its default is %g", key->least, key->most, key->value));
         values[std::size_t(key - kind.keys.begin())] = number;
     }
     return file;
 }
 
-/// Normals of the neighbourhood: how N = p_u x p_v grows along u and v where it is zero.
-struct Growth {
+/// Derivatives of N = p_u x p_v along u and v.
+struct NormalDerivatives {
     Vec3d along_u, along_v;
 };
-Growth growth(const Jet2<double>& s) noexcept {
+NormalDerivatives normal_derivatives(const Jet2<double>& s) noexcept {
     return {glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv),
             glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv)};
 }
 
-/// +1 at the lower end of the unit interval, -1 at the upper: where the inside is; 0 between and on closed ones.
+/// Direction from t to the inside of the unit interval: +1 at t = 0, -1 at t = 1, else 0. 0 if the interval is closed.
 double inward(double t, Closure closure) noexcept {
     if (closure != Closure::open) return 0;
     return t == 0 ? 1 : t == 1 ? -1 : 0;
 }
 
-/// Rounding leaves this much of a vector that should be zero.
+/// True if v is zero up to rounding.
 bool vanishes(const Vec3d& v, double scale) noexcept { return !(glm::length(v) > 1e-12 * scale); }
 
 bool same_direction(const Vec3d& a, const Vec3d& b) noexcept { return glm::length(a - b) < 1e-9; }
 
-/// Samples along a collapsed edge; odd, so that no symmetry of a shape hides between them.
+/// Samples along a collapsed edge. Odd, so that one is on the symmetry axis of a shape.
 constexpr int samples = 7;
 
 } // namespace
@@ -121,9 +125,11 @@ ParametricSurface::ParametricSurface(std::string_view text) {
     if (colon != std::string_view::npos) file = read_values(kind, head, text.substr(colon + 1), shape->values);
     if (const char* fault = kind.fault ? kind.fault(shape->values.data()) : nullptr)
         throw Error{Refusal::usage, head + fault + "; the default is " + spelled(kind)};
-    if (kind.file_key && file.empty()) throw Error{Refusal::usage, head + "a file is needed; write " + spelled(kind)};
+    if (kind.file_key && file.empty()) throw Error{Refusal::usage, head + "it needs a file; write " + spelled(kind)};
 
-    shape->closure_u = kind.closure_u, shape->closure_v = kind.closure_v, shape->closed = kind.closed;
+    shape->closure_u = kind.domain.closure_u;
+    shape->closure_v = kind.domain.closure_v;
+    shape->closed = kind.domain.closed;
     if (shape->name == "revolution") {
         shape->profile = read_profile(file, shape->values[0] != 0);
         if (shape->profile.loop) shape->closure_v = Closure::periodic;
@@ -132,7 +138,7 @@ ParametricSurface::ParametricSurface(std::string_view text) {
     }
     if (shape->name == "bezier") {
         shape->patches = read_bezier(file);
-        if (shape->values[0] != 0) // mirrored in u, so that N turns over
+        if (shape->values[0] != 0) // mirrored in u, which reverses N
             for (BezierPatch& patch : shape->patches)
                 for (auto row = patch.points.begin(); row != patch.points.end(); row += 4) std::reverse(row, row + 4);
         shape->borders = bezier_borders(shape->patches);
@@ -146,9 +152,8 @@ int ParametricSurface::patches() const noexcept { return std::max(1, int(shape_-
 Closure ParametricSurface::closure_u() const noexcept { return shape_->closure_u; }
 Closure ParametricSurface::closure_v() const noexcept { return shape_->closure_v; }
 bool ParametricSurface::closed() const noexcept { return shape_->closed; }
-bool ParametricSurface::orientable() const noexcept { return shape_->kind->orientable; }
 std::pair<int, int> ParametricSurface::default_resolution() const noexcept {
-    return {shape_->kind->columns, shape_->kind->rows};
+    return {shape_->kind->cells.columns, shape_->kind->cells.rows};
 }
 
 std::string ParametricSurface::help() const {
@@ -167,7 +172,7 @@ Jet2<double> ParametricSurface::derivatives(double u, double v, int patch) const
 Vec3d ParametricSurface::side_normal(double u, double v, int patch) const noexcept {
     const Jet2<double> s = derivatives(u, v, patch);
     if (const Vec3d n = jet_of(s).n; n != Vec3d(0)) return n;
-    const Growth g = growth(s);
+    const NormalDerivatives g = normal_derivatives(s);
     const double into_u = inward(u, closure_u()), into_v = inward(v, closure_v());
     return unit_or_zero(into_u * g.along_u + into_v * g.along_v);
 }
@@ -175,23 +180,23 @@ Vec3d ParametricSurface::side_normal(double u, double v, int patch) const noexce
 Vec3d ParametricSurface::limit_normal(double u, double v, int patch) const noexcept {
     const Jet2<double> s = derivatives(u, v, patch);
     const double into_u = inward(u, closure_u()), into_v = inward(v, closure_v());
-    const Growth g = growth(s);
+    const NormalDerivatives g = normal_derivatives(s);
     const double second = glm::length(s.p_uu) + glm::length(s.p_uv) + glm::length(s.p_vv),
                  scale = (glm::length(s.p_u) + glm::length(s.p_v)) * second;
     const bool grows_u = !vanishes(g.along_u, scale), grows_v = !vanishes(g.along_v, scale);
-    // Across an inner point the normal would turn over: a fold.
+    // At an inner point N would change its sign: a fold. If both derivatives vanish the direction is unknown.
     if ((grows_u && into_u == 0) || (grows_v && into_v == 0) || !(grows_u || grows_v)) return Vec3d(0);
     const Vec3d along_u = grows_u ? unit_or_zero(into_u * g.along_u) : Vec3d(0),
                 along_v = grows_v ? unit_or_zero(into_v * g.along_v) : Vec3d(0);
     if (grows_u && grows_v && !same_direction(along_u, along_v)) return Vec3d(0);
     const Vec3d n = grows_v ? along_v : along_u;
 
-    // Where a whole edge is the point, every way to it must agree.
+    // If a whole edge collapses to the point, the limits along all parameter lines to it must agree.
     const auto agree = [&](bool u_varies) {
         for (int k = 1; k <= samples; ++k) {
             const double t = k / (samples + 1.0), at_u = u_varies ? t : u, at_v = u_varies ? v : t;
             const Jet2<double> other = derivatives(at_u, at_v, patch);
-            if (jet_of(other).sigma != 0 || other.p != s.p) return true; // no collapsed edge
+            if (jet_of(other).sigma != 0 || other.p != s.p) return true; // the edge does not collapse
             if (!same_direction(side_normal(at_u, at_v, patch), n)) return false;
         }
         return true;

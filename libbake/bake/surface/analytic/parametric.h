@@ -1,6 +1,6 @@
-// Analytic surfaces p(u,v), with exact derivatives, over the unit square of the UV chart.
+// Analytic surfaces p(u,v) with exact derivatives. The UV chart is the unit square.
 //
-// u and v both run from 0 to 1 (p_u is per unit of u); y is up. All charts of closed shapes have N = p_u x p_v outward.
+// u and v are in [0, 1], and p_u is per unit of u; y is up. N = p_u x p_v points outward on closed shapes.
 #pragma once
 #include "bake/mesh/mesh.h"
 #include "bake/surface/analytic/closure.h"
@@ -12,38 +12,37 @@
 
 namespace bake {
 
-/// A point where p_u x p_v = 0: does the normal have a limit there?
+/// none: p_u x p_v is not 0. Otherwise the normal has or does not have a limit at the point.
 enum class Pole { none, with_normal, without_normal };
 
 struct AnalyticShape; // parametric_shapes.h
 
-/// One analytic surface, by name and values: cheap to copy, immutable.
+/// An analytic surface: immutable and cheap to copy.
 class ParametricSurface {
 public:
-    /// "torus:R=2,r=0.7": a name of parametric_shapes() and values for its keys; what is left out has its default.
-    /// `revolution:profile=FILE` reads a curve of "radius height" lines, `bezier:file=FILE` a patch file.
-    /// Throws Error{Refusal::usage} for an unknown name or key and values out of range, Error{Refusal::unreadable} for
-    /// the files.
+    /// From text such as "torus:R=2,r=0.7": a name of parametric_shapes() and values of its keys; other keys have their
+    /// defaults. `revolution:profile=FILE` reads a profile (profile.h), `bezier:file=FILE` a patch file (bezier.h).
+    /// Throws Error{Refusal::usage} for an unknown name or key or a value out of range, Error{Refusal::unreadable} for
+    /// a faulty file.
     explicit ParametricSurface(std::string_view shape);
 
     const std::string& name() const noexcept;
-    int patches() const noexcept; ///< 1, or the Bezier patches of the file
+    int patches() const noexcept; ///< 1, or the number of Bezier patches in the file
     Closure closure_u() const noexcept;
     Closure closure_v() const noexcept;
-    bool closed() const noexcept; ///< has no boundary and an inside
-    bool orientable() const noexcept;
-    std::pair<int, int> default_resolution() const noexcept; ///< cells along u and v that show the shape
-    std::string help() const;                                ///< its keys and their values
+    bool closed() const noexcept;                            ///< without boundary and two-sided
+    std::pair<int, int> default_resolution() const noexcept; ///< cells along u and v
+    std::string help() const;                                ///< description with keys and values
 
-    /// Point and derivatives, exact up to rounding; any finite u, v; periodic ones wrap. `patch` below patches().
+    /// Point and derivatives, exact up to rounding. u and v are finite; periodic parameters wrap. patch < patches().
     Jet2<double> derivatives(double u, double v, int patch = 0) const noexcept;
 
-    /// The same with the outward unit normal and its derivatives. At a pole n is the limit normal where there is one
-    /// (else zero), and sigma, n_u, n_v are 0.
+    /// Point, first derivatives, and the outward unit normal with its derivatives. At a pole n is the limit normal or, if
+    /// there is none, zero; sigma, n_u and n_v are zero.
     Jet<double> jet(double u, double v, int patch = 0) const noexcept;
     Pole pole(double u, double v, int patch = 0) const noexcept;
-    /// The outward unit normal where there is one; at a pole what it tends to along the parameter that runs into it
-    /// (one per meridian of a cone's apex); zero where that vanishes too.
+    /// The outward unit normal. At a pole it is the limit along the parameter line that ends there (along the meridian at
+    /// the apex of a cone), or zero if that limit does not exist.
     Vec3d side_normal(double u, double v, int patch = 0) const noexcept;
 
     const AnalyticShape& shape() const noexcept { return *shape_; }
@@ -53,7 +52,7 @@ private:
     std::shared_ptr<const AnalyticShape> shape_;
 };
 
-/// Names of all shapes, with their keys and defaults: one line each, for --help.
+/// One line per shape with its name, keys and defaults, for help texts.
 std::string parametric_shapes();
 
 /// columns x rows quads over every patch, patch by patch and row by row: face (patch rows + j) columns + i has the

@@ -1,4 +1,4 @@
-// The shapes behind ParametricSurface: a table of names, keys and point functions.
+// Table of the shapes of ParametricSurface: names, keys and point functions.
 #pragma once
 #include "bake/surface/analytic/bezier.h"
 #include "bake/surface/analytic/closure.h"
@@ -9,24 +9,34 @@ namespace bake {
 
 struct ShapeKey {
     const char* name;
-    double value;       ///< unless given
+    double value;       ///< default
     double least, most; ///< inclusive
     const char* what;
 };
 
+/// Closures of the unit square of parameters.
+struct ShapeDomain {
+    Closure closure_u, closure_v;
+    bool closed = false; ///< the surface has an inside
+};
+
+struct ShapeCells {
+    int columns, rows;
+};
+
 struct AnalyticShape;
 
-/// One kind of shape. Values come in the order of the keys.
+/// One kind of shape. Functions take the values in the order of the keys.
 struct ShapeKind {
     const char* name;
     const char* what;
     std::vector<ShapeKey> keys;
-    const char* file_key; ///< null, or the key that names its file
-    Closure closure_u, closure_v;
-    bool closed, orientable;
-    int columns, rows;
-    const char* (*fault)(const double* value); ///< what values do not go together, or null; itself null: any do
+    ShapeDomain domain;
+    ShapeCells cells; ///< default resolution
     Jet2<double> (*derivatives)(const AnalyticShape& shape, double u, double v, int patch);
+    /// If not null: returns the constraint between keys that the values violate, or null.
+    const char* (*fault)(const double* value);
+    const char* file_key; ///< if not null: the key whose value is a file
 };
 std::span<const ShapeKind> shape_kinds();
 

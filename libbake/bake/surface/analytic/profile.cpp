@@ -6,7 +6,7 @@
 namespace bake {
 namespace {
 
-/// Solves the tridiagonal system low x[i-1] + diagonal x[i] + high x[i+1] = x, dominant in its diagonal.
+/// Solves the diagonally dominant tridiagonal system low[i] y[i-1] + diagonal[i] y[i] + high[i] y[i+1] = x[i]; y replaces x.
 void solve(const std::vector<double>& low, std::vector<double> diagonal, const std::vector<double>& high,
            std::vector<double>& x) {
     for (std::size_t i = 1; i < x.size(); ++i) {
@@ -19,12 +19,13 @@ void solve(const std::vector<double>& low, std::vector<double> diagonal, const s
 }
 
 enum class End {
-    free,  ///< second derivative 0
-    level, ///< first derivative 0
+    natural, ///< second derivative 0
+    level,   ///< first derivative 0
 };
 
 /// Second derivatives at the knots of the spline through `y`.
-std::vector<double> bends(const std::vector<double>& t, const std::vector<double>& y, End first, End last) {
+std::vector<double> second_derivatives(const std::vector<double>& t, const std::vector<double>& y, End first,
+                                       End last) {
     const std::size_t n = t.size();
     std::vector<double> low(n), diagonal(n, 1.0), high(n), x(n);
     const auto step = [&](std::size_t i) { return t[i + 1] - t[i]; };
@@ -39,8 +40,9 @@ std::vector<double> bends(const std::vector<double>& t, const std::vector<double
     return x;
 }
 
-/// The same for a loop (the last value is the first): Sherman and Morrison's correction of the open system.
-std::vector<double> loop_bends(const std::vector<double>& t, const std::vector<double>& y) {
+/// Second derivatives of a periodic spline, whose last value equals the first. The Sherman-Morrison formula corrects the
+/// solution of a tridiagonal system.
+std::vector<double> periodic_second_derivatives(const std::vector<double>& t, const std::vector<double>& y) {
     const std::size_t n = t.size() - 1; // distinct knots
     const auto step = [&](std::size_t i) { return t[i % n + 1] - t[i % n]; };
     const auto slope = [&](std::size_t i) { return (y[i % n + 1] - y[i % n]) / step(i); };
@@ -61,11 +63,52 @@ std::vector<double> loop_bends(const std::vector<double>& t, const std::vector<d
     return x;
 }
 
+/// The points of a profile file, checked.
+std::vector<Vec2d> read_points(const std::string& path, const std::vector<NumberLine>& lines) {
+    const auto refuse = [&](const std::string& what) { throw Error{Refusal::unreadable, path + ": " + what}; };
+    std::vector<Vec2d> points;
+    for (const NumberLine& line : lines) {
+        const std::string where = "line " + std::to_string(line.line);
+        if (line.values.size() != 2) refuse(where + ": not two numbers; write 'radius height'");
+        const Vec2d p{line.values[0], line.values[1]};
+        if (p.x < 0) refuse(where + ": negative radius; the axis is at radius 0");
+        if (!points.empty() && p == points.back()) refuse(where + ": repeats the previous point; remove one of them");
+        points.push_back(p);
+    }
+    if (points.size() < 2) refuse("fewer than two points; write one line 'radius height' per point");
+    if (points.size() == 3 && points.front() == points.back())
+        refuse("the curve returns along itself; a loop needs at least three different points");
+    return points;
+}
+
+/// Sets the knots and second derivatives of the spline through the points.
+void add_spline(Profile& profile, bool pointed) {
+    const auto& points = profile.points;
+    auto& knots = profile.knots;
+    knots = {0};
+    for (std::size_t i = 1; i < points.size(); ++i)
+        knots.push_back(knots.back() + glm::length(points[i] - points[i - 1]));
+    const double length = knots.back();
+    for (double& t : knots) t /= length;
+
+    std::vector<double> radius, height;
+    for (const Vec2d& p : points) {
+        radius.push_back(p.x);
+        height.push_back(p.y);
+    }
+    const auto end = [&](const Vec2d& p) { return p.x == 0 && !pointed ? End::level : End::natural; };
+    const auto radius2 = profile.loop ? periodic_second_derivatives(knots, radius)
+                                      : second_derivatives(knots, radius, End::natural, End::natural);
+    const auto height2 = profile.loop ? periodic_second_derivatives(knots, height)
+                                      : second_derivatives(knots, height, end(points.front()), end(points.back()));
+    for (std::size_t i = 0; i < points.size(); ++i) profile.second.emplace_back(radius2[i], height2[i]);
+}
+
 /// Least radius between knots i and i + 1.
 double least_radius(const Profile& profile, std::size_t i) noexcept {
     const double from = profile.knots[i], to = profile.knots[i + 1];
     double least = std::min(profile.points[i].x, profile.points[i + 1].x);
-    // Finer than any turn of one cubic piece matters here.
+    // One cubic piece is sampled finely enough to find its minimum.
     for (int k = 1; k < 64; ++k) least = std::min(least, profile_at(profile, from + (to - from) * k / 64).p.x);
     return least;
 }
@@ -78,7 +121,7 @@ ProfilePoint profile_at(const Profile& profile, double t) noexcept {
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, t);
     const auto i = std::size_t(above - knots.begin()) - 1;
     const double h = knots[i + 1] - knots[i], b = (t - knots[i]) / h, a = 1 - b;
-    const Vec2d p0 = profile.points[i], p1 = profile.points[i + 1], m0 = profile.bends[i], m1 = profile.bends[i + 1];
+    const Vec2d p0 = profile.points[i], p1 = profile.points[i + 1], m0 = profile.second[i], m1 = profile.second[i + 1];
     const double ca = (a * a * a - a) * h * h / 6, cb = (b * b * b - b) * h * h / 6;
     const double da = (1 - 3 * a * a) * h / 6, db = (3 * b * b - 1) * h / 6;
     return {a * p0 + b * p1 + ca * m0 + cb * m1, (p1 - p0) / h + da * m0 + db * m1, a * m0 + b * m1};
@@ -88,49 +131,22 @@ Profile read_profile(const std::string& path, bool pointed) {
     const std::vector<NumberLine> lines = read_number_lines(path);
     const auto refuse = [&](const std::string& what) { throw Error{Refusal::unreadable, path + ": " + what}; };
     Profile profile;
-    for (const NumberLine& line : lines) {
-        const std::string where = "line " + std::to_string(line.line);
-        if (line.values.size() != 2) refuse(where + ": not two numbers; 'radius height' is expected");
-        const Vec2d p{line.values[0], line.values[1]};
-        if (p.x < 0) refuse(where + ": a negative radius; the axis is at radius 0");
-        if (!profile.points.empty() && p == profile.points.back())
-            refuse(where + ": the point before again; take one out");
-        profile.points.push_back(p);
-    }
     auto& points = profile.points;
+    points = read_points(path, lines);
     const std::size_t n = points.size();
-    if (n < 2) refuse("fewer than two points; a profile has a line 'radius height' for each");
-    profile.loop = n > 3 && points.front() == points.back();
-    if (n == 3 && points.front() == points.back())
-        refuse("the curve goes back the way it came; a loop needs three different points or more");
+    profile.loop = points.front() == points.back();
 
     double area = 0;
     for (std::size_t i = 0; i + 1 < n; ++i) area += (points[i].x + points[i + 1].x) * (points[i + 1].y - points[i].y);
-    const bool turned = area < 0;
-    if (turned) std::reverse(points.begin(), points.end());
-
-    auto& knots = profile.knots;
-    knots = {0};
-    for (std::size_t i = 0; i + 1 < n; ++i) knots.push_back(knots.back() + glm::length(points[i + 1] - points[i]));
-    const double length = knots.back();
-    for (double& t : knots) t /= length;
-
-    std::vector<double> radius, height, bend_r, bend_h;
-    for (const Vec2d& p : points) radius.push_back(p.x), height.push_back(p.y);
-    const auto end = [&](const Vec2d& p) { return p.x == 0 && !pointed ? End::level : End::free; };
-    if (profile.loop) {
-        bend_r = loop_bends(knots, radius), bend_h = loop_bends(knots, height);
-    } else {
-        bend_r = bends(knots, radius, End::free, End::free);
-        bend_h = bends(knots, height, end(points.front()), end(points.back()));
-    }
-    for (std::size_t i = 0; i < n; ++i) profile.bends.emplace_back(bend_r[i], bend_h[i]);
+    const bool reversed = area < 0;
+    if (reversed) std::reverse(points.begin(), points.end());
+    add_spline(profile, pointed);
 
     for (std::size_t i = 0; i + 1 < n; ++i)
         if (least_radius(profile, i) < -1e-12) {
-            const std::size_t a = turned ? n - 2 - i : i;
+            const std::size_t a = reversed ? n - 2 - i : i;
             refuse("the curve crosses the axis between lines " + std::to_string(lines[a].line) + " and " +
-                   std::to_string(lines[a + 1].line) + "; put more points there");
+                   std::to_string(lines[a + 1].line) + "; add points there");
         }
     return profile;
 }

@@ -6,10 +6,12 @@ namespace {
 
 constexpr double two_pi = 2 * pi;
 
-} // namespace
+struct CosSin {
+    double cos, sin;
+};
 
-Turn turn(double turns) noexcept {
-    const double rest = turns - std::floor(turns); // in [0, 1]
+CosSin cos_sin(double x) noexcept {
+    const double rest = x - std::floor(x); // in [0, 1]
     const int quarter = int(4 * rest + 0.5);
     const double angle = two_pi * (rest - 0.25 * quarter), c = std::cos(angle), s = std::sin(angle);
     switch (quarter & 3) {
@@ -20,10 +22,12 @@ Turn turn(double turns) noexcept {
     }
 }
 
-TaylorTurn turn(const Taylor& turns) noexcept {
-    const auto [c, s] = turn(turns.f);
+} // namespace
+
+TaylorCosSin cos_sin(const Taylor& x) noexcept {
+    const auto [c, s] = cos_sin(x.f);
     const double k = two_pi;
-    return {chain(turns, c, -k * s, -k * k * c), chain(turns, s, k * c, -k * k * s)};
+    return {chain(x, c, -k * s, -k * k * c), chain(x, s, k * c, -k * k * s)};
 }
 
 Taylor abs_power(const Taylor& x, double n) noexcept {

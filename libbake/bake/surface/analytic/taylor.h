@@ -1,11 +1,11 @@
-// Derivatives by the rules of calculus: formulas written on Taylor give their value and exact derivatives along u and v.
+// Automatic differentiation: a formula evaluated on Taylor values yields its value and its exact derivatives along u and v.
 #pragma once
 #include "bake/surface/point/jet.h"
 #include <array>
 
 namespace bake {
 
-/// A value and its derivatives up to the second along u and v.
+/// A value with its first and second derivatives along u and v.
 struct Taylor {
     double f = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
 };
@@ -27,25 +27,21 @@ inline Taylor operator*(const Taylor& a, const Taylor& b) noexcept {
             a.uv * b.f + a.u * b.v + a.v * b.u + a.f * b.uv,
             a.vv * b.f + 2 * a.v * b.v + a.f * b.vv};
 }
-/// g(x), from g and its derivatives at x.f.
+/// g(x), from the value and derivatives of g at x.f.
 inline Taylor chain(const Taylor& x, double g, double g1, double g2) noexcept {
     return {g, g1 * x.u, g1 * x.v, g2 * x.u * x.u + g1 * x.uu, g2 * x.u * x.v + g1 * x.uv, g2 * x.v * x.v + g1 * x.vv};
 }
 
-/// Cosine and sine of an angle given in turns: exactly 0 and +-1 at quarter turns, so that poles are exact points and
-/// closures meet to the last bit.
-struct Turn {
-    double cos = 1, sin = 0;
-};
-Turn turn(double turns) noexcept;
-struct TaylorTurn {
+struct TaylorCosSin {
     Taylor cos, sin;
 };
-TaylorTurn turn(const Taylor& turns) noexcept;
+/// Cosine and sine of 2 pi x. They are exactly 0 and +-1 at multiples of 1/4, so that poles are exact points and both
+/// edges of a periodic direction have the same bits.
+TaylorCosSin cos_sin(const Taylor& x) noexcept;
 
-/// |x|^n, n >= 2, so that both derivatives exist at 0.
+/// |x|^n for n >= 2, which makes both derivatives exist at 0.
 Taylor abs_power(const Taylor& x, double n) noexcept;
-/// x^n of a positive x.
+/// x^n for positive x.
 Taylor power(const Taylor& x, double n) noexcept;
 
 /// A point of a surface.

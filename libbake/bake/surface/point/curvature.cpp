@@ -7,28 +7,18 @@ template <class T> Jet<T> jet_of(const Jet2<T>& s, T outward) noexcept {
     Jet<T> jet{.p = s.p, .p_u = s.p_u, .p_v = s.p_v, .n = Vec3<T>(0), .n_u = Vec3<T>(0), .n_v = Vec3<T>(0), .sigma = 0};
     const Vec3<T> N = glm::cross(s.p_u, s.p_v);
     const T square = glm::dot(N, N);
-    // Parallel derivatives: what is left of N is rounding.
+    // If the derivatives are parallel, N is only rounding noise.
     constexpr T noise = 4 * std::numeric_limits<T>::epsilon();
     if (!(square > noise * noise * glm::dot(s.p_u, s.p_u) * glm::dot(s.p_v, s.p_v))) return jet;
-    const T per_area = 1 / std::sqrt(square), scale = outward * per_area; // roots and divisions are what this costs
+    const T per_area = 1 / std::sqrt(square),
+            scale = outward * per_area; // one root and one division, the slow operations, for all terms
     const Vec3<T> n = per_area * N;
-    const auto turned = [&](const Vec3<T>& dN) { return scale * (dN - glm::dot(dN, n) * n); };
+    const auto derivative = [&](const Vec3<T>& dN) { return scale * (dN - glm::dot(dN, n) * n); };
     jet.n = outward * n;
-    jet.n_u = turned(glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv));
-    jet.n_v = turned(glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv));
+    jet.n_u = derivative(glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv));
+    jet.n_v = derivative(glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv));
     jet.sigma = outward;
     return jet;
-}
-
-template <class T> Forms<T> forms(const Jet<T>& s) noexcept {
-    if (s.sigma == T(0)) return {};
-    // The two ways to say M agree for exact jets; those of meshes are interpolated.
-    return {glm::dot(s.p_u, s.p_u),
-            glm::dot(s.p_u, s.p_v),
-            glm::dot(s.p_v, s.p_v),
-            glm::dot(s.n_u, s.p_u),
-            (glm::dot(s.n_u, s.p_v) + glm::dot(s.n_v, s.p_u)) / 2,
-            glm::dot(s.n_v, s.p_v)};
 }
 
 template <class T> Curvature<T> curvature(const Jet<T>& s) noexcept {
@@ -37,7 +27,7 @@ template <class T> Curvature<T> curvature(const Jet<T>& s) noexcept {
     const Vec3<T> y = glm::cross(s.n, x); // n is unit and perpendicular to p_u
     const T u = glm::dot(s.p_u, x), shear = glm::dot(s.p_v, x), v = glm::dot(s.p_v, y);
     if (s.sigma == T(0) || !(u * std::abs(v) > T(0))) return c;
-    // A in the orthonormal frame (x, y), symmetric: principal curvatures as of any symmetric 2 x 2 matrix.
+    // A in the orthonormal frame (x, y), made symmetric, because normals of meshes are interpolated.
     const Vec3<T> n_x = s.n_u / u, n_y = (s.n_v - shear * n_x) / v;
     const T xx = glm::dot(n_x, x), yy = glm::dot(n_y, y), xy = (glm::dot(n_x, y) + glm::dot(n_y, x)) / 2;
     const T half = (xx - yy) / 2, root = std::hypot(half, xy);
@@ -45,7 +35,7 @@ template <class T> Curvature<T> curvature(const Jet<T>& s) noexcept {
     c.a1 = c.mean + root;
     c.a2 = c.mean - root;
     c.gauss = xx * yy - xy * xy;
-    // e1 at half the angle of (half, xy).
+    // The angle from x to e1 is half the angle of (half, xy).
     const T angle = root > T(0) ? std::atan2(xy, half) / 2 : T(0);
     c.e1 = std::cos(angle) * x + std::sin(angle) * y;
     c.e2 = glm::cross(s.n, c.e1);
@@ -54,8 +44,6 @@ template <class T> Curvature<T> curvature(const Jet<T>& s) noexcept {
 
 template Jet<float> jet_of(const Jet2<float>&, float) noexcept;
 template Jet<double> jet_of(const Jet2<double>&, double) noexcept;
-template Forms<float> forms(const Jet<float>&) noexcept;
-template Forms<double> forms(const Jet<double>&) noexcept;
 template Curvature<float> curvature(const Jet<float>&) noexcept;
 template Curvature<double> curvature(const Jet<double>&) noexcept;
 
