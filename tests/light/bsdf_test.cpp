@@ -16,13 +16,13 @@ Vec3d at(double degrees) { return {std::sin(degrees * radians), 0, std::cos(degr
 
 TEST_SUITE("oracle") {
 
-    TEST_CASE("bsdf: diffuse n.l and specular (n.h)^shininess, each by its colour") {
+    TEST_CASE("bsdf: diffuse n.l and specular (n.h)^shininess, each times its colour") {
         BlinnPhong<double> surface;
         surface.diffuse = {0.5, 0.25, 0};
         surface.specular = {0, 0.1, 0.2};
         surface.shininess = 10;
         const Vec3d n(0, 0, 1);
-        // Light at 50 degrees, viewer at -10: halfway at 20.
+        // Light at 50 degrees, viewer at -10: the halfway vector is at 20.
         const Vec3d value = reflected(surface, n, at(50), at(-10));
         const double cosine = std::cos(50 * radians);
         const double lobe = std::pow(std::cos(20 * radians), 10);

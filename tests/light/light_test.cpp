@@ -13,13 +13,13 @@ TEST_SUITE("oracle") {
         CHECK(attenuation(Attenuation<double>{}, 1e9) == 1);
     }
 
-    TEST_CASE("light: a point light's radiance falls with the distance to it, and comes from it") {
+    TEST_CASE("light: the radiance of a point light decreases with distance, and its direction is towards the light") {
         Light<double> light;
         light.kind = LightKind::point;
         light.position = {1, 2, 3};
         light.colour = {10, 20, 30};
         light.falloff = {0.5, 0.25, 2};
-        const LightSample<double> s = sample(light, Vec3d(1, 2, 5)); // 2 away, along -z
+        const LightSample<double> s = sample(light, Vec3d(1, 2, 5)); // distance 2, direction -z
         CHECK(glm::length(s.l - Vec3d(0, 0, -1)) < 1e-15);
         CHECK(glm::length(s.radiance - light.colour / 9.0) < 1e-12);
     }
@@ -36,7 +36,7 @@ TEST_SUITE("oracle") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("light: at the light, or without a usable falloff, the light is off rather than infinite") {
+    TEST_CASE("light: at the light, or without a valid falloff, the radiance is 0, not infinite") {
         Light<float> light;
         light.kind = LightKind::point;
         light.falloff = {0, 0, 1};

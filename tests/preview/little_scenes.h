@@ -9,7 +9,7 @@ namespace bake::test {
 
 inline constexpr float pi_f = 3.14159265358979f;
 
-/// A grid of quads over uv in [0,1]^2, (columns + 1) x (rows + 1) vertices, with normals; `at` gives point and normal.
+/// A grid of quads over uv in [0,1]^2, (columns + 1) x (rows + 1) vertices; `at` returns point and normal.
 inline Mesh grid_mesh(int columns, int rows, const std::function<void(float, float, Vec3f&, Vec3f&)>& at) {
     Mesh mesh;
     for (int j = 0; j <= rows; ++j)
@@ -34,11 +34,11 @@ inline Mesh grid_mesh(int columns, int rows, const std::function<void(float, flo
     return mesh;
 }
 
-/// A unit sphere: u runs east about +Y, v from the south pole to the north pole.
+/// A unit sphere: u increases to the east about +Y, v from the south pole to the north pole.
 inline Mesh sphere_mesh(int columns = 64, int rows = 32) {
     return grid_mesh(columns, rows, [](float u, float v, Vec3f& p, Vec3f& n) {
         const float east = 2 * pi_f * u, north = pi_f * (v - 0.5f);
-        const float ring = v > 0 && v < 1 ? std::cos(north) : 0; // the poles are points
+        const float ring = v > 0 && v < 1 ? std::cos(north) : 0; // poles are exact points
         p = n = Vec3f(ring * std::sin(east), std::sin(north), ring * std::cos(east));
     });
 }
@@ -75,7 +75,7 @@ inline Light<float> directional(const Vec3f& from) {
     return light;
 }
 
-/// A scene of one mesh at the origin, seen from +Z; not yet built.
+/// A scene of one mesh at the origin, seen from +Z, before build().
 inline Scene one_mesh(Mesh mesh, Material material, bool flat = false) {
     Scene scene;
     scene.shapes.push_back(make_shape(std::move(mesh), {.flat = flat}));
@@ -85,7 +85,7 @@ inline Scene one_mesh(Mesh mesh, Material material, bool flat = false) {
     return scene;
 }
 
-/// What the camera of a built scene sees through picture point (x, y) of an n x n picture.
+/// Radiance at the point (x, y) of an n x n picture of a built scene.
 inline Vec3f seen_at(const Scene& scene, double x, double y, int n = 64) {
     std::int64_t rays = 0;
     return radiance(scene, primary_ray(camera_frame(scene.camera), x, y, n, n), scene.settings.bounces, rays);

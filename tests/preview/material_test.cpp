@@ -39,7 +39,7 @@ struct Waves {
     }
 };
 
-/// The sphere with u running west, as on a mirrored half of a symmetric model.
+/// The sphere with u increasing to the west, as on the mirrored half of a symmetric model.
 Mesh mirrored_sphere() {
     Mesh mesh = sphere_mesh();
     for (Vec2f& uv : mesh.uvs) uv.x = 1 - uv.x;
@@ -64,7 +64,7 @@ TEST_SUITE("unit") {
         });
     }
 
-    TEST_CASE("material: bump table and normal map of one relief shade alike, on mirrored charts too") {
+    TEST_CASE("material: bump table and normal map of one relief have the same shading, also on mirrored charts") {
         for (const bool mirrored : {false, true}) {
             const auto shape = make_shape(mirrored ? mirrored_sphere() : sphere_mesh());
             add_tangents(*shape);
@@ -72,7 +72,7 @@ TEST_SUITE("unit") {
             const int n = 512;
             const Material bump =
                 with_bump(texture(2 * n, n, 2, [&](float u, float v, float* out) { waves.slopes(u, v, out); }));
-            // The map by hand, on the analytic sphere: |p_u| = 2 pi cos(latitude), |p_v| = pi, and t = (-b_u/|p_u|,
+            // The map in closed form on the sphere: |p_u| = 2 pi cos(latitude), |p_v| = pi, and t = (-b_u/|p_u|,
             // -b_v/|p_v|, 1) in the frame of unit p_u and p_v.
             const Material mapped = with_normals(texture(2 * n, n, 3, [&](float u, float v, float* t) {
                 float slopes[2];
@@ -84,7 +84,8 @@ TEST_SUITE("unit") {
             double worst = 0, moved = 0;
             over_triangles(*shape, [&](const ShapePoint& at) {
                 const Vec2f uv = uv_at(*shape, at);
-                if (uv.y < 0.1f || uv.y > 0.9f) return; // towards the poles the facets' metric leaves the sphere's
+                if (uv.y < 0.1f || uv.y > 0.9f)
+                    return; // near the poles the metric of the facets differs from that of the sphere
                 const Vec3f a = shading_normal(bump, *shape, at), b = shading_normal(mapped, *shape, at);
                 worst = std::max(worst, angle_deg(a, b));
                 moved = std::max(moved, angle_deg(a, shading_normal(plain, *shape, at)));
@@ -95,7 +96,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("material: a table and a map baked from one height texture shade alike") {
+    TEST_CASE("material: a table and a map baked from one height texture have the same shading") {
         HeightTexture height;
         height.values = Image<float>(512, 256, 1);
         for (int y = 0; y < 256; ++y)
@@ -123,7 +124,7 @@ TEST_SUITE("unit") {
         double worst = 0;
         over_triangles(*shape, [&](const ShapePoint& at) {
             const float v = uv_at(*shape, at).y;
-            if (v < 0.1f || v > 0.9f) return; // there the frame turns within one texel
+            if (v < 0.1f || v > 0.9f) return; // near the poles the frame rotates within one texel
             worst = std::max(worst, angle_deg(shading_normal(bump, *shape, at), shading_normal(mapped, *shape, at)));
         });
         MESSAGE("at most " << worst << " degrees apart");
@@ -131,7 +132,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("material: relief rises towards growing height on ordinary and mirrored charts") {
-        // Slope along +u: the normal turns against p_u, wherever p_u points.
+        // Height increases along +u, so the normal tilts towards -p_u.
         const Material bump = with_bump(texture(2, 2, 2, [](float, float, float* b) { b[0] = 0.3f, b[1] = 0; }));
         const Material mapped =
             with_normals(texture(2, 2, 3, [](float, float, float* t) { t[0] = -0.6f, t[1] = 0, t[2] = 0.8f; }));
@@ -150,7 +151,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("material: the albedo colours ambient and diffuse, not the highlight") {
+    TEST_CASE("material: the albedo multiplies ambient and diffuse, not specular") {
         const auto shape = make_shape(plane_mesh());
         Material material;
         material.bsdf.specular = Vec3f(0.5f);
@@ -178,14 +179,14 @@ TEST_SUITE("unit") {
         CHECK(turned > 100);
     }
 
-    TEST_CASE("material: flat shading takes the facet's normal") {
+    TEST_CASE("material: flat shading uses the facet normal") {
         const auto shape = make_shape(sphere_mesh(8, 4), {.flat = true});
         const Material plain;
         over_triangles(*shape, [&](const ShapePoint& at) {
             const Vec3f n = shading_normal(plain, *shape, at);
             const auto& c = shape->surface.triangles[at.triangle].corner;
             const auto p = [&](int k) { return shape->mesh.positions[shape->mesh.corner_position[c[k]]]; };
-            if (p(0) == p(1) || p(1) == p(2) || p(2) == p(0)) return; // squeezed at a pole: no ray meets it
+            if (p(0) == p(1) || p(1) == p(2) || p(2) == p(0)) return; // degenerate at a pole: no ray hits it
             CHECK(std::abs(glm::dot(n, p(1) - p(0))) < 1e-6f);
             CHECK(std::abs(glm::dot(n, p(2) - p(0))) < 1e-6f);
             CHECK(glm::dot(n, p(0)) > 0);
@@ -195,7 +196,7 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("material: without uv area, and with relief that points nowhere, the plain normal is left") {
+    TEST_CASE("material: without uv area, or if the texture yields no direction, the plain normal is used") {
         Mesh mesh = sphere_mesh(16, 8);
         for (Vec2f& uv : mesh.uvs) uv = Vec2f(0.5f);
         const auto shape = make_shape(std::move(mesh));

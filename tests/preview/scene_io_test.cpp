@@ -127,7 +127,7 @@ scale = [1, 2, 3]
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("scene_io: every key arrives") {
+    TEST_CASE("scene_io: every key is read") {
         const Folder folder;
         const SceneEntries s = read_scene(folder.write("scene.toml", every_key));
         CHECK(s.settings.width == 320);
@@ -186,7 +186,7 @@ TEST_SUITE("unit") {
         CHECK(s.meshes[1].placement.scale == Vec3f(1, 2, 3));
     }
 
-    TEST_CASE("scene_io: a scene of one line is framed and lit, meshes of one file are read once") {
+    TEST_CASE("scene_io: a scene of one line has a camera and a light; a file with several meshes is read once") {
         const Folder folder;
         write_mesh(folder / "ball.obj", sphere_mesh(16, 8));
         const Scene one = load(read_scene(folder.write("one.toml", "mesh = [{file = \"ball.obj\"}]")));
@@ -200,7 +200,7 @@ TEST_SUITE("unit") {
         CHECK(two.bvh->triangle_count() == 2 * one.bvh->triangle_count());
     }
 
-    TEST_CASE("scene_io: materials that name one file share its texture") {
+    TEST_CASE("scene_io: materials with the same file share its texture") {
         const Folder folder;
         write_image(folder / "a.png", grey_texels(), {.depth = Depth::u8});
         write_mesh(folder / "ball.obj", sphere_mesh(8, 4));
@@ -217,7 +217,7 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("scene_io: an unknown key or table is refused by its name and line") {
+    TEST_CASE("scene_io: an unknown key or table is refused with its name and line") {
         check_refused_at(2, "\"fov\"", "[camera]\nfov = 30\n");
         check_refused_at(4, "\"colour\"", "[[mesh]]\nfile = \"a.obj\"\n\ncolour = 1\n");
         check_refused_at(1, "\"lights\"", "[lights]\n");
@@ -226,7 +226,7 @@ TEST_SUITE("stability") {
         check_refused_at(2, "\"Spp\"", "[render]\nSpp = 3\n");
     }
 
-    TEST_CASE("scene_io: a value of the wrong type or out of range is refused by its name and line") {
+    TEST_CASE("scene_io: a value of the wrong type or out of range is refused with its name and line") {
         check_refused_at(2, "\"spp\"", "[render]\nspp = 2.5\n");
         check_refused_at(2, "\"spp\"", "[render]\nspp = 0\n");
         check_refused_at(2, "\"size\"", "[render]\nsize = [10, 20, 30]\n");
@@ -257,7 +257,7 @@ TEST_SUITE("stability") {
         check_refused_at(1, "\"camera\"", "camera = [1, 2]\n");
     }
 
-    TEST_CASE("scene_io: what is not TOML is refused with the line") {
+    TEST_CASE("scene_io: a file that is not TOML is refused with the line") {
         check_refused_at(3, "", "[render]\nspp = 3\nsize = = 4\n");
         check_refused_at(2, "", "[render]\n[render]\n");
         check_refused_at(1, "", std::string("\x00\xff\xfe", 3));
@@ -266,7 +266,7 @@ TEST_SUITE("stability") {
         refusal("/tmp", Refusal::unreadable, [] { read_scene("/tmp"); });
     }
 
-    TEST_CASE("scene_io: what a scene names and cannot have is refused with the scene's line") {
+    TEST_CASE("scene_io: missing or unsuitable files are refused with the line of the scene") {
         const Folder folder;
         const auto check = [&](const std::string& text, Refusal why, const std::string& after) {
             const std::string file = folder.write("scene.toml", text);

@@ -23,7 +23,7 @@ bool near(const Vec3f& a, const Vec3f& b, float tolerance = 1e-5f) { return glm:
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("scene: a placement scales, turns about x, then y, then z, then moves") {
+    TEST_CASE("scene: a placement scales, rotates about x, y and z, then translates") {
         CHECK(near(placed({.translate = {1, 2, 3}}, {1, 0, 0}), {2, 2, 3}));
         CHECK(near(placed({.rotate_deg = {90, 0, 0}}, {0, 1, 0}), {0, 0, 1}));
         CHECK(near(placed({.rotate_deg = {0, 90, 0}}, {0, 0, 1}), {1, 0, 0}));
@@ -34,7 +34,7 @@ TEST_SUITE("unit") {
             near(placed({.translate = {0, 0, 1}, .rotate_deg = {0, 0, 90}, .scale = {2, 3, 4}}, {1, 0, 0}), {0, 2, 1}));
     }
 
-    TEST_CASE("scene: normals stay perpendicular and outside under uneven and mirrored scales") {
+    TEST_CASE("scene: normals stay perpendicular and outward under non-uniform and mirroring scales") {
         const Vec3f tiny(1e-12f, 2e-12f, 1e-12f);
         for (const Vec3f& scale : {Vec3f(1, 2, 5), Vec3f(-1, 1, 1), Vec3f(-2, 1, -3), Vec3f(-1), tiny}) {
             Scene scene;
@@ -71,7 +71,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("scene: bounds are those of the placed meshes together") {
+    TEST_CASE("scene: bounds contain all placed meshes") {
         Scene scene = one_mesh(plane_mesh(), {});
         add_instance(scene, *scene.shapes[0], *scene.materials[0], {.translate = {10, 0, 1}, .scale = Vec3f(2)});
         const Bounds box = bounds(scene);
@@ -82,14 +82,14 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("scene: a mesh scaled to nothing or beyond all bounds is refused") {
+    TEST_CASE("scene: a mesh with scale 0, or beyond the limit of coordinates, is refused") {
         Scene scene = one_mesh(plane_mesh(), {});
         CHECK_THROWS_AS(add_instance(scene, *scene.shapes[0], *scene.materials[0], {.scale = {1, 0, 1}}), Error);
         add_instance(scene, *scene.shapes[0], *scene.materials[0], {.scale = Vec3f(1e30f)});
         CHECK_THROWS_AS(build(scene), Error);
     }
 
-    TEST_CASE("scene: an empty box still has a camera") {
+    TEST_CASE("scene: an empty box has a valid camera") {
         const CameraFrame frame = camera_frame(framing_camera({}, 40, 1));
         CHECK(glm::length(frame.forward) == doctest::Approx(1));
     }

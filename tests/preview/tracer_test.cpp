@@ -33,7 +33,7 @@ Material mirror(float k = 1) {
     return material;
 }
 
-/// Every texel of its own colour.
+/// Every texel has a different colour.
 Cube numbered_cube(int n) {
     Cube cube;
     for (int f = 0; f < 6; ++f) {
@@ -48,7 +48,7 @@ Cube numbered_cube(int n) {
     return cube;
 }
 
-/// Where the camera's ray through (x, y) first meets the unit sphere at the origin; false when it does not.
+/// First intersection of the camera's ray through (x, y) with the unit sphere at the origin; false if there is none.
 bool on_sphere(const Scene& scene, double x, double y, int n, Vec3d& p, Vec3d& v) {
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, n, n);
     const Vec3d o(ray.origin), d(glm::normalize(Vec3d(ray.direction)));
@@ -63,7 +63,7 @@ bool on_sphere(const Scene& scene, double x, double y, int n, Vec3d& p, Vec3d& v
 
 TEST_SUITE("oracle") {
 
-    TEST_CASE("tracer: a lit sphere's pixel is the closed form, for directional and point lights") {
+    TEST_CASE("tracer: a lit sphere agrees with the closed form, for directional and point lights") {
         Scene scene = one_mesh(sphere_mesh(512, 256), shiny());
         scene.ambient = {1, 0.5f, 0.25f};
         scene.lights.push_back(directional({1, 1, 1}));
@@ -94,7 +94,7 @@ TEST_SUITE("oracle") {
                 const Vec3d seen(seen_at(scene, x + 0.5, y + 0.5, 32));
                 worst = std::max(worst, glm::length(seen - expected) / glm::length(expected));
             }
-        // Facets stand up to (pi/256)^2/2 inside the sphere: 7.5e-5, times the highlight's slope of some 20.
+        // Facets are up to (pi/256)^2/2 = 7.5e-5 inside the sphere; the slope of the highlight is about 20.
         CHECK(worst < 2e-3);
     }
 
@@ -107,7 +107,8 @@ TEST_SUITE("unit") {
         for (const int bounces : {0, 1, 4}) {
             Scene scene = one_mesh(sphere_mesh(24, 12), mirror());
             add_instance(scene, *scene.shapes[0], *scene.materials[0], {.translate = {1.2f, 0.3f, -0.5f}});
-            add_instance(scene, *scene.shapes[0], *scene.materials[0], {.scale = Vec3f(30)}); // all inside a ball
+            add_instance(scene, *scene.shapes[0], *scene.materials[0],
+                         {.scale = Vec3f(30)}); // everything is inside a sphere
             scene.sky.cube = constant_cube(sky);
             scene.settings.bounces = bounces;
             build(scene);
@@ -115,7 +116,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("tracer: reflection counts by its colour") {
+    TEST_CASE("tracer: reflection is multiplied by its colour") {
         Scene scene = one_mesh(plane_mesh(), mirror());
         scene.materials[0]->reflect = {0.5f, 0.25f, 0};
         scene.sky.background = Vec3f(0.8f);
@@ -128,7 +129,7 @@ TEST_SUITE("unit") {
         Scene scene;
         scene.sky.cube = numbered_cube(n);
         build(scene);
-        // World directions: cube space has x turned.
+        // World directions: cube space has the opposite x.
         const std::array<Vec3f, 6> ahead = {Vec3f(-1, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
         const std::array<Vec3f, 6> up = {Vec3f(0, 1, 0), {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 0}, {0, 1, 0}};
         RenderSettings settings;
@@ -148,7 +149,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("tracer: a mirror shows the sky that lies in the mirror direction") {
+    TEST_CASE("tracer: a mirror shows the sky in the mirror direction") {
         Scene scene = one_mesh(plane_mesh(), mirror());
         scene.sky.cube = numbered_cube(8);
         build(scene);
@@ -158,7 +159,7 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("tracer: mirrors show meshes while bounces are left") {
+    TEST_CASE("tracer: mirrors show meshes until the bounces are used up") {
         for (const int bounces : {0, 1}) {
             Scene scene = one_mesh(plane_mesh(), mirror());
             scene.materials.push_back(std::make_unique<Material>());
@@ -171,7 +172,8 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("tracer: an occluder shadows directional and point lights, not ambient light, nor from behind a light") {
+    TEST_CASE("tracer: an occluder shadows directional and point lights, not ambient light; behind a light it casts no "
+              "shadow") {
         // A plane facing +Z, a small ball over its centre.
         const auto seen = [](const Light<float>& light, bool shadows) {
             Scene scene = one_mesh(plane_mesh(), Material{});
@@ -196,7 +198,7 @@ TEST_SUITE("unit") {
         CHECK(seen(point, true) == doctest::Approx(lit));
     }
 
-    TEST_CASE("tracer: light comes from where the scene says") {
+    TEST_CASE("tracer: light comes from the direction of the light") {
         for (const Vec3f& from : {Vec3f(-1, 0, 0.5f), Vec3f(1, 0, 0.5f), Vec3f(0, 1, 0.5f), Vec3f(0, -1, 0.5f)})
             for (const LightKind kind : {LightKind::directional, LightKind::point}) {
                 Scene scene = one_mesh(sphere_mesh(), Material{});
@@ -205,7 +207,7 @@ TEST_SUITE("unit") {
                 light.position = 5.0f * from;
                 scene.lights.push_back(light);
                 build(scene);
-                // Picture x runs along +X, y against +Y.
+                // x of the picture is +X, y is -Y.
                 const float towards = mean(seen_at(scene, 32 + 12 * from.x, 32 - 12 * from.y));
                 const float away = mean(seen_at(scene, 32 - 12 * from.x, 32 + 12 * from.y));
                 CHECK(towards > 0.5f);
@@ -213,7 +215,7 @@ TEST_SUITE("unit") {
             }
     }
 
-    TEST_CASE("tracer: a white spot of a height looks raised: lit from the left, its left flank is bright") {
+    TEST_CASE("tracer: a white spot of a height appears raised: lit from the left, its left side is bright") {
         HeightTexture height;
         height.values = Image<float>(64, 64, 1);
         for (int y = 0; y < 64; ++y)
@@ -260,7 +262,7 @@ TEST_SUITE("unit") {
         CHECK(lit > 300);
     }
 
-    TEST_CASE("tracer: surfaces have two sides, and mirrored meshes are lit as the others") {
+    TEST_CASE("tracer: surfaces are two-sided, and mirrored meshes are lit like others") {
         Scene scene = one_mesh(plane_mesh(), Material{});
         scene.lights.push_back(directional({0, 0, -1}));
         build(scene);
@@ -283,7 +285,7 @@ TEST_SUITE("unit") {
             CHECK(near(seen_at(plain, i + 0.5, 31.3), seen_at(turned, i + 0.5, 31.3), 1e-3f));
     }
 
-    TEST_CASE("tracer: samples of a pixel are spread over its rows and columns, differently in every pixel") {
+    TEST_CASE("tracer: samples are distributed over the rows and columns of a pixel, differently in every pixel") {
         CHECK(pixel_sample(3, 4, 0, 1) == Vec2d(0.5));
         std::set<double> offsets;
         for (int pixel = 0; pixel < 50; ++pixel) {
@@ -301,7 +303,7 @@ TEST_SUITE("unit") {
         CHECK(offsets.size() == 50);
     }
 
-    TEST_CASE("tracer: any number of threads renders the same bytes") {
+    TEST_CASE("tracer: the image does not depend on the number of threads") {
         Scene scene = one_mesh(sphere_mesh(), shiny());
         scene.materials[0]->reflect = Vec3f(0.3f);
         add_instance(scene, *scene.shapes[0], *scene.materials[0], {.translate = {1, 0.5f, -1}});
@@ -328,7 +330,7 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("tracer: no sample that cannot be held reaches the picture, and each is counted") {
+    TEST_CASE("tracer: samples that are not finite are black and counted") {
         Scene scene = one_mesh(plane_mesh(), Material{});
         Light<float> light = directional({0, 0, 1});
         light.colour = Vec3f(3e38f);

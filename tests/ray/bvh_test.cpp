@@ -25,7 +25,7 @@ Bvh make_bvh(const std::vector<Soup>& soups) {
 /// The unit right triangle in the plane z, counter-clockwise seen from +Z.
 Soup triangle(float z) { return {{{0, 0, z}, {1, 0, z}, {0, 1, z}}, {{0, 1, 2}}}; }
 
-/// A bumpy sheet over [0,1]^2 of n x n cells.
+/// A wavy height field over [0,1]^2 of n x n cells.
 Soup sheet(int n) {
     Soup soup;
     for (int j = 0; j <= n; ++j)
@@ -57,7 +57,7 @@ double distance(const Soup& soup, std::size_t i, const Ray& ray) {
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("bvh: the nearest triangle is met, with its mesh and barycentrics") {
+    TEST_CASE("bvh: a ray hits the nearest triangle, with its mesh and barycentrics") {
         const Bvh bvh = make_bvh({triangle(0), triangle(-1)});
         const Hit hit = bvh.intersect({{0.5f, 0.25f, 2}, {0, 0, -1}});
         REQUIRE(hit);
@@ -72,7 +72,7 @@ TEST_SUITE("unit") {
         CHECK(bvh.triangle_count() == 2);
     }
 
-    TEST_CASE("bvh: t_min and t_max bound what is met, t counts in lengths of the direction") {
+    TEST_CASE("bvh: t_min and t_max limit the hits; t is in units of the direction's length") {
         const Bvh bvh = make_bvh({triangle(0)});
         CHECK(bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -4}}).t == doctest::Approx(0.5));
         CHECK(!bvh.intersect({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 1.9f}));
@@ -81,7 +81,7 @@ TEST_SUITE("unit") {
         CHECK(bvh.occluded({{0.2f, 0.2f, 2}, {0, 0, -1}, 0, 2.1f}));
     }
 
-    TEST_CASE("bvh: every triangle of a mesh is found where a search through all of them finds it") {
+    TEST_CASE("bvh: hits agree with a search through all triangles") {
         const Soup soup = sheet(12);
         const Bvh bvh = make_bvh({soup});
         std::mt19937 random(1);
@@ -101,10 +101,11 @@ TEST_SUITE("unit") {
         CHECK(hits > 500);
     }
 
-    TEST_CASE("bvh: a ray that leaves a surface does not meet it again, however far from the origin the mesh lies") {
+    TEST_CASE(
+        "bvh: a ray that starts on a surface does not hit it again, at any distance of the mesh from the origin") {
         for (const float far : {0.0f, 1.0f, 1000.0f, 1e6f}) {
             Soup soup = sheet(24);
-            // A scale that keeps the cells well above the spacing of floats there.
+            // The cells are much larger than the spacing of floats at this distance.
             for (Vec3f& p : soup.positions) p = p * std::max(1.0f, far * 0.01f) + Vec3f(far, -far, 0.5f * far);
             const Bvh bvh = make_bvh({soup});
             std::mt19937 random(2);
@@ -114,16 +115,16 @@ TEST_SUITE("unit") {
                 const Hit hit{0, 0, triangle, 0.5f * uniform(random), 0.5f * uniform(random)};
                 const HitPoint at = bvh.point(hit);
                 const float side = i % 2 ? 1.0f : -1.0f;
-                const Ray ray{leave(at, side * at.normal), side * at.normal};
+                const Ray ray{offset_origin(at, side * at.normal), side * at.normal};
                 const Hit again = bvh.intersect(ray);
                 CHECK((!again || again.triangle != hit.triangle));
-                // Straight through, the facet itself is met.
-                CHECK(bvh.occluded({leave(at, side * at.normal), -side * at.normal}));
+                // A ray through the facet hits it.
+                CHECK(bvh.occluded({offset_origin(at, side * at.normal), -side * at.normal}));
             }
         }
     }
 
-    TEST_CASE("bvh: the same hits whatever the number of threads it was built with, on edges and corners too") {
+    TEST_CASE("bvh: hits do not depend on the number of threads of the build, also on edges and corners") {
         const Soup soup = sheet(64);
         std::vector<Hit> first;
         for (const int threads : {1, 2, 7}) {
@@ -140,7 +141,7 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("bvh: rays that are not finite, have no direction or an empty range are misses") {
+    TEST_CASE("bvh: rays that are not finite, without direction or with an empty range hit nothing") {
         const Bvh bvh = make_bvh({triangle(0)});
         const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
         const Ray good{{0.2f, 0.2f, 1}, {0, 0, -1}};
@@ -160,11 +161,11 @@ TEST_SUITE("stability") {
             CHECK(!bvh.intersect(ray));
             CHECK(!bvh.occluded(ray));
         }
-        for (const float t_min : {-1.0f, -inf, nan}) // counts as 0
+        for (const float t_min : {-1.0f, -inf, nan}) // is taken as 0
             CHECK(bvh.intersect({good.origin, good.direction, t_min}));
     }
 
-    TEST_CASE("bvh: nothing, empty meshes, zero-area and non-finite triangles are never met") {
+    TEST_CASE("bvh: empty meshes, zero-area triangles and non-finite triangles are never hit") {
         CHECK(!Bvh({}).intersect({{0, 0, 1}, {0, 0, -1}}));
         CHECK(Bvh({}).triangle_count() == 0);
         const float nan = std::numeric_limits<float>::quiet_NaN();

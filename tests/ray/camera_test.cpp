@@ -22,16 +22,16 @@ Camera looking(const Vec3f& position, const Vec3f& target, float fov_deg = 90) {
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("camera: the picture's centre looks at the target, row 0 is the top, x runs to the viewer's right") {
+    TEST_CASE("camera: the centre of the picture is the target, row 0 is the top, x points right") {
         const CameraFrame frame = camera_frame(looking({0, 0, 5}, {0, 0, 0}));
         CHECK(near(primary_ray(frame, 50, 50, 100, 100).direction, {0, 0, -1}));
         CHECK(primary_ray(frame, 50, 0, 100, 100).direction.y > 0.5f);
         CHECK(primary_ray(frame, 100, 50, 100, 100).direction.x > 0.5f);
-        // Towards +Z the right-handed world has +X on the left.
+        // For a view along +Z, +X of the right-handed world is to the left.
         CHECK(primary_ray(camera_frame(looking({0, 0, -5}, {0, 0, 0})), 100, 50, 100, 100).direction.x < -0.5f);
     }
 
-    TEST_CASE("camera: the field of view is the vertical one, pixels are square, directions are unit") {
+    TEST_CASE("camera: the field of view is vertical, pixels are square, directions have unit length") {
         const CameraFrame frame = camera_frame(looking({1, 2, 3}, {4, -2, 9}, 60));
         const auto degrees = [&](double x0, double y0, double x1, double y1) {
             const Vec3f a = primary_ray(frame, x0, y0, 200, 100).direction;
@@ -43,7 +43,7 @@ TEST_SUITE("unit") {
         CHECK(degrees(50, 50, 150, 50) == doctest::Approx(60).epsilon(1e-4));
     }
 
-    TEST_CASE("camera: a segment's pixels are bounded from above, tightly where it is seen square on") {
+    TEST_CASE("camera: pixels_at_most is an upper bound, and tight for segments perpendicular to the view") {
         const CameraFrame frame = camera_frame(looking({1, 2, 3}, {4, -2, 9}, 60));
         const auto pixel = [&](const Vec3d& p) { // in a picture 1000 pixels high
             const Vec3d d = p - Vec3d(frame.position);
@@ -67,7 +67,7 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 TEST_SUITE("stability") {
 
-    TEST_CASE("camera: pixels at and behind the camera are finite, and zero for no length") {
+    TEST_CASE("camera: pixels_at_most is finite at and behind the camera, and zero for length zero") {
         const CameraFrame frame = camera_frame(looking({0, 0, 5}, {0, 0, 0}));
         for (const Vec3d& at : {Vec3d(0, 0, 5), Vec3d(0, 0, 50), Vec3d(1e9, 0, 5)}) {
             CHECK(std::isfinite(pixels_at_most(frame, at, 0.1, 1000)));
@@ -75,14 +75,14 @@ TEST_SUITE("stability") {
         }
     }
 
-    TEST_CASE("camera: looking straight along up still gives a picture") {
+    TEST_CASE("camera: a view parallel to up has valid axes") {
         const CameraFrame frame = camera_frame(looking({0, 5, 0}, {0, 0, 0}));
         CHECK(near(frame.forward, {0, -1, 0}));
         CHECK(glm::length(frame.right) == doctest::Approx(1));
         CHECK(glm::length(frame.up) == doctest::Approx(1));
     }
 
-    TEST_CASE("camera: without a direction to look in, rays have none") {
+    TEST_CASE("camera: without a view direction rays have none") {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         CHECK(primary_ray(camera_frame(looking({1, 1, 1}, {1, 1, 1})), 3, 4, 10, 10).direction == Vec3f(0));
         CHECK(primary_ray(camera_frame(looking({nan, 1, 1}, {1, 1, 1})), 3, 4, 10, 10).direction == Vec3f(0));

@@ -17,7 +17,7 @@ Vec3f mapped(const Material& material, const Shape& shape, const ShapePoint& at,
         if (shape.mesh.corner_uv[corner] == no_index) return Vec3f(0);
     const Vec4f &t0 = shape.tangents[c[0]], &t1 = shape.tangents[c[1]], &t2 = shape.tangents[c[2]];
     const Vec3f tangent = (1 - at.b1 - at.b2) * Vec3f(t0) + at.b1 * Vec3f(t1) + at.b2 * Vec3f(t2);
-    const Vec3f bitangent = t0.w * glm::cross(normal, tangent); // one sign for all corners of a triangle
+    const Vec3f bitangent = t0.w * glm::cross(normal, tangent); // the corners of a triangle have equal signs
     const Vec3f t = lookup3(*material.normal_map, uv_at(shape, at));
     return t.x * tangent + t.y * bitangent + t.z * normal;
 }

@@ -25,14 +25,14 @@ Vec3f to_world(const Instance& instance, const Vec3f& p) noexcept { return insta
 
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement) {
     if (placement.scale.x == 0 || placement.scale.y == 0 || placement.scale.z == 0)
-        throw Error(Refusal::unsuitable, "a mesh scaled by 0 has no surface; give a scale other than 0");
+        throw Error(Refusal::unsuitable, "a mesh with scale 0 has no surface; give a scale other than 0");
     if (material.normal_map) add_tangents(shape);
     const glm::dmat3 linear = linear_part(placement);
     Instance instance;
     instance.shape = &shape;
     instance.material = &material;
     instance.linear = glm::mat3(linear);
-    // Only the direction counts; scaled to its largest entry so that tiny and huge scales stay in range.
+    // Only directions matter; dividing by the largest entry keeps very small and large scales in the range of float.
     glm::dmat3 normals = glm::transpose(glm::inverse(linear));
     double largest = 0;
     for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(normals[i / 3][i % 3]));
@@ -53,7 +53,7 @@ void build(Scene& scene) {
             const Vec3f world = to_world(instance, p);
             if (!(glm::dot(world * 1e-18f, world * 1e-18f) <= 1))
                 throw Error(Refusal::unsuitable,
-                            "a placed mesh reaches beyond 1e18; give it a smaller scale or translate");
+                            "a mesh extends beyond 1e18 in the scene; give it a smaller scale or translation");
             positions[i].push_back(world);
         }
         for (const Triangle& t : instance.shape->surface.triangles)
@@ -90,7 +90,7 @@ Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept {
     const Vec3d from = unit_or_zero(Vec3d(0.45, 0.35, 1.0));
     camera.position = camera.target + Vec3f(from * radius);
     const CameraFrame frame = camera_frame(camera);
-    double distance = 0; // at which the corner that needs most just fits
+    double distance = 0; // smallest distance at which all corners are in the picture
     for (int i = 0; i < 8; ++i) {
         const Vec3d corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
         const Vec3d d = corner - Vec3d(camera.target);

@@ -1,4 +1,4 @@
-// What is rendered: placed meshes with materials, lights, a camera, a sky.
+// A scene: mesh instances with materials, lights, a camera, a sky.
 #pragma once
 #include "bake/environment/sky/cube.h"
 #include "bake/light/light.h"
@@ -10,13 +10,13 @@
 
 namespace bake {
 
-/// From object to world: scale first, then turns about x, y and z in that order, then translate.
+/// Transform from object to world space: scale, then rotation about x, y and z in that order, then translation.
 struct Placement {
     Vec3f translate{0}, rotate_deg{0}, scale{1};
 };
 
-/// A shape at a place. Points go as linear p + translate, normals as normals n (the inverse transpose, which keeps the
-/// outside outside under mirroring too), tangent vectors with linear.
+/// A placed shape. Points are transformed by linear p + translate, tangent vectors by linear, normals by the matrix `normals`.
+/// The latter is the inverse transpose of linear, which keeps normals outward under mirroring.
 struct Instance {
     const Shape* shape = nullptr;
     const Material* material = nullptr;
@@ -24,44 +24,45 @@ struct Instance {
     Vec3f translate{0};
 };
 
-/// What is seen where nothing is hit.
+/// Radiance of rays that hit nothing.
 struct Sky {
-    Cube cube;           ///< empty: the background
-    float scale = 1;     ///< of the cube's radiance
+    Cube cube;           ///< if empty, the background is used
+    float scale = 1;     ///< factor on the radiance of the cube
     Vec3f background{0}; ///< radiance, linear RGB
 };
 
 struct RenderSettings {
     int width = 512, height = 512;
     int spp = 4;         ///< samples per pixel; 1 is the pixel's centre
-    int bounces = 1;     ///< mirror reflections that meet meshes; further ones see the sky only
-    bool shadows = true; ///< of directional and point lights
-    float exposure = 0;  ///< stops; for pictures written in 8 or 16 bits, never for EXR
+    int bounces = 1;     ///< number of mirror reflections that can hit meshes; later ones see only the sky
+    bool shadows = true; ///< whether directional and point lights cast shadows
+    float exposure = 0;  ///< in stops; only for pictures written in 8 or 16 bits
 };
 
-/// Owns everything; instances point into shapes and materials, which therefore keep their addresses.
+/// Owns its parts. Instances point to shapes and materials, whose addresses do not change.
 struct Scene {
     std::vector<std::unique_ptr<Shape>> shapes;
     std::vector<std::unique_ptr<Material>> materials;
     std::vector<Instance> instances;
     std::vector<Light<float>> lights;
-    Vec3f ambient{0}; ///< light that comes from everywhere
+    Vec3f ambient{0}; ///< radiance of ambient light
     Camera camera;
     Sky sky;
     RenderSettings settings;
-    std::optional<Bvh> bvh; ///< after build; mesh i is instance i, its triangles those of the shape's surface
+    std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
-/// Throws Error{Refusal::unsuitable} for a scale of 0 along an axis. Prepares the shape for the material (tangents).
+/// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
+/// axis.
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement = {});
-/// Builds the Bvh: after the last add_instance, before rendering. Throws Error{Refusal::unsuitable} when a placed
+/// Builds the Bvh. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world
 /// position is not finite or beyond 1e18.
 void build(Scene& scene);
 
-/// World-space bounding box of all instances; both zero without any.
+/// World-space bounding box of all instances; zero without instances.
 Bounds bounds(const Scene& scene) noexcept;
-/// A camera that sees the whole box from the front, a little from above and the right; at the origin looking along +Z
-/// when the box is empty.
+/// A camera that sees the whole box from the front, slightly from above and from the right. If the box is empty, the camera
+/// looks along +Z.
 Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept;
 
 /// Radiance of the sky along a world-space direction.

@@ -10,7 +10,7 @@
 namespace bake {
 namespace {
 
-/// Runs `work`; what it refuses is said with the scene file's line in front.
+/// Calls `work`. Puts the scene file and line in front of its refusals.
 template <class Work> auto at_line(const SceneEntries& entries, int line, Work&& work) {
     try {
         return work();
@@ -19,7 +19,7 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
     }
 }
 
-/// Textures by everything that decides what is in memory, so that materials share them.
+/// Textures by their file and all options of reading, so that materials share them.
 using TextureCache = std::map<std::string, Texture>;
 
 template <class Read> Texture cached(TextureCache& cache, const std::string& key, Read&& read) {
@@ -58,7 +58,7 @@ void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bo
     const Material& material = *scene.materials[entry.material + 1];
     if ((material.albedo || material.bump_table || material.normal_map) && shape->mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
-                                             material.name + "\" need; unwrap the mesh, or take off the textures");
+                                             material.name + "\" need; unwrap the mesh or remove the textures");
     add_instance(scene, *shape, material, entry.placement);
 }
 
@@ -107,7 +107,7 @@ Scene load(const SceneEntries& entries) {
     if (has_sky) scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky); });
 
     TextureCache textures;
-    scene.materials.push_back(std::make_unique<Material>()); // the plain grey one, material -1
+    scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
         scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
     std::map<std::tuple<std::string, bool, bool>, Shape*> shapes;

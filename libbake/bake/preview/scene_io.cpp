@@ -1,149 +1,13 @@
 #include "bake/preview/scene_io.h"
 #include "bake/base/error.h"
 #include "bake/environment/file/face_files.h"
+#include "bake/preview/scene_section.h"
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
-#include <toml++/toml.h>
 
 namespace bake {
 namespace {
-
-constexpr double largest = 1e15; // of any number in a scene: squares and products of two stay in float's range
-
-[[noreturn]] void refuse(const std::string& file, int line, const std::string& why) {
-    throw Error(Refusal::unreadable, file + ":" + std::to_string(line) + ": " + why);
-}
-
-int line_of(const toml::node& node) { return int(node.source().begin.line); }
-
-/// One table of the file, with what its messages need.
-struct Section {
-    const toml::table& table;
-    std::string name; ///< as written: [camera], [[mesh]]
-    const std::string& file;
-};
-
-[[noreturn]] void refuse(const Section& in, const toml::node& at, const std::string& why) {
-    refuse(in.file, line_of(at), in.name + " " + why);
-}
-
-void allow_only(const Section& in, std::initializer_list<std::string_view> keys) {
-    for (const auto& [key, node] : in.table) {
-        if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-        std::string known;
-        for (const std::string_view k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-        const int line = int(key.source().begin.line);
-        refuse(in.file, line, "unknown key \"" + std::string(key.str()) + "\" in " + in.name + "; known are " + known);
-    }
-}
-
-std::string in_quotes(std::string_view key) { return "\"" + std::string(key) + "\""; }
-
-std::string text_of(double v) {
-    std::ostringstream out;
-    out << v;
-    return out.str();
-}
-
-double checked_number(const Section& in, const toml::node& node, std::string_view key, double low, double high) {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value) refuse(in, node, in_quotes(key) + " is not a number; give one");
-    if (!(*value >= low && *value <= high)) // NaN fails too
-        refuse(in, node,
-               in_quotes(key) + " is " + text_of(*value) + ", outside " + text_of(low) + " to " + text_of(high) +
-                   "; give a value in that range");
-    return *value;
-}
-
-void read(const Section& in, std::string_view key, float& value, double low = -largest, double high = largest) {
-    if (const toml::node* node = in.table.get(key)) value = float(checked_number(in, *node, key, low, high));
-}
-
-int checked_integer(const Section& in, const toml::node& node, std::string_view key, int low, int high) {
-    if (!node.is_integer()) refuse(in, node, in_quotes(key) + " is not a whole number; give one");
-    return int(checked_number(in, node, key, low, high));
-}
-
-void read(const Section& in, std::string_view key, int& value, int low, int high) {
-    if (const toml::node* node = in.table.get(key)) value = checked_integer(in, *node, key, low, high);
-}
-
-void read(const Section& in, std::string_view key, bool& value) {
-    const toml::node* node = in.table.get(key);
-    if (!node) return;
-    if (!node->is_boolean()) refuse(in, *node, in_quotes(key) + " is neither true nor false; give one of them");
-    value = *node->value<bool>();
-}
-
-bool read(const Section& in, std::string_view key, std::string& value) {
-    const toml::node* node = in.table.get(key);
-    if (!node) return false;
-    if (!node->is_string() || node->as_string()->get().empty())
-        refuse(in, *node, in_quotes(key) + " is not a text; give one in quotes");
-    value = node->as_string()->get();
-    return true;
-}
-
-const toml::array& checked_array(const Section& in, const toml::node& node, std::string_view key, std::size_t count,
-                                 const char* of_what) {
-    const toml::array* list = node.as_array();
-    if (!list || list->size() != count)
-        refuse(in, node,
-               in_quotes(key) + " is not a list of " + std::to_string(count) + " " + of_what + "; give one in [ ]");
-    return *list;
-}
-
-bool read(const Section& in, std::string_view key, Vec3f& value, double low = -largest) {
-    const toml::node* node = in.table.get(key);
-    if (!node) return false;
-    const toml::array& list = checked_array(in, *node, key, 3, "numbers");
-    for (int i = 0; i < 3; ++i) value[i] = float(checked_number(in, *list.get(i), key, low, largest));
-    return true;
-}
-
-/// Three numbers, or one that stands for all three.
-bool read_triple(const Section& in, std::string_view key, Vec3f& value, double low) {
-    const toml::node* node = in.table.get(key);
-    if (!node || !node->is_number()) return read(in, key, value, low);
-    value = Vec3f(float(checked_number(in, *node, key, low, largest)));
-    return true;
-}
-
-bool read_colour(const Section& in, std::string_view key, Vec3f& value) { return read_triple(in, key, value, 0); }
-
-template <class Value>
-void read_choice(const Section& in, std::string_view key, Value& value,
-                 std::initializer_list<std::pair<std::string_view, Value>> choices) {
-    std::string word;
-    if (!read(in, key, word)) return;
-    std::string known;
-    for (const auto& [name, meaning] : choices) {
-        if (name == word) {
-            value = meaning;
-            return;
-        }
-        known += (known.empty() ? "" : ", ") + in_quotes(name);
-    }
-    refuse(in, *in.table.get(key), in_quotes(key) + " is " + in_quotes(word) + "; give one of " + known);
-}
-
-std::string beside(const std::string& scene_file, const std::string& path) {
-    return (std::filesystem::path(scene_file).parent_path() / path).lexically_normal().string();
-}
-
-bool read_path(const Section& in, std::string_view key, std::string& value) {
-    if (!read(in, key, value)) return false;
-    value = beside(in.file, value);
-    return true;
-}
-
-void read_colour_space(const Section& in, std::string_view key, ColourSpace& value) {
-    using enum ColourSpace;
-    read_choice<ColourSpace>(in, key, value, {{"auto", automatic}, {"srgb", srgb}, {"linear", linear}});
-}
 
 void read_render(const Section& in, SceneEntries& scene) {
     allow_only(in, {"size", "spp", "bounces", "shadows", "exposure", "background"});
@@ -201,7 +65,7 @@ void read_sky(const Section& in, SceneEntries& scene) {
         for (int i = 0; i < 6; ++i) {
             const auto* name = list.get(i)->as_string();
             if (!name || name->get().empty())
-                refuse(in, *list.get(i), "\"faces\" holds what is not a file name; give texts in quotes");
+                refuse(in, *list.get(i), "\"faces\" has an entry that is not a file name; give six names in quotes");
             scene.sky.faces[i] = beside(in.file, name->get());
         }
     }
@@ -236,7 +100,7 @@ void read_light(const Section& in, SceneEntries& scene) {
         allow_only(in, {"type", "position", "falloff", "colour", "intensity"});
         light.kind = LightKind::point;
         if (!read(in, "position", light.position))
-            refuse(in, in.table, "\"position\" is missing; give the light's place");
+            refuse(in, in.table, "\"position\" is missing; give the position of the light");
         Vec3f falloff(1, 0, 0);
         if (read(in, "falloff", falloff, 0) && falloff == Vec3f(0))
             refuse(in, *in.table.get("falloff"),
@@ -251,10 +115,10 @@ void read_material(const Section& in, SceneEntries& scene) {
                     "albedo-space", "bump", "bump-scale", "normal", "encoding", "directx"});
     MaterialEntry m;
     m.line = line_of(in.table);
-    if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give one, for meshes to refer to");
+    if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
     for (const MaterialEntry& other : scene.materials)
         if (other.name == m.name)
-            refuse(in, *in.table.get("name"), "\"name\" " + in_quotes(m.name) + " is taken; choose another");
+            refuse(in, *in.table.get("name"), "\"name\" " + in_quotes(m.name) + " is used already; choose another");
     read_colour(in, "diffuse", m.bsdf.diffuse);
     m.bsdf.ambient = m.bsdf.diffuse;
     read_colour(in, "ambient", m.bsdf.ambient);
@@ -267,7 +131,7 @@ void read_material(const Section& in, SceneEntries& scene) {
     read_path(in, "bump", m.bump_table);
     read(in, "bump-scale", m.bump_scale);
     if (read_path(in, "normal", m.normal_map) && !m.bump_table.empty())
-        refuse(in, *in.table.get("normal"), "\"bump\" and \"normal\" both say how normals turn; keep one of them");
+        refuse(in, *in.table.get("normal"), "\"bump\" and \"normal\" both change the normal; keep one of them");
     using enum NormalEncoding;
     read_choice<NormalEncoding>(in, "encoding", m.encoding,
                                 {{"auto", automatic}, {"unorm", unorm}, {"signed", signed_}});
@@ -287,15 +151,16 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
         const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), same);
         if (found == scene.materials.end())
             refuse(in, *in.table.get("material"),
-                   "\"material\" names " + in_quotes(name) + ", which does not exist; add a [[material]] of that name");
+                   "\"material\" names " + in_quotes(name) +
+                       ", which does not exist; add a [[material]] with that name");
         m.material = int(found - scene.materials.begin());
     }
     read(in, "translate", m.placement.translate);
     read(in, "rotate-deg", m.placement.rotate_deg);
-    read_triple(in, "scale", m.placement.scale, -largest);
+    read_triple(in, "scale", m.placement.scale, -largest_number);
     for (int i = 0; i < 3; ++i)
         if (m.placement.scale[i] == 0)
-            refuse(in, *in.table.get("scale"), "\"scale\" is 0, which leaves no surface; give another");
+            refuse(in, *in.table.get("scale"), "\"scale\" is 0, so the mesh has no surface; give a scale other than 0");
     read(in, "flat", m.flat);
     read(in, "flip-v", m.flip_v);
     scene.meshes.push_back(std::move(m));
@@ -316,7 +181,7 @@ void read_each(const toml::table& root, std::string_view key, ReadSection work, 
     if (!node) return;
     const std::string name = "[[" + std::string(key) + "]]";
     const toml::array* list = node->as_array();
-    if (!list) refuse(scene.file, line_of(*node), in_quotes(key) + " may stand several times; write it as " + name);
+    if (!list) refuse(scene.file, line_of(*node), in_quotes(key) + " is a list of tables; write it as " + name);
     for (const toml::node& one : *list) {
         if (!one.is_table()) refuse(scene.file, line_of(one), in_quotes(key) + " is not a table; write it as " + name);
         work({*one.as_table(), name, scene.file}, scene);
@@ -327,11 +192,11 @@ std::string read_text(const std::string& path) {
     if (!std::filesystem::is_regular_file(path))
         throw Error(Refusal::unreadable, path + ": no such file; check the name");
     std::ifstream in(path, std::ios::binary);
-    std::string text(1 << 24, '\0'); // far beyond any scene
+    std::string text(1 << 24, '\0'); // larger than any scene
     in.read(text.data(), std::streamsize(text.size()));
-    if (in.bad() || !in.is_open()) throw Error(Refusal::unreadable, path + ": cannot be read; check your rights to it");
+    if (in.bad() || !in.is_open()) throw Error(Refusal::unreadable, path + ": cannot be read; check its permissions");
     if (std::size_t(in.gcount()) == text.size())
-        throw Error(Refusal::unreadable, path + ": is over 16 MiB; give a scene file");
+        throw Error(Refusal::unreadable, path + ": is larger than 16 MiB; give a scene file");
     text.resize(std::size_t(in.gcount()));
     return text;
 }
@@ -346,7 +211,7 @@ SceneEntries read_scene(const std::string& path) {
         std::string why(error.description());
         std::replace_if(
             why.begin(), why.end(), [](unsigned char c) { return c < 32; }, ' ');
-        refuse(path, int(error.source().begin.line), why + "; mend this line");
+        refuse(path, int(error.source().begin.line), why + "; correct this line");
     }
     SceneEntries scene;
     scene.file = path;
@@ -355,7 +220,7 @@ SceneEntries read_scene(const std::string& path) {
     read_one(root, "camera", read_camera, scene);
     read_one(root, "sky", read_sky, scene);
     read_each(root, "light", read_light, scene);
-    read_each(root, "material", read_material, scene); // before meshes, which name them
+    read_each(root, "material", read_material, scene); // before meshes, which refer to materials
     read_each(root, "mesh", read_mesh_entry, scene);
     return scene;
 }

@@ -61,7 +61,7 @@ Vec3f normal_at(const Shape& shape, const ShapePoint& at) noexcept {
     return (1 - at.b1 - at.b2) * n[c[0]] + at.b1 * n[c[1]] + at.b2 * n[c[2]];
 }
 
-Vec3f off_facet(const Shape& shape, const ShapePoint& at, float outward) noexcept {
+Vec3f smooth_offset(const Shape& shape, const ShapePoint& at, float outward) noexcept {
     if (shape.surface.flat) return Vec3f(0);
     const Corners& c = corners(shape, at);
     const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};

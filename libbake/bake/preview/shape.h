@@ -1,36 +1,36 @@
-// A mesh as the preview shades it: its surface, and what is interpolated over its triangles. All in object space.
+// A mesh prepared for shading, with interpolation over its triangles, in object space.
 #pragma once
 #include "bake/surface/chart/mesh_surface.h"
 #include <memory>
 
 namespace bake {
 
-/// Owns its mesh; does not move, because the surface points at the mesh.
+/// Owns its mesh. Must not be moved, because the surface points to the mesh.
 struct Shape {
     Mesh mesh;
     MeshSurface surface;
-    std::vector<Vec4f> tangents; ///< corners, from add_tangents; empty until a normal map needs them
+    std::vector<Vec4f> tangents; ///< per corner; empty before add_tangents()
 };
 
-/// Flat shading (facet normals) by `options`.
+/// `options` can select flat shading (facet normals).
 std::unique_ptr<Shape> make_shape(Mesh mesh, const SurfaceOptions& options = {});
-/// MikkTSpace for the shape's corners; does nothing the second time.
+/// Computes MikkTSpace tangents, unless the shape has them already.
 void add_tangents(Shape& shape);
 
-/// A point of a triangle: (1 - b1 - b2) corner[0] + b1 corner[1] + b2 corner[2].
+/// The point (1 - b1 - b2) corner[0] + b1 corner[1] + b2 corner[2] of a triangle.
 struct ShapePoint {
     std::uint32_t triangle = 0;
     float b1 = 0, b2 = 0;
 };
 
-/// (0, 0) where a corner has no uv.
+/// (0, 0) if a corner has no uv.
 Vec2f uv_at(const Shape& shape, const ShapePoint& at) noexcept;
-/// The normal interpolated without normalising; the unit facet normal when the shape is flat; zero where there is none.
+/// The interpolated normal, not normalised. For flat shapes the unit facet normal. Zero where there is no normal.
 Vec3f normal_at(const Shape& shape, const ShapePoint& at) noexcept;
-/// How far the smooth surface that the normals promise stands off the facet: the mean of the point's projections on the
-/// corners' tangent planes, where those lie outside. Shadow rays that begin there do not meet the coarse facets around
-/// them. Zero for flat shapes. `outward` is 1, or -1 when the surface is seen from inside.
+/// Offset from the facet to the smooth surface that the normals describe: the mean of the point's projections on the tangent
+/// planes of the corners, as far as these are outside. Shadow rays that start there do not hit the facets of a coarse mesh
+/// around the point. Zero for flat shapes. `outward` is -1 if the surface is seen from inside, else 1.
 /// Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021.
-Vec3f off_facet(const Shape& shape, const ShapePoint& at, float outward) noexcept;
+Vec3f smooth_offset(const Shape& shape, const ShapePoint& at, float outward) noexcept;
 
 } // namespace bake

@@ -8,10 +8,10 @@
 namespace bake {
 namespace {
 
-/// A hit as it is shaded, in world space; facet and n on the viewer's side.
+/// A hit prepared for shading, in world space. facet and n are on the side of the viewer.
 struct Surfel {
-    HitPoint at;          ///< where mirror rays leave
-    HitPoint light_at;    ///< where shadow rays leave: on the smooth surface
+    HitPoint at;          ///< origin of mirror rays
+    HitPoint light_at;    ///< origin of shadow rays, on the smooth surface
     Vec3f facet{0}, n{0}; ///< unit
     Vec3f v{0};           ///< unit, towards the viewer
     BlinnPhong<float> bsdf;
@@ -25,7 +25,7 @@ Surfel surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexce
     s.at = scene.bvh->point(hit);
     s.v = -unit_or_zero(direction);
     s.facet = s.at.normal;
-    // The mesh's normals say which side is out: a file's windings are less often right, and mirroring turns them.
+    // Normals define the outside. The winding of faces is less reliable, and mirroring reverses it.
     const Vec3f outside = instance.normals * normal_at(shape, where);
     if (glm::dot(s.facet, outside) < 0) s.facet = -s.facet;
     s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
@@ -37,18 +37,18 @@ Surfel surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexce
         outward = -1;
     }
     s.light_at = s.at;
-    s.light_at.p += instance.linear * off_facet(shape, where, outward);
+    s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where);
     return s;
 }
 
-bool in_sight(const Scene& scene, const Light<float>& light, const Surfel& s) noexcept {
+bool is_visible(const Scene& scene, const Light<float>& light, const Surfel& s) noexcept {
     Ray ray;
-    ray.origin = leave(s.light_at, s.facet);
+    ray.origin = offset_origin(s.light_at, s.facet);
     ray.direction = light.from;
     if (light.kind == LightKind::point) {
         ray.direction = light.position - ray.origin;
-        ray.t_max = 0.9999f; // short of the light, which may stand on a surface
+        ray.t_max = 0.9999f; // ends before the light, which may be on a surface
     }
     return !scene.bvh->occluded(ray);
 }
@@ -83,20 +83,20 @@ Vec3f radiance(const Scene& scene, const Ray& ray, int bounces, std::int64_t& ra
         if (part == Vec3f(0)) continue;
         if (scene.settings.shadows) {
             ++rays;
-            if (!in_sight(scene, light, s)) continue;
+            if (!is_visible(scene, light, s)) continue;
         }
         sum += part;
     }
     const Vec3f& reflect = scene.instances[hit.mesh].material->reflect;
     if (reflect != Vec3f(0)) {
-        const Ray mirrored{leave(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
+        const Ray mirrored{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
         sum += reflect * (bounces > 0 ? radiance(scene, mirrored, bounces - 1, rays)
                                       : sky_radiance(scene.sky, mirrored.direction));
     }
     return sum;
 }
 
-// Hammersley's points, turned by a random shift per pixel (Cranley, Patterson 1976).
+// Hammersley points with a random shift per pixel (Cranley, Patterson 1976).
 Vec2d pixel_sample(int x, int y, int i, int spp) noexcept {
     if (spp <= 1) return Vec2d(0.5);
     const std::uint64_t bits = hash((std::uint64_t(std::uint32_t(y)) << 32) | std::uint32_t(x));

@@ -8,17 +8,17 @@
 namespace bake {
 namespace {
 
-constexpr float largest_coordinate = 1e18f; // Embree's own bound is 1.8e18, beyond which it stops the process
+constexpr float largest_coordinate = 1e18f; // Embree aborts the process above 1.8e18
 
 bool usable(const Vec3f& v) noexcept {
-    // Written so that NaN fails.
+    // The comparisons are false for NaN.
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate &&
            std::abs(v.z) <= largest_coordinate;
 }
 
 float largest(const Vec3f& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// False for a ray that Embree must not see.
+/// Converts a ray. False for a ray that Embree cannot process.
 bool to_embree(const Ray& ray, RTCRay& out) noexcept {
     if (!usable(ray.origin) || !usable(ray.direction)) return false;
     if (!(largest(ray.direction) > 1 / largest_coordinate)) return false; // its reciprocal would overflow
@@ -43,7 +43,7 @@ bool to_embree(const Ray& ray, RTCRay& out) noexcept {
 
 struct Bvh::Impl {
     struct Buffers {
-        std::vector<Vec3f> positions; // one more than used: Embree loads 16 bytes at a time
+        std::vector<Vec3f> positions; // with one element of padding, because Embree loads 16 bytes at a time
         std::vector<std::array<std::uint32_t, 3>> triangles;
     };
     RTCDevice device = nullptr;
@@ -62,7 +62,7 @@ struct Bvh::Impl {
 Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device)
-        throw Error(Refusal::unsuitable, "Embree cannot start on this processor; it needs SSE2 or NEON");
+        throw Error(Refusal::unsuitable, "Embree does not run on this processor; use one with SSE2 or NEON");
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
@@ -109,7 +109,7 @@ bool Bvh::occluded(const Ray& ray) const noexcept {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(impl_->scene, &context, &query);
-    return query.tfar < 0; // Embree's sign for "something was met"
+    return query.tfar < 0; // Embree sets tfar to -infinity if the ray is occluded
 }
 
 HitPoint Bvh::point(const Hit& hit) const noexcept {
@@ -119,7 +119,7 @@ HitPoint Bvh::point(const Hit& hit) const noexcept {
     HitPoint at;
     at.p = (1 - hit.b1 - hit.b2) * p0 + hit.b1 * p1 + hit.b2 * p2;
     at.normal = Vec3f(unit_or_zero(glm::cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0))));
-    // p is rounded about four times and Embree's plane test about as often, relative to the largest coordinate.
+    // About four roundings in p and as many in Embree's plane test, each relative to the largest coordinate.
     at.offset = 0x1p-19f * std::max({largest(p0), largest(p1), largest(p2)});
     return at;
 }
@@ -130,7 +130,7 @@ std::size_t Bvh::triangle_count() const noexcept {
     return count;
 }
 
-Vec3f leave(const HitPoint& at, const Vec3f& towards) noexcept {
+Vec3f offset_origin(const HitPoint& at, const Vec3f& towards) noexcept {
     return at.p + (glm::dot(at.normal, towards) < 0 ? -at.offset : at.offset) * at.normal;
 }
 

@@ -5,7 +5,7 @@
 namespace bake {
 
 CameraFrame camera_frame(const Camera& camera) noexcept {
-    // In double: a camera far from a small target must not shake.
+    // In double, so that the axes are accurate for a small target far from the origin.
     const Vec3d forward = unit_or_zero(Vec3d(camera.target) - Vec3d(camera.position));
     const auto right_of = [&](const Vec3d& up) {
         const Vec3d right = glm::cross(forward, unit_or_zero(up));
@@ -34,10 +34,11 @@ Ray primary_ray(const CameraFrame& frame, double x, double y, int width, int hei
 double pixels_at_most(const CameraFrame& frame, const Vec3d& at, double length, int height) noexcept {
     if (!(length > 0)) return 0;
     const Vec3d towards = at - Vec3d(frame.position);
-    // Nearer than its own length the segment may fill the picture; a depth of a half of the distance is 60 degrees off.
+    // The distance is at least the length of the segment. The depth is at least half the distance, that is 60 degrees off axis.
     const double distance = std::max(glm::length(towards), length);
     const double depth = std::max(glm::dot(towards, Vec3d(frame.forward)), 0.5 * distance);
-    // A segment seen square on covers length / distance as an angle; radially the flat picture stretches it twice.
+    // Perpendicular to the view a segment covers the angle length / distance. The projection stretches it radially by
+    // (distance / depth)^2.
     return length * distance / (depth * depth) * height / (2.0 * frame.half_height);
 }
 

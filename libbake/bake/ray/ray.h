@@ -5,7 +5,7 @@
 
 namespace bake {
 
-/// Points origin + t * direction with t in [t_min, t_max]; the direction need not be unit.
+/// The points origin + t * direction with t in [t_min, t_max]; the direction need not have unit length.
 struct Ray {
     Vec3f origin{0}, direction{0};
     float t_min = 0;
