@@ -102,7 +102,7 @@ TEST_SUITE("cli") {
             CHECK(run.code == 0);
             return run.out;
         };
-        CHECK(at("0.9,0.9").find("no face lies under this texel") != std::string::npos);
+        CHECK(at("0.9,0.9").find("no face covers this texel") != std::string::npos);
         CHECK(at("0.9,0.9").find("rgb") == std::string::npos);
         CHECK(at("0.1,0.1").find("rgb") != std::string::npos);
     }

@@ -93,7 +93,7 @@ TEST_SUITE("cli") {
         CHECK(check({"--flip-v"}).find("see --flip-v") != std::string::npos);
         CHECK(check({}).find("see --flip-v") == std::string::npos);
         std::filesystem::remove(folder / "gone.png");
-        CHECK(check({}).find("1 image that is not there") != std::string::npos);
+        CHECK(check({}).find("1 missing image") != std::string::npos);
         CHECK(check({"--json"}).find("\"missing_images\":1") != std::string::npos);
         std::filesystem::remove(folder / "a.bin");
         test::check_refused(folder, {"normal-map", "a.gltf", "--height", "a.gltf", "--amplitude", "1", "-o", "n.png"},

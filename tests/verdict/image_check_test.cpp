@@ -31,7 +31,7 @@ const std::vector<std::string> grey1 = {"Y"}, rgb = {"R", "G", "B"};
 } // namespace
 
 TEST_SUITE("unit") {
-    TEST_CASE("check_image: range, NaN and Inf of each channel by itself") {
+    TEST_CASE("check_image: range, NaN and Inf per channel") {
         Image<float> image = picture(70, 130, 2, [](int x, int y, int c) { return c == 0 ? x : -y; });
         image.at(3, 100, 0) = std::numeric_limits<float>::quiet_NaN();
         image.at(4, 100, 0) = std::numeric_limits<float>::infinity();
@@ -47,7 +47,7 @@ TEST_SUITE("unit") {
         CHECK(c.looks == Looks::data);
     }
 
-    TEST_CASE("check_image: true depth is the fewest bits that hold every level") {
+    TEST_CASE("check_image: true depth is the smallest bit depth that represents every level") {
         const auto bits = [](SampleType type, int stored, auto level, double largest) {
             const Image<float> image =
                 picture(64, 64, 1, [&](int x, int y, int) { return level(y * 64 + x) / largest; });
@@ -66,12 +66,12 @@ TEST_SUITE("unit") {
         CHECK(bits(
                   SampleType::u8, 8, [](int i) { return i % 2 * 255; }, 255) == 1);
         CHECK(bits(
-                  SampleType::float32, 32, [](int i) { return i % 256; }, 255) == 8); // floats made of bytes
+                  SampleType::float32, 32, [](int i) { return i % 256; }, 255) == 8); // floats converted from bytes
         CHECK(bits(
                   SampleType::float32, 32, [](int i) { return std::sin(i * 0.1) * 0.5 + 0.5; }, 1) == 0);
     }
 
-    TEST_CASE("check_image: levels are counted up to those of 16 bits") {
+    TEST_CASE("check_image: levels are counted up to 65536") {
         const auto levels = [](int count, SampleType type, int bits) {
             const Image<float> image =
                 picture(512, 256, 1, [&](int x, int y, int) { return (y * 512 + x) % count / 131071.0; });
@@ -81,7 +81,7 @@ TEST_SUITE("unit") {
         CHECK(levels(65537, SampleType::float32, 32) == most_levels + 1);
     }
 
-    TEST_CASE("check_image: a slight tint is still grey, a colour is not, and alpha does not count") {
+    TEST_CASE("check_image: a slight tint is grey, a colour is not, and alpha is ignored") {
         const auto look = [](auto tint) {
             return check_image(
                 picture(32, 32, 3, [&](int x, int y, int c) { return (x * 4 + y + tint(x, y, c)) / 255.0; }),
@@ -101,7 +101,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("check_image: the grey value has the levels of the sum of the channels") {
-        // R one level above G and B on every other texel: 10 + 10 levels of the mean, 11 of red.
+        // On every other texel R is one level above G and B: 20 levels of the mean, 11 of red.
         const ImageCheck c =
             check_image(picture(40, 10, 3, [](int x, int y, int c_) { return (100 + y + (c_ == 0 && x % 2)) / 255.0; }),
                         info_of(SampleType::u8, 8, rgb));
@@ -125,7 +125,7 @@ TEST_SUITE("unit") {
         CHECK(texel.tiling.y == 0);
     }
 
-    TEST_CASE("check_image: normal maps are told from colours, unit length or not") {
+    TEST_CASE("check_image: normal maps are distinguished from colours, even without unit length") {
         const auto normals = [](double length) {
             return check_image(picture(64, 64, 3,
                                        [&](int x, int y, int c) {

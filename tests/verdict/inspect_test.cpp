@@ -36,7 +36,7 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
 } // namespace
 
 TEST_SUITE("unit") {
-    TEST_CASE("inspect_mesh: a plain quad has nothing wrong, and each trouble its warning") {
+    TEST_CASE("inspect_mesh: a plain quad has no warning, and each fault has one") {
         const Folder folder;
         const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
         const MeshReport good = inspect_mesh(folder.write("good.obj", square + "f 1/1 2/2 3/3 4/4\n"));
@@ -53,7 +53,7 @@ TEST_SUITE("unit") {
                    "no uvs"));
     }
 
-    TEST_CASE("inspect_image: 8-bit content, NaN and few levels are warnings; text and JSON tell the same") {
+    TEST_CASE("inspect_image: 8-bit content, NaN and few levels are warnings; text and JSON agree") {
         const Folder folder;
         Image<float> ramp(256, 16, 1);
         for (int y = 0; y < 16; ++y)
@@ -85,14 +85,14 @@ TEST_SUITE("unit") {
         CHECK(says(judge(broken).warnings, "3 NaNs: in channel Y"));
     }
 
-    TEST_CASE("inspect: JSON survives names that are not UTF-8") {
+    TEST_CASE("inspect: JSON is valid for names that are not UTF-8") {
         MeshReport report;
         report.file = "b\xff"
                       "d.obj";
         CHECK(nlohmann::json::parse(to_json(report))["kind"] == "mesh");
     }
 
-    TEST_CASE("judge: a pair's conventions are named") {
+    TEST_CASE("judge: warnings name the conventions of a pair") {
         PairReport report;
         report.check.corr_x = -0.97;
         report.check.corr_y = 0.99;
@@ -107,7 +107,7 @@ TEST_SUITE("unit") {
         CHECK(says(judge(report).warnings, "do not show the same relief"));
     }
 
-    TEST_CASE("inspect_pair: a grey second picture is refused") {
+    TEST_CASE("inspect_pair: a grey image as the normal map is refused") {
         const Folder folder;
         Image<float> grey(4, 4, 1);
         std::fill_n(grey.data(), 16, 0.5f);

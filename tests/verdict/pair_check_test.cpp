@@ -27,7 +27,7 @@ Image<float> wave_height(int size, double sign = 1) {
     return image;
 }
 
-// The wave's OpenGL normals at the strength given: slope per unit of height per texel is `scale` at this size.
+// OpenGL normals of the wave: `scale` is the slope per unit of height and texel at this size.
 Image<float> wave_normals(int size, double scale, bool directx = false, double length = 1) {
     Image<float> image(size, size, 3);
     for (int y = 0; y < size; ++y)
@@ -45,11 +45,12 @@ Image<float> wave_normals(int size, double scale, bool directx = false, double l
 } // namespace
 
 TEST_SUITE("unit") {
-    TEST_CASE("check_pair: agreement, scale, and each convention by itself") {
+    TEST_CASE("check_pair: agreement, scale, and each convention separately") {
         const PairCheck good = check_pair(wave_height(128), wave_normals(128, 10));
         CHECK(good.corr_x > 0.999);
         CHECK(good.corr_y > 0.999);
-        CHECK(good.scale == doctest::Approx(10).epsilon(0.01)); // central differences see 1 % less of 42 texels' wave
+        CHECK(good.scale ==
+              doctest::Approx(10).epsilon(0.01)); // central differences are 1 % too small for a wave of 42 texels
         CHECK_FALSE(good.inverted);
         CHECK_FALSE(good.directx);
         CHECK(good.normal_length == doctest::Approx(1));
@@ -66,14 +67,14 @@ TEST_SUITE("unit") {
         CHECK(both.directx);
     }
 
-    TEST_CASE("check_pair: normals that are too short keep their slopes, and are reported") {
+    TEST_CASE("check_pair: normals that are too short have the right slopes, and are reported") {
         const PairCheck c = check_pair(wave_height(96), wave_normals(96, 10, false, 0.61));
         CHECK(c.normal_length == doctest::Approx(0.61));
         CHECK(c.not_unit == 1);
         CHECK(c.scale == doctest::Approx(10).epsilon(0.01));
     }
 
-    TEST_CASE("check_pair: the larger one is box-filtered to the smaller, whole factors and not") {
+    TEST_CASE("check_pair: the larger image is box-filtered to the smaller one, for integer and other factors") {
         const PairCheck finer_normals = check_pair(wave_height(96), wave_normals(192, 20));
         CHECK(finer_normals.width == 96);
         CHECK(finer_normals.corr_x > 0.999);
@@ -83,7 +84,7 @@ TEST_SUITE("unit") {
         CHECK(finer_height.scale == doctest::Approx(10).epsilon(0.02));
     }
 
-    TEST_CASE("check_pair: something else does not agree, flat is flat, one texel does no harm") {
+    TEST_CASE("check_pair: other relief does not agree, flat images are flat, one texel is accepted") {
         Image<float> other(128, 128, 1);
         for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x)

@@ -12,20 +12,20 @@ namespace {
 std::vector<double> list(const Vec3d& v) { return {v.x, v.y, v.z}; }
 std::vector<double> list(const Vec2d& v) { return {v.x, v.y}; }
 
-/// The texel of the map that uv lies in.
-struct Place {
+/// The texel of the map that contains uv.
+struct MapTexel {
     int x, y;
     Vec2d centre;
 };
 
-Place find_texel(const ExplainInput& in) {
+MapTexel find_texel(const ExplainInput& in) {
     const int width = in.options.width, height = in.options.height;
     const int x = std::clamp(int(in.uv.x * width), 0, width - 1),
               y = std::clamp(int((1 - in.uv.y) * height), 0, height - 1);
     return {x, y, {(x + 0.5) / width, 1 - (y + 0.5) / height}};
 }
 
-RouteStep image_step(const ExplainInput& in, const Place& at) {
+RouteStep image_step(const ExplainInput& in, const MapTexel& at) {
     const HeightTexture& h = *in.height;
     RouteStep step{"image_io: " + in.height_path, {}};
     step.entries.push_back({"size", {double(h.values.width()), double(h.values.height())}, ""});
@@ -79,7 +79,7 @@ RouteStep surface_step(const ExplainInput& in, const BakeTarget& target, const T
     return step;
 }
 
-/// The method that is baked: blinn stands in for exact where the surface is inside out.
+/// The method of the bake, which uses blinn instead of exact where the surface folds.
 NormalMethod baked_method(const ExplainInput& in, const Jet<float>& jet, const Height<float>& h) {
     return in.options.method == NormalMethod::exact && folds(jet, h.b) ? NormalMethod::blinn : in.options.method;
 }
@@ -99,7 +99,7 @@ RouteStep normal_step(NormalMethod baked, const BakeTarget& target, const Jet<do
     return step;
 }
 
-/// The shader's frame at the texel: T and N as interpolated.
+/// The frame of a shader at the texel: interpolated T and N.
 struct Frame {
     Vec3f tangent, n;
     float sign;
@@ -133,7 +133,7 @@ RouteStep encode_step(const Vec3f& t, bool directx) {
         const Vec3f levels = glm::vec3(std::floor(rgb.x * largest + 0.5f), std::floor(rgb.y * largest + 0.5f),
                                        std::floor(rgb.z * largest + 0.5f));
         char words[64];
-        std::snprintf(words, sizeof words, "comes back %.4f deg off",
+        std::snprintf(words, sizeof words, "decodes %.4f deg off",
                       glm::degrees(angle_between(Vec3d(t), Vec3d(decode_normal(levels / largest, directx)))));
         step.entries.push_back({std::to_string(bits) + " bit", list(Vec3d(levels)), words});
     }
@@ -158,7 +158,7 @@ RouteStep shade_step(const Frame& frame, const Vec3f& t, bool directx) {
 } // namespace
 
 std::vector<RouteStep> explain(const ExplainInput& in) {
-    const Place at = find_texel(in);
+    const MapTexel at = find_texel(in);
     const BakeTarget target = make_bake_target(*in.mesh, in.mesh_path, in.options.width, in.options.height);
     const HeightField field(*in.height, in.options.height_options, in.options.filter, in.options.width,
                             in.options.height);
@@ -170,8 +170,8 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
     std::vector<RouteStep> route = {image_step(in, at), height_step(in, field, h)};
     const TexelHit& hit = target.raster.hits.at(at.x, at.y);
     if (hit.triangle == no_index) {
-        route.push_back({"uv_raster: " + in.mesh_path,
-                         {{"no face lies under this texel", {}, "padding fills it, or it stays flat"}}});
+        route.push_back(
+            {"uv_raster: " + in.mesh_path, {{"no face covers this texel", {}, "it is filled by padding, or flat"}}});
         return route;
     }
     const Jet<float> jet = jet_at(target.surface, hit.triangle, hit.b1, hit.b2);
@@ -180,7 +180,7 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
     route.push_back(
         normal_step(baked, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
     if (baked != in.options.method)
-        route.back().entries.push_back({"inside out here", {}, "blinn stands in for exact"});
+        route.back().entries.push_back({"folded here", {}, "blinn is used instead of exact"});
     const Vec3f normal = unit_or_zero(displaced_normal(jet, h, baked, target.lecture));
     const Frame frame = frame_at(target, hit);
     const Vec3f t =
@@ -204,7 +204,7 @@ std::string to_text(const std::vector<RouteStep>& route) {
             std::snprintf(buffer, sizeof buffer, "  %-22s", entry.name.c_str());
             text += buffer;
             for (const double value : entry.values) {
-                std::snprintf(buffer, sizeof buffer, " %12.6g", value == 0 ? 0.0 : value); // no -0
+                std::snprintf(buffer, sizeof buffer, " %12.6g", value == 0 ? 0.0 : value); // prints -0 as 0
                 text += buffer;
             }
             if (!entry.words.empty()) text += "  " + entry.words;

@@ -1,4 +1,4 @@
-// One texel's journey from height file to shaded pixel, every number printed (docs/route.md tells it in words).
+// All intermediate results of a bake for one texel, from the height file to the shaded pixel (docs/route.md).
 #pragma once
 #include "bake/relief/map/normal_map.h"
 #include <string>
@@ -6,16 +6,16 @@
 
 namespace bake {
 
-/// A named result of one step: numbers, or words.
+/// A named result of one step, as numbers, words or both.
 struct RouteEntry {
     std::string name;
     std::vector<double> values;
     std::string words;
 };
 
-/// One step of the route, named after the module that takes it.
+/// One step of the bake.
 struct RouteStep {
-    std::string title;
+    std::string title; ///< starts with the name of the module
     std::vector<RouteEntry> entries;
 };
 
@@ -27,13 +27,13 @@ struct ExplainInput {
     Vec2d uv{0.5}; ///< in the unit square
 };
 
-/// The steps of the texel of the map that uv lies in: the numbers are those of the bake itself (float), the comparison of
-/// the methods is in double. Ends early, saying why, where no face lies under the texel.
+/// The steps for the texel of the map that contains uv. The numbers are those of the bake, in float; methods are compared in
+/// double. If no face covers the texel, the last step says so.
 std::vector<RouteStep> explain(const ExplainInput& input);
 
 /// Aligned lines, six significant digits.
 std::string to_text(const std::vector<RouteStep>& route);
-/// One JSON object: step, name, values.
+/// One JSON object.
 std::string to_json(const std::vector<RouteStep>& route);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// What is in a file, what is wrong with it, and both as text for people and as JSON for programs.
+// Reports on files: measurements and findings, as text and as JSON.
 #pragma once
 #include "bake/mesh/check/mesh_audit.h"
 #include "bake/mesh/check/mesh_check.h"
@@ -12,25 +12,25 @@
 
 namespace bake {
 
-/// Warnings are what is wrong; notes are worth knowing and right for many uses.
+/// Warnings name faults; notes name properties that are right for many uses.
 struct Findings {
     std::vector<std::string> warnings, notes;
 };
 
 struct InspectOptions {
-    bool audit = false; ///< meshes: self intersections and orientation too, by CGAL, which is slow
-    MeshOptions read;   ///< meshes: how they are read
+    bool audit = false; ///< meshes: also self-intersections and orientation, with CGAL, which is slow
+    MeshOptions read;   ///< meshes: options of reading
     MeshCheckOptions mesh;
     UvCheckOptions uv;
-    Grey height_channel = Grey::mean; ///< pairs: the grey of the height
+    Grey height_channel = Grey::mean; ///< pairs: channel of the height
     MeshDistanceOptions distance;
-    double limit = 0; ///< distances: warn when the upper bound is larger; 0: none
+    double limit = 0; ///< distances: warn if the upper bound is larger; 0 for no limit
 };
 
-/// What a glTF holds beside its mesh.
+/// Content of a glTF file besides its mesh.
 struct GltfParts {
-    std::size_t nodes = 0;           ///< that place a mesh
-    std::size_t normal_textures = 0; ///< materials that have one
+    std::size_t nodes = 0;           ///< nodes with a mesh
+    std::size_t normal_textures = 0; ///< materials with a normal texture
     std::size_t images = 0, missing_images = 0;
     bool tangents = false;
 };
@@ -67,7 +67,7 @@ struct DistanceReport {
     bool over_limit() const noexcept { return limit > 0 && distance.upper > limit; }
 };
 
-/// Throw as read_mesh, read_image and read_height.
+/// Throw the errors of read_mesh(), read_image() and read_height().
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options = {});
 ImageReport inspect_image(const std::string& path, const InspectOptions& options = {});
 PairReport inspect_pair(const std::string& height_path, const std::string& normal_path,
@@ -75,16 +75,16 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
 DistanceReport inspect_distance(const std::string& path, const std::string& other_path,
                                 const InspectOptions& options = {});
 
-/// The findings alone, from measurements already made.
+/// The findings for the measurements in a report.
 Findings judge(const MeshReport& report);
 Findings judge(const ImageReport& report);
 Findings judge(const PairReport& report);
 Findings judge(const DistanceReport& report);
 
-/// True for names that end like a mesh, known to read_mesh or not.
+/// True if the file ending is that of a mesh format, even of one that read_mesh() does not read.
 bool named_like_a_mesh(const std::string& path);
 
-/// Aligned lines, each ending in a newline.
+/// Aligned lines, each with a newline at its end.
 std::string to_text(const MeshReport& report);
 std::string to_text(const ImageReport& report);
 std::string to_text(const PairReport& report);

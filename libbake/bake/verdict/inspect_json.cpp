@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// File names need not be UTF-8; what is not is replaced, so that the object always parses.
+// File names may contain invalid UTF-8, which is replaced, so that the output is valid JSON.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 void add(Json& json, const Findings& findings) {

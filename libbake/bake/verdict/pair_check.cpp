@@ -8,10 +8,10 @@
 namespace bake {
 namespace {
 
-constexpr double steepest = 20; // n_z of 0.05: beyond it a slope says more of rounding than of relief
+constexpr double steepest = 20; // n_z = 0.05; steeper slopes are dominated by rounding
 constexpr int box_radius = 2;
 
-// One axis of a box filter from `size` to `smaller` samples: sample i covers [i, i + 1) * size / smaller.
+// A weight of a box filter from `size` to `smaller` samples along one axis. Sample i covers [i, i + 1) * size / smaller.
 struct Tap {
     int index;
     float weight;
@@ -49,7 +49,7 @@ Image<float> shrink(const Image<float>& image, int channels, int width, int heig
     return out;
 }
 
-// Mean over 5 x 5 texels, borders repeating. Small images count some texels more than once.
+// Mean over 5 x 5 texels with repeated borders. In small images some texels count more than once.
 Image<float> smooth(const Image<float>& image) {
     const int w = image.width(), h = image.height(), n = image.channels();
     Image<float> rows(w, h, n), out(w, h, n);
@@ -112,24 +112,24 @@ Image<float> normal_slopes(const Image<float>& normals, PairCheck& check) {
 }
 
 struct Moments {
-    double ours = 0, both = 0, authors = 0; // central second moments
+    double height = 0, both = 0, normals = 0; // central second moments of the slopes
 };
 
-Moments moments(const Image<float>& ours, const Image<float>& authors, int channel) {
-    const double texels = double(ours.width()) * ours.height();
+Moments moments(const Image<float>& height, const Image<float>& normals, int channel) {
+    const double texels = double(height.width()) * height.height();
     double mean_a = 0, mean_b = 0;
-    for (int y = 0; y < ours.height(); ++y)
-        for (int x = 0; x < ours.width(); ++x) {
-            mean_a += ours.at(x, y, channel) / texels;
-            mean_b += authors.at(x, y, channel) / texels;
+    for (int y = 0; y < height.height(); ++y)
+        for (int x = 0; x < height.width(); ++x) {
+            mean_a += height.at(x, y, channel) / texels;
+            mean_b += normals.at(x, y, channel) / texels;
         }
     Moments m;
-    for (int y = 0; y < ours.height(); ++y)
-        for (int x = 0; x < ours.width(); ++x) {
-            const double a = ours.at(x, y, channel) - mean_a, b = authors.at(x, y, channel) - mean_b;
-            m.ours += a * a;
+    for (int y = 0; y < height.height(); ++y)
+        for (int x = 0; x < height.width(); ++x) {
+            const double a = height.at(x, y, channel) - mean_a, b = normals.at(x, y, channel) - mean_b;
+            m.height += a * a;
             m.both += a * b;
-            m.authors += b * b;
+            m.normals += b * b;
         }
     return m;
 }
@@ -140,25 +140,27 @@ PairCheck check_pair(const Image<float>& height, const Image<float>& normals) {
     PairCheck check;
     check.width = std::min(height.width(), normals.width());
     check.height = std::min(height.height(), normals.height());
-    const Image<float> our_height = shrink(height, 1, check.width, check.height);
-    // Lengths are judged as the file has them, before any filter shortens normals.
+    // Lengths are measured before filtering, which shortens normals.
     normal_slopes(normals, check);
     const bool shrunk = normals.width() != check.width || normals.height() != check.height;
     PairCheck ignored;
-    const Image<float> author_slopes = shrunk ? normal_slopes(shrink(normals, 3, check.width, check.height), ignored)
-                                              : normal_slopes(normals, ignored);
+    const Image<float> slopes_of_normals = shrunk
+                                               ? normal_slopes(shrink(normals, 3, check.width, check.height), ignored)
+                                               : normal_slopes(normals, ignored);
 
-    const Image<float> ours = smooth(height_slopes(our_height)), authors = smooth(author_slopes);
-    const Moments x = moments(ours, authors, 0), y = moments(ours, authors, 1);
+    const Image<float> a = smooth(height_slopes(shrink(height, 1, check.width, check.height)));
+    const Image<float> b = smooth(slopes_of_normals);
+    const Moments x = moments(a, b, 0), y = moments(a, b, 1);
     const auto corr = [](const Moments& m) {
-        return m.ours > 0 && m.authors > 0 ? m.both / std::sqrt(m.ours * m.authors) : 0;
+        return m.height > 0 && m.normals > 0 ? m.both / std::sqrt(m.height * m.normals) : 0;
     };
-    const auto scale = [](const Moments& m) { return m.ours > 0 ? m.both / m.ours : 0; };
+    const auto scale = [](const Moments& m) { return m.height > 0 ? m.both / m.height : 0; };
     check.corr_x = corr(x);
     check.corr_y = corr(y);
     check.scale_x = scale(x);
     check.scale_y = scale(y);
-    check.scale = x.ours + y.ours > 0 ? (std::abs(x.both) + std::abs(y.both)) / (x.ours + y.ours) : 0;
+    const double both = x.height + y.height;
+    check.scale = both > 0 ? (std::abs(x.both) + std::abs(y.both)) / both : 0;
     check.flat = check.corr_x == 0 && check.corr_y == 0;
     check.inverted = check.corr_x < 0;
     check.directx = (check.corr_x < 0) != (check.corr_y < 0);
