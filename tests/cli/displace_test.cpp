@@ -107,6 +107,21 @@ TEST_SUITE("cli") {
         }
     }
 
+    TEST_CASE("displace: --flip-v reads a mesh whose v runs the other way") {
+        const Folder folder;
+        const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n", face = "f 1/1 2/2 3/3 4/4\n";
+        write_file(folder / "up.obj", points + "vt 0 0.25\nvt 1 0.25\nvt 1 0.5\nvt 0 0.5\n" + face);
+        write_file(folder / "down.obj", points + "vt 0 0.75\nvt 1 0.75\nvt 1 0.5\nvt 0 0.5\n" + face);
+        const auto positions = [&](const char* mesh, std::vector<std::string> more) {
+            more.insert(more.begin(), {mesh, "--height", waves(folder), "--levels", "2", "-o", "a.ply"});
+            displaced(folder, more);
+            return read_mesh(folder / "a.ply").positions;
+        };
+        const std::vector<Vec3f> up = positions("up.obj", {});
+        CHECK((positions("down.obj", {"--flip-v"}) == up));
+        CHECK((positions("down.obj", {}) != up));
+    }
+
     TEST_CASE("displace: a constant height moves everything by amplitude (value - midlevel)") {
         const Folder folder;
         write_picture(folder / "white.tif", 2, 2, 1, [](int, int, int) { return 1; });
@@ -219,7 +234,7 @@ TEST_SUITE("cli") {
             arguments.insert(arguments.begin(), {"displace", "--height", waves(folder)});
             check_refused(folder, arguments, code, named);
         };
-        refused({"-o", "a.ply"}, "nothing to displace");
+        refused({"-o", "a.ply"}, "neither a mesh nor a --shape");
         refused({torus, "--shape", "torus", "-o", "a.ply"}, "--shape: stands instead of a mesh");
         refused({"--shape", "torus", "--subdivide", "catmark", "-o", "a.ply"}, "--subdivide: a shape");
         refused({"--shape", "dodo", "-o", "a.ply"}, "dodo");

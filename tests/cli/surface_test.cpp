@@ -1,5 +1,6 @@
 // bake surface from outside: shapes, meshes and cages as meshes and as maps, and everything it refuses.
 #include "bake/base/vec.h"
+#include "bake/mesh/check/mesh_check.h"
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include "mesh/file/mesh_files.h"
@@ -48,6 +49,26 @@ std::string sheet() {
             text += "\n";
         }
     return text;
+}
+
+/// A cube whose faces have charts of their own: no two of its 24 corners have the same position and uv.
+std::string cube_of_charts() {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+    const int faces[6][4] = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+    for (int f = 0; f < 6; ++f)
+        for (const auto& [x, y] : {std::pair(0.0, 0.0), {0.9, 0.0}, {0.9, 0.9}, {0.0, 0.9}})
+            text += "vt " + std::to_string((f + x) / 6) + " " + std::to_string(y) + "\n";
+    for (int f = 0; f < 6; ++f) {
+        text += "f";
+        for (int k = 0; k < 4; ++k) text += " " + std::to_string(faces[f][k]) + "/" + std::to_string(4 * f + k + 1);
+        text += "\n";
+    }
+    return text;
+}
+
+Topology topology(const std::string& file) {
+    const Mesh mesh = read_mesh(file);
+    return check_mesh(mesh, triangulate(mesh)).welded;
 }
 
 } // namespace
@@ -136,6 +157,20 @@ TEST_SUITE("cli") {
         CHECK(said["texels"]["padded"].get<int>() > 500);
     }
 
+    TEST_CASE("surface: a cage whose format splits vertices at seams gives one closed limit surface") {
+        const Folder folder;
+        write_file(folder / "cube.obj", cube_of_charts());
+        for (const char* cage : {"cube.ply", "cube.glb"}) {
+            INFO(std::string(cage));
+            write_mesh(folder / cage, read_mesh(folder / "cube.obj"));
+            REQUIRE(read_mesh(folder / cage).positions.size() == 24);
+            surface(folder, {cage, "--subdivide", "catmark", "-o", "limit.ply"});
+            const Topology limit = topology(folder / "limit.ply");
+            CHECK(limit.components == 1);
+            CHECK(limit.boundary_edges == 0);
+        }
+    }
+
     TEST_CASE("surface: the same bytes for 1, 2 and 7 threads") {
         const Folder folder;
         write_file(folder / "cage.obj", sheet());
@@ -178,6 +213,7 @@ TEST_SUITE("cli") {
         refused({"--shape", "torus:R=1,r=2", "-o", "a.ply"}, "less than R");
         refused({"--shape", "", "-o", "a.ply"}, "--shape");
         refused({"--shape", "torus", "--subdivide", "catmark", "-o", "a.ply"}, "--subdivide");
+        refused({"--shape", "torus", "--flip-v", "-o", "a.ply"}, "--flip-v");
         refused({"--shape", "torus", "--resolution", "2x2", "-o", "a.ply"}, "too few");
         refused({"--shape", "torus", "--resolution", "2by2", "-o", "a.ply"}, "--resolution");
         refused({"--shape", "torus", "--resolution", "0", "-o", "a.ply"}, "--resolution");
@@ -243,6 +279,11 @@ TEST_SUITE("real") {
                              "--maps-out", "spot", "--maps", "position,mean-curvature", "--size", "256"});
         CHECK(spot["texels"]["largest_uv_distance"].get<double>() < 1e-9);
         CHECK(spot["degenerate_count"] == 0);
+        write_mesh(folder / "spot.ply", read_mesh(meshes + "spot/spot_control_mesh.obj"));
+        surface(folder, {"spot.ply", "--subdivide", "catmark", "-o", "limit.ply"});
+        const Topology of_ply = topology(folder / "limit.ply"), of_obj = topology(folder / "spot.glb");
+        CHECK(of_ply.components == of_obj.components);
+        CHECK(of_ply.boundary_edges == 0);
         // The surface through the limit points of Spot's own fine mesh has nearly its area.
         const auto fine = surface(folder, {meshes + "spot/spot_quadrangulated.obj", "-o", "fine.ply"});
         CHECK(fine["area"].get<double>() == Approx(spot["area"].get<double>()).epsilon(0.02));

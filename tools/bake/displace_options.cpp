@@ -1,6 +1,4 @@
 #include "displace_options.h"
-#include "bake/mesh/file/mesh_io.h"
-#include "bake/mesh/weld.h"
 #include "bake/relief/height/vector_height.h"
 #include "camera_options.h"
 #include <cctype>
@@ -17,6 +15,14 @@ std::string ending(const std::string& path) {
     return text;
 }
 
+/// The input with the scheme that --subdivide names.
+SurfaceInput surface_input(const DisplaceArgs& args) {
+    SurfaceInput input = args.surface;
+    if (args.kind == BaseKind::catmark) input.scheme = Scheme::catmark;
+    if (args.kind == BaseKind::loop) input.scheme = Scheme::loop;
+    return input;
+}
+
 bool has_rates(const DisplaceArgs& args) { return args.levels || !args.edge_px.empty() || !args.max_error.empty(); }
 
 BaseKind resolve_kind(const DisplaceArgs& args) {
@@ -25,7 +31,7 @@ BaseKind resolve_kind(const DisplaceArgs& args) {
 }
 
 int resolve_levels(const DisplaceArgs& args) {
-    const bool as_it_is = args.shape.empty() && resolve_kind(args) == BaseKind::none;
+    const bool as_it_is = args.surface.shape.empty() && resolve_kind(args) == BaseKind::none;
     return args.levels.value_or(as_it_is ? 0 : default_levels);
 }
 
@@ -40,10 +46,7 @@ Image<float> read_vectors(const DisplaceArgs& args, ImageInfo& info, std::string
 } // namespace
 
 void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
-    sub.add_option("mesh", args.mesh, "UV-mapped mesh or cage (.obj, .ply, .glb, .gltf)");
-    sub.add_option("--shape", args.shape, "Analytic shape instead of a mesh, such as torus:R=2,r=0.7")
-        ->check(not_empty())
-        ->type_name("NAME[:key=value,...]");
+    add_surface_input(sub, args.surface);
     sub.add_option("--height", args.height.path,
                    "Height picture; values are taken as they are stored, never sRGB-decoded")
         ->required()
@@ -74,10 +77,6 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
                    "Cut where it needs to be, to stay within E of the displaced surface: object units or 0.1%")
         ->check(not_empty())
         ->type_name("E");
-    add_choice<UvSmoothing>(
-        sub, "--uv-smoothing", args.uv_smoothing,
-        {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
-        "Of catmark and loop: which uvs are smoothed with the surface; inside: all but the charts' borders");
     add_choice<Seam>(sub, "--seam", args.seam,
                      {{"average", Seam::average}, {"owner", Seam::owner}, {"blend", Seam::blend}},
                      "Height of a point on a uv seam: the mean of its sides, that of the first face, or the mean with "
@@ -105,15 +104,13 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
 }
 
 void check_usage(const DisplaceArgs& args) {
-    if (args.mesh.empty() == args.shape.empty())
-        throw usage(args.mesh.empty() ? "displace: nothing to displace; name a mesh or a --shape"
-                                      : "--shape: stands instead of a mesh; leave one of them out");
+    check_usage(surface_input(args), "displace");
     const std::string format = ending(args.out);
     if (format != ".obj" && format != ".ply" && format != ".glb" && format != ".gltf")
         throw usage("--out " + args.out + ": is not a mesh format known here; use .obj, .ply, .glb or .gltf");
     if (args.margin && format == ".obj") throw usage("--margin: .obj has no place for attributes; write .ply or .glb");
-    if (!args.shape.empty() && args.kind != BaseKind::automatic)
-        throw usage("--subdivide: a shape is smooth by itself; leave it out");
+    if (!args.surface.shape.empty() && args.kind != BaseKind::automatic)
+        throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
     if (args.levels.has_value() + !args.edge_px.empty() + !args.max_error.empty() > 1)
         throw usage("--levels, --edge-px, --max-error: are three ways to say how fine; give one");
     if (args.kind == BaseKind::none &&
@@ -130,9 +127,6 @@ void check_usage(const DisplaceArgs& args) {
     }
     if (args.vector && (args.height.grey != Grey::mean || args.height.invert || args.height.dequantise))
         throw usage("--vector: takes three channels as they are; leave out --channel, --invert and --dequantise");
-    const bool limit = args.kind == BaseKind::catmark || args.kind == BaseKind::loop;
-    if (!limit && args.uv_smoothing != UvSmoothing::inside)
-        throw usage("--uv-smoothing: is for --subdivide catmark and loop; leave it out");
     if (args.midlevel && !(*args.midlevel * 0 == 0)) throw usage("--midlevel: is not a finite number; write 0.5");
     if (!args.amplitude.empty()) parse_amplitude(args.amplitude);
     if (!args.max_error.empty()) parse_length("--max-error", args.max_error);
@@ -140,22 +134,11 @@ void check_usage(const DisplaceArgs& args) {
 }
 
 BaseSurface make_base(const DisplaceArgs& args) {
-    if (!args.shape.empty()) {
-        const ParametricSurface shape(args.shape);
-        const auto [columns, rows] = shape.default_resolution();
-        return BaseSurface(shape, columns, rows);
-    }
-    Mesh mesh = read_mesh(args.mesh);
-    if (mesh.corner_uv.empty())
+    BaseSurface surface = read_surface(surface_input(args));
+    if (surface.mesh().corner_uv.empty())
         throw Error(Refusal::unsuitable,
-                    args.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");
-    const BaseKind kind = resolve_kind(args);
-    if (kind == BaseKind::none || kind == BaseKind::linear) return BaseSurface(std::move(mesh));
-    if (ending(args.mesh) != ".obj") weld_positions(mesh); // formats of vertices split them at seams of uvs
-    const SubdivisionOptions options{.scheme = kind == BaseKind::loop ? Scheme::loop : Scheme::catmark,
-                                     .uv = args.uv_smoothing};
-    check_cage(mesh, options.scheme, args.mesh);
-    return BaseSurface(std::move(mesh), options);
+                    args.surface.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");
+    return surface;
 }
 
 ReliefFile load_relief(const DisplaceArgs& args, double size) {

@@ -1,32 +1,30 @@
 // Options of displace, and what they mean for the library.
 #pragma once
 #include "bake/relief/displace/displace.h"
-#include "options.h"
+#include "inputs/surface_input.h"
 
 namespace bake {
 
-/// What the relief stands on.
+/// The surface that is displaced.
 enum class BaseKind {
     automatic, ///< none without rates, linear with them
-    none,      ///< the mesh as it is
-    linear,    ///< the mesh, its faces cut finer
-    catmark,
+    none,      ///< the vertices of the mesh
+    linear,    ///< the mesh, with its faces cut finer
+    catmark,   ///< the limit surfaces of the mesh as a cage
     loop,
 };
 
 struct DisplaceArgs {
-    std::string mesh, shape, out, amplitude, edge_px, camera, max_error, max_memory;
+    SurfaceInput surface;
+    BaseKind kind = BaseKind::automatic;
+    std::string out, amplitude, edge_px, camera, max_error, max_memory;
     HeightArgs height;
     std::optional<double> midlevel;
     std::optional<int> levels;
-    BaseKind kind = BaseKind::automatic;
-    UvSmoothing uv_smoothing = UvSmoothing::inside;
     Seam seam = Seam::average;
     std::optional<VectorSpace> vector;
     Interpolation interpolation = Interpolation::c2;
     bool measure = false, margin = false, audit = false;
-
-    const std::string& base_name() const { return shape.empty() ? mesh : shape; }
 };
 
 void add_displace_options(CLI::App& sub, DisplaceArgs& args);
@@ -35,8 +33,7 @@ void check_usage(const DisplaceArgs& args);
 /// Segments of the refinements and limits that are asked for without rates, as levels.
 inline constexpr int default_levels = 3;
 
-/// The mesh, the limit of the cage or the shape. Throws Error{Refusal::unsuitable} for a mesh without uvs and a cage
-/// without limit.
+/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface.
 BaseSurface make_base(const DisplaceArgs& args);
 
 /// The relief, and what its file said.
