@@ -1,4 +1,5 @@
 // Laws of displacement on small meshes.
+#include "bake/surface/patch/surface_mesh.h"
 #include "relief/displace/displace_meshes.h"
 #include <cstring>
 
@@ -74,12 +75,12 @@ TEST_SUITE("unit") {
         CHECK(triangles.mesh.positions.size() == triangles.mesh.faces() / 2);
     }
 
-    TEST_CASE("displace: the count before the work is the count after it") {
+    TEST_CASE("displace: the count that memory is refused by is that of the result") {
         for (const bool flat : {false, true}) {
             const BaseSurface base(cube(flat));
             const Relief height = relief(noise(16), 0.1);
-            const DisplaceCount count = count_displaced(base, height, levels(4));
             const Displaced out = displace(base, height, levels(4));
+            const DisplaceCount count = out.report.count;
             CHECK(count.points == out.mesh.positions.size());
             CHECK(count.faces == out.mesh.faces());
             CHECK(count.corners == out.mesh.corners());
@@ -87,6 +88,21 @@ TEST_SUITE("unit") {
                                 12 * out.mesh.corners() + 4 * out.mesh.faces();
             CHECK(count.bytes >= bytes);
         }
+    }
+
+    TEST_CASE("displace: without relief a limit surface is that of surface_mesh, point by point") {
+        Mesh cage = cube();
+        for (Vec2f& uv : cage.uvs) uv = 0.5f * uv;
+        const BaseSurface base(std::move(cage), SubdivisionOptions{});
+        const Mesh still = displace(base, relief(noise(16), 0), levels(2)).mesh;
+        const Mesh limit = surface_mesh(base, SurfaceKind::limit, 4).mesh;
+        CHECK(still.positions == limit.positions);
+        CHECK(still.corner_position == limit.corner_position);
+        CHECK(still.corner_uv == limit.corner_uv);
+        CHECK(still.uvs == limit.uvs);
+        REQUIRE(still.normals.size() == limit.normals.size());
+        for (std::size_t i = 0; i < limit.normals.size(); ++i)
+            CHECK(glm::length(still.normals[i] - limit.normals[i]) < 1e-5f);
     }
 
     TEST_CASE("displace: groups and materials follow their faces") {

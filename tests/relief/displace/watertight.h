@@ -35,8 +35,8 @@ inline Border border_of(const Mesh& mesh) {
 }
 
 /// That of the base, cut at these rates.
-inline Border border_of(const BaseSurface& base, const RatePlan& plan) {
-    const PatchCells cells(base.complex(), plan.split);
+inline Border border_of(const RatePlan& plan) {
+    const PatchCells& cells = plan.cells;
     const PatchComplex& complex = cells.complex();
     std::vector<int> uses(complex.edges);
     std::vector<bool> on_border(complex.vertices);
@@ -77,8 +77,8 @@ struct Cracks {
     bool any() const noexcept { return border_edges != 0 || t_junctions != 0 || parted != 0; }
 };
 
-inline Cracks cracks_of(const Mesh& mesh, const BaseSurface& base, const RatePlan& plan) {
-    const Border planned = border_of(base, plan), found = border_of(mesh);
+inline Cracks cracks_of(const Mesh& mesh, const RatePlan& plan) {
+    const Border planned = border_of(plan), found = border_of(mesh);
     Mesh welded = mesh;
     weld_positions(welded);
     const auto more = [](std::size_t a, std::size_t b) {
@@ -89,8 +89,8 @@ inline Cracks cracks_of(const Mesh& mesh, const BaseSurface& base, const RatePla
 }
 
 /// Patches two of whose sides are cut differently.
-inline std::size_t mixed_patches(const BaseSurface& base, const RatePlan& plan) {
-    const PatchCells cells(base.complex(), plan.split);
+inline std::size_t mixed_patches(const RatePlan& plan) {
+    const PatchCells& cells = plan.cells;
     std::size_t mixed = 0;
     for (const PatchComplex::Patch& patch : cells.complex().patches) {
         bool differ = false;
@@ -111,14 +111,12 @@ inline Noisy displaced_by_noise(const BaseSurface& base, const Rates& rates, Sea
     const Relief height = relief(noise(64), 0.05 * diagonal(bounds(base.mesh())));
     DisplaceOptions options;
     options.rates = rates, options.seam = seam;
-    Noisy out{displace(base, height, options), {}};
-    if (rates.rule == Rates::Rule::uniform) {
-        out.plan = uniform_rates(rates.levels);
-    } else {
-        const SeamedRelief scene = seamed(base, height, seam); // the blend moves points, and so has a say in rates
-        out.plan = rates_by_size(scene.surface, scene.blend, rates);
-    }
-    return out;
+    const auto plan = [&] {
+        if (rates.rule == Rates::Rule::uniform) return uniform_rates(base, rates.levels);
+        const SeamedRelief scene = seamed(base, height, seam); // the blend moves points, which changes rates
+        return rates_by_size(scene.surface, scene.blend, rates);
+    };
+    return {displace(base, height, options), plan()};
 }
 
 inline Rates uniform(int levels) {

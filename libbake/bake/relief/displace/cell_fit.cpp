@@ -25,7 +25,7 @@ void CellFitter::sample(std::uint32_t cell, const Vec2d& density) {
     samples_.take(patch_, cells_, cell);
 }
 
-// Samples must be denser than faces to say anything. Whether they now will be.
+// Samples must be denser than faces. Returns whether `density` was raised.
 bool CellFitter::make_denser(Vec2d& density, const PatchRates& rates) const {
     const bool across = density.x < 64 && samples_.across < most_samples && rates.across * 2 > samples_.across;
     const bool up = density.y < 64 && samples_.up < most_samples && rates.up * 2 > samples_.up;
@@ -57,8 +57,8 @@ PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t m
     return rates;
 }
 
-// Compares how far the sample lies from the chords of its row and of its column over a face with these bounds, in
-// samples; both where neither is much the larger.
+// Compares the distance of a sample from the chord of its row and from that of its column, over a face with these bounds in
+// samples. Sets both directions if neither distance is much larger.
 void CellFitter::add_directions(Misfit& to, std::uint32_t i, std::uint32_t j, const Vec2d& low,
                                 const Vec2d& high) const {
     const auto bend = [&](bool up) {
@@ -89,7 +89,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     Misfit out;
     const double error2 = error * error;
     FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
-        if (out.inside) return; // it will be refined whatever the border says
+        if (out.inside) return; // the lattice will be refined whatever the faces along the border are
         bool inside = true;
         for (const std::uint32_t c : face) inside &= c >= first_inside;
         bool& fails = inside ? out.inside : out.border;
@@ -118,7 +118,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
                 }
         };
         if (face.size() == 3) return check(face[0], face[1], face[2]);
-        // Whoever splits the quad may take either diagonal.
+        // A reader of the mesh may split the quad along either diagonal.
         check(face[0], face[1], face[2]);
         if (!fails) check(face[0], face[2], face[3]);
         if (!fails) check(face[0], face[1], face[3]);
@@ -139,7 +139,7 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, dou
             if (make_denser(finer, rates)) break;
             const Misfit found = misfit(cell, fitted(rates), error);
             if (!found.any()) {
-                // Steps are large: half of the last one may do.
+                // Steps are large: half of the last step may be enough.
                 PatchRates less = rates;
                 less.across = (failed.across + rates.across) / 2, less.up = (failed.up + rates.up) / 2;
                 if (tried && (less.across < rates.across || less.up < rates.up) &&
@@ -149,11 +149,11 @@ CellFitter::Fit CellFitter::fit(std::uint32_t cell, const PatchRates& start, dou
             }
             failed = rates, tried = true;
             if (!found.inside && !inside) inside_fits = rates, inside = true;
-            // A lattice this much finer would have helped: then not the sides alone are coarse, but what they bound.
+            // If doubling the lattice did not help, the interior is too coarse as well as the sides.
             if (!found.inside && (rates.across >= 2 * inside_fits.across + 2 || rates.up >= 2 * inside_fits.up + 2))
                 inside_fits = rates;
             if (rates.across >= most && rates.up >= most) return {rates.across, rates.up, false, finer};
-            // Along the border a finer lattice helps a little; then coarser sides must follow.
+            // Faces along the border: a finer lattice helps a little, then the coarser sides must be refined.
             bool coarser_side = false;
             for (int i = 0; i < rates.sides; ++i)
                 coarser_side |= rates.side[i] < (i % 2 == 0 ? inside_fits.across : inside_fits.up);

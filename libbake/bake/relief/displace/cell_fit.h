@@ -1,4 +1,4 @@
-// The lattice with which one cell of a patch stays within an error of the displaced surface.
+// The coarsest lattice whose faces stay within an error of the displaced surface, for one cell of a patch.
 #pragma once
 #include "bake/relief/displace/error.h"
 
@@ -28,30 +28,30 @@ struct CellSamples {
     }
 };
 
-/// Which faces stay too far from the samples.
+/// Which faces are too far from the samples.
 struct Misfit {
     bool inside = false, border = false;
-    bool across = false, up = false; ///< along which the surface bends there: where a finer lattice helps
+    bool across = false, up = false; ///< the directions in which the surface bends there, and a finer lattice helps
     bool any() const noexcept { return inside || border; }
 };
 
-/// One thread's work on cells: the displaced surface of each is sampled about once per texel, more densely where
-/// faces get as small, and lattices are tried against the samples until the faces stay near enough.
+/// Fits cells one after the other; one object per thread. The displaced surface is sampled about once per texel, more
+/// densely where faces become that small, and lattices are compared with the samples until the faces are near enough.
 class CellFitter {
 public:
     CellFitter(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells)
         : patch_(surface, blend), cells_(cells) {}
 
-    /// The lattice with which the cell's faces are within `error`, given its sides; whether the sides are too coarse.
+    /// The lattice with which the faces of the cell are within `error`, for given sides, and whether the sides are too coarse.
     struct Fit {
         std::uint32_t across, up;
         bool sides_too_coarse = false;
-        Vec2d density{1}; ///< samples per texel that it took, across and up
+        Vec2d density{1}; ///< samples per texel that were needed, across and up
     };
-    /// Begins with `density` samples per texel and, where `again`, with the lattice that `rates` has.
+    /// Starts with `density` samples per texel and, if `again`, with the lattice of `rates`.
     Fit fit(std::uint32_t cell, const PatchRates& rates, double error, std::uint32_t most, const Vec2d& density,
             bool again);
-    /// The first uniform rate from `least` on that is within `error`.
+    /// The first uniform rate, from `least` on, that is within `error`.
     std::uint32_t uniform(std::uint32_t cell, std::uint32_t least, double error, std::uint32_t most);
     double error(std::uint32_t cell, const PatchRates& rates) {
         return cell_error(patch_, cells_, cell, rates, HUGE_VAL).max();

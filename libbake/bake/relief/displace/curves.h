@@ -1,4 +1,4 @@
-// Lines on a displaced surface: how finely chords must follow them.
+// Lines on a displaced surface, and how many chords approximate them.
 #pragma once
 #include "bake/relief/displace/error.h"
 
@@ -11,8 +11,8 @@ std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2
 /// Texels of the height that a line of a patch crosses.
 double texels_along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to);
 
-/// The fewest segments, at even parameters, whose chords stay within `error` of the samples: tried out while samples are
-/// denser than segments, then from their second differences.
+/// The fewest segments, even in the parameter, whose chords stay within `error` of the samples. Rates up to half the number
+/// of samples are tried out; higher ones are estimated from second differences.
 std::uint32_t rate_within(std::span<const Vec3d> curve, double error, std::uint32_t most) noexcept;
 
 } // namespace bake

@@ -37,7 +37,7 @@ double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, cons
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && d4 - d3 + d5 - d6 > 0)
         return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
-    const double all = va + vb + vc; // of the squared area; below this it is rounding, and says nothing
+    const double all = va + vb + vc; // of the squared area; below this it is rounding error
     if (!(all > 1e-14 * glm::dot(ab, ab) * glm::dot(ac, ac)))
         return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
     return glm::length(ap - vb / all * ab - vc / all * ac);
@@ -47,7 +47,7 @@ namespace {
 
 constexpr std::size_t batch = 4096;
 
-/// Compares faces as they come, many at a time.
+/// Compares faces with the surface, in batches.
 class Comparison {
 public:
     Comparison(DisplacedPatch& patch, std::uint32_t number, std::span<const Vec2d> places,

@@ -1,4 +1,4 @@
-// How finely each edge of a patch and each lattice inside is cut: uniformly, by size, or by error.
+// The segments of each edge and of each lattice inside a cell: uniform, by size, or by error.
 #pragma once
 #include "bake/relief/displace/error.h"
 #include "bake/relief/displace/types.h"
@@ -6,29 +6,28 @@
 namespace bake {
 
 struct RatePlan {
-    std::uint32_t split = 1; ///< cells along each side of a patch
+    PatchCells cells;
     CellRates rates;
 };
 
 /// 2^levels everywhere. Throws Error{Refusal::usage} beyond 0 to 14.
-RatePlan uniform_rates(int levels);
+RatePlan uniform_rates(const BaseSurface& base, int levels);
 
-/// Edges short enough under a measure; lattices by the edges and the lines across the middle of their cells.
+/// Segments no longer than rates.size. Quads measure the two lines through their middle, triangles take the finest side.
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates);
 
-/// Edges and lattices within an error of the displaced surface. Edges first, each from its own points, then lattices;
-/// edges along which that is not enough are refined and their cells done again.
+/// Edges and lattices within an error of the displaced surface. Edges come first, each from its own points, then lattices;
+/// edges that turn out to be too coarse for the cells beside them are refined, and those cells are fitted again.
 RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates);
 
 /// The measured error of a plan.
 CellError plan_error(const ReliefSurface& surface, const SeamBlend& blend, const RatePlan& plan);
 
-/// Triangles of the coarsest uniform rate whose measured error is not above `error`; 0 where `most` is not enough.
+/// Triangles of the coarsest uniform rate whose measured error is at most `error`; 0 if `most` segments are not enough.
 std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most);
 
-/// The fitted rates of one cell.
-PatchRates rates_of_cell(const PatchCells& cells, const CellRates& rates, std::uint32_t cell) noexcept;
-/// Sides without length are cut as the lattice beside them, so that the faces there are triangles with one tip.
+/// Gives sides without length the rate of the lattice beside them, so that the faces at a pole are triangles, each of one
+/// segment of the pole.
 void cut_poles_as_cells(const PatchComplex& complex, CellRates& rates);
 
 } // namespace bake

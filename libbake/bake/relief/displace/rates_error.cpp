@@ -1,5 +1,5 @@
-// Rates by error: each edge by its own points, each cell by its lattice (displace_cell_fit.h), cells of whatever size needs
-// the fewest triangles.
+// Rates by error: each edge by its own points, each cell by its lattice (cell_fit.h). The size of the cells is the one that
+// needs the fewest triangles.
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/relief/displace/cell_fit.h"
@@ -10,8 +10,8 @@
 namespace bake {
 namespace {
 
-/// Cells along a patch: about eight segments in the cell that needs most, so that rates follow the relief and cells
-/// that need nothing cost little.
+/// Cells along a patch: about eight segments in the cell that needs most, so that rates follow the relief and flat cells
+/// cost little.
 std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend, double error, std::uint32_t most) {
     const PatchComplex& complex = surface.base().complex();
     const auto patches = std::uint32_t(complex.patches.size());
@@ -44,19 +44,19 @@ std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend,
 
 constexpr std::int64_t cells_per_job = 8;
 
-/// Of a cell, by Euler's formula: quads as two.
+/// Triangles of a cell, by Euler's formula; a quad counts as two.
 std::uint64_t triangles_of(const PatchRates& r) noexcept {
     std::uint64_t border = 0;
     for (int i = 0; i < r.sides; ++i) border += r.side[i];
     return 2 * std::uint64_t(inner_points(r)) + border - 2;
 }
 
-/// Each from its own points alone; at seams from those of every side.
+/// The rate of each edge from its own points alone; at seams and creases from the points of every side.
 std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells,
                                       double error, std::uint32_t most) {
     const PatchComplex& complex = cells.complex();
     const std::vector<std::uint32_t> owner = edge_owners(complex);
-    const MeetingTable meetings = edge_meetings(complex);
+    const JunctionTable& junctions = cells.junctions().edges;
     std::vector<std::uint16_t> rates(complex.edges, 1);
     for_rows(complex.edges, 64, [&](std::int64_t begin, std::int64_t end) {
         DisplacedPatch patch(surface, blend);
@@ -69,59 +69,59 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
                 const std::uint32_t rate = rate_within(along(patch, number, a, b, std::uint32_t(samples)), error, most);
                 rates[e] = std::uint16_t(std::max<std::uint32_t>(rates[e], rate));
             };
-            if (const Meeting* m = meetings.find(e))
-                for (const MeetingSide* s = meetings.begin(*m); s != meetings.end(*m); ++s) consider(s->cell, s->place);
+            if (const Junction* j = junctions.find(e))
+                for (const JunctionSide& s : junctions.sides_of(*j)) consider(s.patch, s.corner_or_side);
             else if (owner[e] != no_index) consider(owner[e] / 4, int(owner[e] % 4));
         }
     });
     return rates;
 }
 
-/// Samples do not see all, least the middles of twisted faces: what is planned leaves room, more where it failed.
+/// Fitting aims at a part of the error, because samples miss some of it, mostly in the middles of twisted faces.
 constexpr float first_aim = 0.85f;
 
-/// A plan of so many cells along a patch, made in two steps: what samples show, and then what measuring adds.
+/// Plans rates for a given number of cells per patch, in two steps: fitted to samples, then corrected by measuring.
 class Planner {
 public:
     Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split)
-        : surface_(surface), blend_(blend), error_(rates.error), cells_(surface.base().complex(), split),
-          aim_(cells_.count(), first_aim), fitted_(cells_.count(), Vec2f(0)) {
+        : surface_(surface), blend_(blend), error_(rates.error), plan_{PatchCells(surface.base(), split), {}},
+          aim_(plan_.cells.count(), first_aim), fitted_(plan_.cells.count(), Vec2f(0)) {
         const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
         most_ = std::clamp(4 * limit / split, 1u, limit);
-        plan_.split = split;
-        plan_.rates.edge = edge_rates(surface, blend, cells_, first_aim * error_, most_);
-        plan_.rates.across.assign(cells_.count(), 1), plan_.rates.up.assign(cells_.count(), 1);
-        changed_ = fit(std::vector<bool>(cells_.count(), true), 1);
+        plan_.rates.edge = edge_rates(surface, blend, plan_.cells, first_aim * error_, most_);
+        plan_.rates.across.assign(plan_.cells.count(), 1), plan_.rates.up.assign(plan_.cells.count(), 1);
+        changed_ = fit(std::vector<bool>(plan_.cells.count(), true), 1);
     }
     std::uint64_t triangles() const {
         std::uint64_t sum = 0;
-        for (std::uint32_t c = 0; c < cells_.count(); ++c) sum += triangles_of(rates_of_cell(cells_, plan_.rates, c));
+        for (std::uint32_t c = 0; c < plan_.cells.count(); ++c)
+            sum += triangles_of(rates_of_cell(plan_.cells, plan_.rates, c));
         return sum;
     }
-    /// Whether no cell is as fine as it may be.
+    /// Whether every cell could be finer.
     bool within_limit() const {
         bool within = true;
-        for (std::uint32_t c = 0; c < cells_.count(); ++c) within &= has_room(c);
+        for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) within &= has_room(c);
         return within;
     }
-    /// What the samples did not show is measured, and fitted again among more of them.
+    /// Measures the error of all cells, and fits those above it again with more samples.
     RatePlan finish() {
         for (int round = 1;; ++round) {
-            cut_poles_as_cells(cells_.complex(), plan_.rates);
-            std::vector<char> failed(cells_.count(), 0);
-            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-                CellFitter fitter(surface_, blend_, cells_);
+            cut_poles_as_cells(plan_.cells.complex(), plan_.rates);
+            std::vector<char> failed(plan_.cells.count(), 0);
+            for_rows(plan_.cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, plan_.cells);
                 for (auto c = std::uint32_t(begin); c < end; ++c)
-                    if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(cells_, plan_.rates, c)) > error_;
+                    if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(plan_.cells, plan_.rates, c)) > error_;
             });
-            std::vector<bool> wanted(cells_.count());
-            for (std::uint32_t c = 0; c < cells_.count(); ++c) wanted[c] = failed[c] && has_room(c);
+            std::vector<bool> wanted(plan_.cells.count());
+            for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) wanted[c] = failed[c] && has_room(c);
             if (round == 12 || std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return std::move(plan_);
-            for (std::uint32_t c = 0; c < cells_.count(); ++c)
+            for (std::uint32_t c = 0; c < plan_.cells.count(); ++c)
                 if (wanted[c]) aim_[c] = std::max(0.8f * aim_[c], 0.5f);
             const CellRates before = plan_.rates;
             changed_ = fit(std::move(wanted), std::exp2(std::min(round, 3)));
-            // From here on rounds are alike: what has not helped will not.
+            // Later rounds repeat this one: without a change they cannot help.
             const CellRates& now = plan_.rates;
             if (round > 3 && now.across == before.across && now.up == before.up && now.edge == before.edge)
                 return std::move(plan_);
@@ -131,14 +131,14 @@ public:
 private:
     bool has_room(std::uint32_t c) const { return plan_.rates.across[c] < most_ || plan_.rates.up[c] < most_; }
 
-    /// Fits these cells, and those beside sides that change by it; which these were.
+    /// Fits these cells, and cells beside edges that change by it. Returns all cells that were fitted or changed.
     std::vector<bool> fit(std::vector<bool> now, double density) {
-        const PatchComplex& complex = cells_.complex();
+        const PatchComplex& complex = plan_.cells.complex();
         std::vector<bool> changed = now;
         for (;;) {
-            std::vector<char> too_coarse(cells_.count(), 0);
-            for_rows(cells_.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-                CellFitter fitter(surface_, blend_, cells_);
+            std::vector<char> too_coarse(plan_.cells.count(), 0);
+            for_rows(plan_.cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, plan_.cells);
                 for (auto c = std::uint32_t(begin); c < end; ++c) {
                     if (!now[c]) continue;
                     PatchRates start{
@@ -153,7 +153,7 @@ private:
                 }
             });
             std::vector<std::uint16_t> finer(plan_.rates.edge);
-            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
+            for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) {
                 if (!too_coarse[c]) continue;
                 for (int i = 0; i < complex.patches[c].sides(); ++i) {
                     std::uint16_t& rate = finer[complex.patches[c].edge[i]];
@@ -161,7 +161,7 @@ private:
                 }
             }
             bool any = false;
-            for (std::uint32_t c = 0; c < cells_.count(); ++c) {
+            for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) {
                 now[c] = false;
                 for (int i = 0; i < complex.patches[c].sides(); ++i) {
                     const std::uint32_t e = complex.patches[c].edge[i];
@@ -176,9 +176,8 @@ private:
     const ReliefSurface& surface_;
     const SeamBlend& blend_;
     double error_;
-    PatchCells cells_;
-    std::uint32_t most_; ///< segments of a cell
     RatePlan plan_;
+    std::uint32_t most_;        ///< segments of a cell
     std::vector<float> aim_;    ///< part of the error that a cell is fitted to
     std::vector<Vec2f> fitted_; ///< samples per texel that a cell took, 0: not fitted yet
     std::vector<bool> changed_;
@@ -187,8 +186,8 @@ private:
 } // namespace
 
 RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
-    if (!(rates.error > 0)) throw Error(Refusal::usage, "--max-error: must be above 0; take a length in object units");
-    // Smaller cells follow the relief, and cost at least a face each: as long as that pays.
+    if (!(rates.error > 0)) throw Error(Refusal::usage, "error: must be above 0; take a length in object units");
+    // Smaller cells follow the relief better, but each costs at least one face: halve them while the total falls.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
     std::uint32_t split =
         choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
@@ -204,10 +203,10 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
 }
 
 std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most) {
-    // A patch of uniform rate is cells of a part of it, of about 32 segments each. None is coarser than their edges need.
+    // A patch of uniform rate is treated as cells of about 32 segments each. The edges give a lower bound of the rate.
     const PatchComplex& complex = surface.base().complex();
     const std::uint32_t split = std::max(1u, choose_split(surface, blend, error, std::uint32_t(most)) / 4);
-    const PatchCells cells(complex, split);
+    const PatchCells cells(surface.base(), split);
     const auto limit = std::max(1u, std::uint32_t(most) / split);
     const std::vector<std::uint16_t> edges = edge_rates(surface, blend, cells, error, limit);
     const std::uint32_t least = edges.empty() ? 1 : *std::max_element(edges.begin(), edges.end());

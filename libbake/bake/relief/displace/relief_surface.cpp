@@ -10,7 +10,7 @@ Image<float> channel(const Image<float>& values, int c) {
     return out;
 }
 
-/// Parameters two steps to one side or one to either, inside the patch, and the weights of their differences.
+/// A derivative along one parameter as a difference: two parameters inside the patch, and the weights of the values there.
 struct Stencil {
     double at[2], weight[3]; ///< weight[2] is the point's own
 };
@@ -69,8 +69,8 @@ void ReliefSurface::values(std::uint32_t patch, std::span<const Vec2d> st, std::
         }
         return;
     }
-    // The frame's derivatives would need second derivatives of the surface: differences of the displacement instead,
-    // in double over a step of 1e-5 of the patch, about 1e-9 off.
+    // The derivatives of the frame would need second derivatives of the surface. Differences of the displacement over 1e-5
+    // of the patch are used instead; their error is about 1e-9.
     constexpr double step = 1e-5;
     const bool triangle = base_->complex().patches[patch].sides() == 3;
     std::vector<Vec2d> around(4 * points.size());

@@ -1,8 +1,8 @@
-// A base surface under a relief, point by point: value of the relief, displaced point, exact normal.
+// A base surface with a relief: at a point, the value of the relief, the displaced point and its exact normal.
 //
 //   p' = p + d      N' = (p_s + d_s) x (p_t + d_t)      d = b n along the normal
 //
-// s and t are the parameters of the jet; N' is turned by sigma so that it is outward.
+// s and t are the parameters of the jet. N' is multiplied by sigma, so that it points outward.
 #pragma once
 #include "bake/relief/displace/types.h"
 #include "bake/relief/map/displaced_normal.h"
@@ -11,8 +11,8 @@
 
 namespace bake {
 
-/// What the relief adds at a point, and its derivatives along the jet's parameters: (b, 0, 0), b along the normal, or the
-/// displacement itself in object space.
+/// The value of the relief at a point, and its derivatives along the parameters of the jet: (b, 0, 0) for a height b along
+/// the normal, else the displacement in object space.
 struct ReliefValue {
     Vec3d at{0}, s{0}, t{0};
 };
@@ -24,28 +24,31 @@ struct DisplacedPoint {
 
 class ReliefSurface {
 public:
-    /// Both must outlive it. With `as_vectors` heights are given as displacements too, b n, which may then be turned.
+    /// Both must outlive it. With `as_vectors` the values of heights are displacements b n, whose direction a blend may change.
     ReliefSurface(const BaseSurface& base, const Relief& relief, bool as_vectors = false);
 
     const BaseSurface& base() const noexcept { return *base_; }
-    /// Whether the relief is a height along the normal, whether it needs one at all, and whether values are (b, 0, 0).
+    /// The relief is a height along the normal.
     bool along_normal() const noexcept { return !space_; }
+    /// The relief depends on the normal of the base.
     bool uses_normal() const noexcept { return space_ != VectorSpace::object; }
+    /// ReliefValue::at is (b, 0, 0), not a displacement.
     bool values_are_heights() const noexcept { return !space_ && !as_vectors_; }
     /// Texels along u and v.
     Vec2d texels() const noexcept { return texels_; }
 
-    /// Values at points of one patch that base().evaluate gave for `st`.
+    /// Values at points of one patch, which are base().evaluate() at `st`.
     void values(std::uint32_t patch, std::span<const Vec2d> st, std::span<const SurfacePoint> points,
                 std::span<ReliefValue> out) const;
 
-    /// Along the normal: of one uv, with derivatives along the uv's own.
+    /// The height at a uv, with derivatives along u and v; only with along_normal().
     Height<double> height(const Vec2d& uv) const noexcept { return channels_[0].sample(uv.x, uv.y); }
 
-    /// Of a value: how far along the normal it moves the point, and the whole move.
+    /// How far along the normal a value moves the point.
     double height_of(const SurfacePoint& point, const ReliefValue& value) const noexcept {
         return values_are_heights() ? value.at.x : glm::dot(value.at, point.jet.n);
     }
+    /// By which vector a value moves the point.
     Vec3d displacement(const SurfacePoint& point, const ReliefValue& value) const noexcept {
         return values_are_heights() ? value.at.x * point.jet.n : value.at;
     }
@@ -61,7 +64,7 @@ private:
     std::vector<HeightSampler<float>> channels_; ///< one, or three
 };
 
-/// The value along the normal: b and its slopes along the jet's parameters.
+/// The value of a height: b and its slopes along the parameters of the jet.
 inline ReliefValue along_normal(const SurfacePoint& point, const Height<double>& h) noexcept {
     return {{h.b, 0, 0},
             {h.b_u * point.uv_s.x + h.b_v * point.uv_s.y, 0, 0},
@@ -74,7 +77,7 @@ inline DisplacedPoint displaced_along_normal(const Jet<double>& jet, const Relie
     return {jet.p + b * jet.n, detail::cell_normal(jet, {b, value.s.x, value.t.x}, b)};
 }
 
-/// min(1 + b a_i), a_i the principal curvatures: 0 and less where the surface displaced by b turns inside out. 1 where
+/// min(1 + b a_i) over the principal curvatures a_i: 0 or less where the surface displaced by b turns inside out. 1 where
 /// there are no tangents.
 inline double fold_margin(const Jet<double>& s, double b) noexcept {
     // n_u = A p_u, n_v = A p_v on the tangent plane: trace and determinant of A come from cross products.
@@ -87,7 +90,7 @@ inline double fold_margin(const Jet<double>& s, double b) noexcept {
     return 1 + b * mean - std::abs(b) * half;
 }
 
-/// Whether the jet runs along the uv chart, else along the patch's own parameters.
+/// Whether the parameters of the jet are u and v; otherwise they are those of the patch.
 inline bool along_chart(const SurfacePoint& point) noexcept {
     return point.uv_s == Vec2d(1, 0) && point.uv_t == Vec2d(0, 1);
 }

@@ -1,15 +1,11 @@
 #include "bake/relief/displace/seam_blend.h"
 #include "bake/relief/displace/shared_value.h"
+#include "bake/surface/patch/patch_domain.h"
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 namespace bake {
 namespace {
-
-Vec2d on_side(int sides, int side, double x) noexcept {
-    if (sides == 3) return side == 0 ? Vec2d(x, 0) : side == 1 ? Vec2d(1 - x, x) : Vec2d(0, 1 - x);
-    return side == 0 ? Vec2d(x, 0) : side == 1 ? Vec2d(1, x) : side == 2 ? Vec2d(1 - x, 1) : Vec2d(0, 1 - x);
-}
 
 double step(double x) noexcept { return x * x * (3 - 2 * x); }
 double step_slope(double x) noexcept { return 6 * x * (1 - x); }
@@ -26,7 +22,7 @@ Graded stepped(const Graded& x) noexcept {
     return {step(x.at), slope * x.s, slope * x.t};
 }
 
-/// One side's views at x = k / count, k = 0..count.
+/// The views of one side at x = k / count, k = 0..count.
 std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards,
                                   std::uint32_t count) {
     const int sides = surface.base().complex().patches[patch].sides();
@@ -41,9 +37,9 @@ std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t pa
     return views;
 }
 
-/// How far an edge or a corner of flat faces moves when each of them moves by one along its normal: m with n_i . m = 1, of
-/// all such the shortest. Up to 2 long, as mitres are cut off: of normals 120 degrees apart.
-Vec3d mitre(const MeetingSide* sides, std::span<const SideView> views) {
+/// How far an edge or a corner of flat faces moves when each face moves by one along its normal: the shortest m with
+/// n_i . m = 1 for all faces. Its length is limited to 2, that of normals 120 degrees apart, as mitres are cut off.
+Vec3d mitre(std::span<const JunctionSide> sides, std::span<const SideView> views) {
     Vec3d sum(0);
     glm::dmat3 products(0);
     std::uint32_t groups = 0;
@@ -58,19 +54,19 @@ Vec3d mitre(const MeetingSide* sides, std::span<const SideView> views) {
     return length > 2 ? 2 / length * m : m;
 }
 
-/// What all sides are led to. Heights of sides that look different ways: the mean height along their mitre.
-Vec3d goal(const ReliefSurface& surface, const MeetingSide* sides, std::span<const SideView> views) {
+/// The value that all sides approach. For heights of sides whose normals differ: the mean height along their mitre.
+Vec3d goal(const ReliefSurface& surface, std::span<const JunctionSide> sides, std::span<const SideView> views) {
     const SharedValue shared = shared_value(surface, sides, views);
     if (surface.along_normal() && !surface.values_are_heights()) return shared.height * mitre(sides, views);
     return shared.value;
 }
 
-/// Whether the sides of a meeting differ in their own values.
-bool differ(const ReliefSurface& surface, const Meeting& m) noexcept {
-    return m.uv_groups > 1 || (m.normal_groups > 1 && !surface.values_are_heights());
+/// Whether the sides of a junction differ in their own values.
+bool differ(const ReliefSurface& surface, const Junction& j) noexcept {
+    return j.uv_groups > 1 || (j.normal_groups > 1 && !surface.values_are_heights());
 }
 
-/// Two per texel along a side: what a cubic between them follows.
+/// Two samples per texel along a side, dense enough for the cubic between them.
 std::uint32_t samples_along(const ReliefSurface& surface, std::uint32_t patch, int side) {
     const int sides = surface.base().complex().patches[patch].sides();
     const Vec2d st[3] = {on_side(sides, side, 0), on_side(sides, side, 0.5), on_side(sides, side, 1)};
@@ -97,48 +93,53 @@ SeamBlend::Patch& SeamBlend::patch_at_seam(const ReliefSurface& surface, std::ui
     return patches_[of_[patch]];
 }
 
-SeamBlend::SeamBlend(const ReliefSurface& surface, const MeetingTable& edges, const MeetingTable& vertices) {
+void SeamBlend::correct_corners(const ReliefSurface& surface, const JunctionTable& vertices) {
     const PatchComplex& complex = surface.base().complex();
-    of_.assign(complex.patches.size(), no_index);
     std::vector<SideView> views;
-    for (const Meeting& m : vertices.meetings) {
-        if (!differ(surface, m)) continue;
-        views.resize(m.last - m.first);
-        const MeetingSide* sides = vertices.begin(m);
+    for (const Junction& j : vertices.junctions) {
+        if (!differ(surface, j)) continue;
+        const std::span<const JunctionSide> sides = vertices.sides_of(j);
+        views.resize(sides.size());
         for (std::size_t k = 0; k < views.size(); ++k) {
-            const Vec2d st = on_side(complex.patches[sides[k].cell].sides(), sides[k].place, 0);
-            surface.base().evaluate(sides[k].cell, {&st, 1}, {&views[k].point, 1});
-            surface.values(sides[k].cell, {&st, 1}, {&views[k].point, 1}, {&views[k].value, 1});
+            const std::uint32_t patch = sides[k].patch;
+            const Vec2d st = on_side(complex.patches[patch].sides(), sides[k].corner_or_side, 0);
+            surface.base().evaluate(patch, {&st, 1}, {&views[k].point, 1});
+            surface.values(patch, {&st, 1}, {&views[k].point, 1}, {&views[k].value, 1});
         }
         const Vec3d shared = goal(surface, sides, views);
         for (std::size_t k = 0; k < views.size(); ++k)
-            patch_at_seam(surface, sides[k].cell).corner[sides[k].place] = shared - views[k].value.at;
+            patch_at_seam(surface, sides[k].patch).corner[sides[k].corner_or_side] = shared - views[k].value.at;
     }
-    for (const Meeting& m : edges.meetings) {
-        if (!differ(surface, m)) continue;
-        const MeetingSide* sides = edges.begin(m);
-        const std::size_t side_count = m.last - m.first;
+}
+
+void SeamBlend::correct_sides(const ReliefSurface& surface, const JunctionTable& edges) {
+    std::vector<SideView> views;
+    for (const Junction& j : edges.junctions) {
+        if (!differ(surface, j)) continue;
+        const std::span<const JunctionSide> sides = edges.sides_of(j);
         std::uint32_t count = 2;
-        for (std::size_t s = 0; s < side_count; ++s)
-            count = std::max(count, samples_along(surface, sides[s].cell, sides[s].place));
+        for (const JunctionSide& s : sides) count = std::max(count, samples_along(surface, s.patch, s.corner_or_side));
         std::vector<std::vector<SideView>> along;
-        for (std::size_t s = 0; s < side_count; ++s)
-            along.push_back(views_along(surface, sides[s].cell, sides[s].place, sides[s].reversed, count));
-        std::vector<std::vector<Vec3d>> corrections(side_count, std::vector<Vec3d>(count + 1));
-        views.resize(side_count);
+        for (const JunctionSide& s : sides)
+            along.push_back(views_along(surface, s.patch, s.corner_or_side, s.reversed, count));
+        std::vector<std::vector<Vec3d>> corrections(sides.size(), std::vector<Vec3d>(count + 1));
+        views.resize(sides.size());
         for (std::uint32_t k = 0; k <= count; ++k) {
-            for (std::size_t s = 0; s < side_count; ++s) views[s] = along[s][k];
+            for (std::size_t s = 0; s < sides.size(); ++s) views[s] = along[s][k];
             const Vec3d shared = goal(surface, sides, views);
-            for (std::size_t s = 0; s < side_count; ++s) corrections[s][k] = shared - views[s].value.at;
+            for (std::size_t s = 0; s < sides.size(); ++s) corrections[s][k] = shared - views[s].value.at;
         }
-        for (std::size_t s = 0; s < side_count; ++s) {
+        for (std::size_t s = 0; s < sides.size(); ++s) {
             std::vector<Vec3d>& own = corrections[s];
             if (sides[s].reversed) std::reverse(own.begin(), own.end());
             const Curve c = curve(own, own.front(), own.back());
-            patch_at_seam(surface, sides[s].cell).side[sides[s].place] = c;
+            patch_at_seam(surface, sides[s].patch).side[sides[s].corner_or_side] = c;
         }
     }
-    // At a pole all of the side is led to the one value of its vertex.
+}
+
+void SeamBlend::correct_poles(const ReliefSurface& surface) {
+    const PatchComplex& complex = surface.base().complex();
     for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
         for (int i = 0; i < complex.patches[p].sides(); ++i) {
             if (!is_point(complex.patches[p], i)) continue;
@@ -147,9 +148,16 @@ SeamBlend::SeamBlend(const ReliefSurface& surface, const MeetingTable& edges, co
             const Vec3d shared = along.front().value.at + patch.corner[i];
             std::vector<Vec3d> own(along.size());
             for (std::size_t k = 0; k < own.size(); ++k) own[k] = shared - along[k].value.at;
-            const Curve c = curve(own, patch.corner[i], patch.corner[(i + 1) % patch.sides]);
-            patch_at_seam(surface, p).side[i] = c;
+            patch.side[i] = curve(own, patch.corner[i], patch.corner[(i + 1) % patch.sides]);
         }
+}
+
+SeamBlend::SeamBlend(const ReliefSurface& surface) {
+    of_.assign(surface.base().complex().patches.size(), no_index);
+    const auto& [edges, vertices] = surface.base().junctions();
+    correct_corners(surface, vertices);
+    correct_sides(surface, edges);
+    correct_poles(surface);
 }
 
 SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end) {
@@ -181,42 +189,47 @@ SeamBlend::Node SeamBlend::along(const Curve& curve, double x) const noexcept {
             double(curve.count) * (6 * u * w * step_ab + w * (1 - 3 * u) * a.slope + u * (3 * u - 2) * b.slope)};
 }
 
-void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point,
-                    ReliefValue& value) const noexcept {
-    const Patch& p = patches_[of_[patch]];
-    Vec3d at(0), along_s(0), along_t(0);
-    const auto give = [&](const Graded& weight, const Vec3d& v, const Vec3d& v_s, const Vec3d& v_t) {
-        at += weight.at * v;
-        along_s += weight.s * v + weight.at * v_s;
-        along_t += weight.t * v + weight.at * v_t;
+SeamBlend::Correction SeamBlend::correction(const Patch& p, const Vec2d& st) const noexcept {
+    Correction sum;
+    const auto add_term = [&](const Graded& weight, const Vec3d& v, const Vec3d& v_s, const Vec3d& v_t) {
+        sum.at += weight.at * v;
+        sum.s += weight.s * v + weight.at * v_s;
+        sum.t += weight.t * v + weight.at * v_t;
     };
     if (p.sides == 4) {
-        // Distance from the side's begin, and from the side.
+        // Distance from the begin of the side, and from the opposite side.
         const Graded s{st.x, 1, 0}, t{st.y, 0, 1}, s_back{1 - st.x, -1, 0}, t_back{1 - st.y, 0, -1};
         const Graded along_side[4] = {s, t, s_back, t_back}, near_side[4] = {t_back, s, t, s_back};
         for (int i = 0; i < 4; ++i) {
-            give(stepped(near_side[i]) * stepped(near_side[(i + 3) % 4]), p.corner[i], Vec3d(0), Vec3d(0));
+            add_term(stepped(near_side[i]) * stepped(near_side[(i + 3) % 4]), p.corner[i], Vec3d(0), Vec3d(0));
             if (p.side[i].first == no_index) continue;
             const Node node = along(p.side[i], along_side[i].at);
-            give(stepped(near_side[i]), node.value, along_side[i].s * node.slope, along_side[i].t * node.slope);
+            add_term(stepped(near_side[i]), node.value, along_side[i].s * node.slope, along_side[i].t * node.slope);
         }
-    } else {
-        const Graded near_corner[3] = {{1 - st.x - st.y, -1, -1}, {st.x, 1, 0}, {st.y, 0, 1}};
-        for (int i = 0; i < 3; ++i) {
-            give(stepped(near_corner[i]), p.corner[i], Vec3d(0), Vec3d(0));
-            if (p.side[i].first == no_index) continue;
-            const Graded &a = near_corner[i], &b = near_corner[(i + 1) % 3];
-            const Graded sum{a.at + b.at, a.s + b.s, a.t + b.t};
-            if (!(sum.at > 0)) continue; // at the corner across, where the weight vanishes
-            const double x = b.at / sum.at;
-            const Node node = along(p.side[i], x);
-            give(stepped(sum), node.value, (b.s - x * sum.s) / sum.at * node.slope,
-                 (b.t - x * sum.t) / sum.at * node.slope);
-        }
+        return sum;
     }
-    value.at += at;
+    const Graded near_corner[3] = {{1 - st.x - st.y, -1, -1}, {st.x, 1, 0}, {st.y, 0, 1}};
+    for (int i = 0; i < 3; ++i) {
+        add_term(stepped(near_corner[i]), p.corner[i], Vec3d(0), Vec3d(0));
+        if (p.side[i].first == no_index) continue;
+        const Graded &a = near_corner[i], &b = near_corner[(i + 1) % 3];
+        const Graded both{a.at + b.at, a.s + b.s, a.t + b.t};
+        if (!(both.at > 0)) continue; // at the opposite corner, where the weight vanishes
+        const double x = b.at / both.at;
+        const Node node = along(p.side[i], x);
+        add_term(stepped(both), node.value, (b.s - x * both.s) / both.at * node.slope,
+                 (b.t - x * both.t) / both.at * node.slope);
+    }
+    return sum;
+}
+
+void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point,
+                    ReliefValue& value) const noexcept {
+    const Patch& p = patches_[of_[patch]];
+    const Correction c = correction(p, st);
+    value.at += c.at;
     if (!along_chart(point)) {
-        value.s += along_s, value.t += along_t;
+        value.s += c.s, value.t += c.t;
         return;
     }
     // The jet runs along a chart that is bilinear in the patch.
@@ -228,18 +241,18 @@ void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& po
     }
     const double area = uv_s.x * uv_t.y - uv_s.y * uv_t.x;
     if (area == 0) return;
-    value.s += (uv_t.y * along_s - uv_s.y * along_t) / area;
-    value.t += (uv_s.x * along_t - uv_t.x * along_s) / area;
+    value.s += (uv_t.y * c.s - uv_s.y * c.t) / area;
+    value.t += (uv_s.x * c.t - uv_t.x * c.s) / area;
 }
 
 SeamedRelief seamed(const BaseSurface& base, const Relief& relief, Seam seam) {
     if (seam != Seam::blend) return {ReliefSurface(base, relief), {}};
-    const MeetingTable edges = edge_meetings(base.complex()), vertices = vertex_meetings(base.complex());
-    const auto creased = [](const Meeting& m) { return m.normal_groups > 1; };
-    const bool creases = std::any_of(edges.meetings.begin(), edges.meetings.end(), creased) ||
-                         std::any_of(vertices.meetings.begin(), vertices.meetings.end(), creased);
-    ReliefSurface surface(base, relief, creases);
-    SeamBlend blend(surface, edges, vertices);
+    const auto creased = [](const JunctionTable& table) {
+        return std::any_of(table.junctions.begin(), table.junctions.end(),
+                           [](const Junction& j) { return j.normal_groups > 1; });
+    };
+    ReliefSurface surface(base, relief, creased(base.junctions().edges) || creased(base.junctions().vertices));
+    SeamBlend blend(surface);
     return {std::move(surface), std::move(blend)};
 }
 

@@ -1,12 +1,12 @@
-// Seam::blend: a correction on every patch at a seam that leads its height smoothly to the value both sides share. Where
-// the surface's values are displacements rather than heights, creases are led together too: the edge moves as that of
-// two planes would, so that flat faces stay flat.
+// Seam::blend: a correction on every patch at a seam, by which its height approaches the shared value of both sides
+// smoothly. Where the values of the surface are displacements rather than heights, creases are corrected too: the edge
+// moves as that of two planes would, so that flat faces stay flat.
 //
-// On a seam the shared value is the mean of the sides, at its ends that of the vertex. The correction of a side there is
-// shared value less own value; it is carried into the patch as Coons does (Surfaces for computer-aided design of space
-// forms, 1967), with a smooth step for the fall-off, and is 0 with slope 0 at the patch's far sides.
+// On a seam the shared value is the mean of the sides; at the ends of the seam it is that of the vertex. The correction of
+// a side is the shared value minus its own value. Inside the patch the correction is a Coons patch (Surfaces for
+// computer-aided design of space forms, 1967) that falls off with a smooth step and has value and slope 0 at the sides
+// that are not on a seam.
 #pragma once
-#include "bake/relief/displace/meetings.h"
 #include "bake/relief/displace/relief_surface.h"
 
 namespace bake {
@@ -14,11 +14,12 @@ namespace bake {
 class SeamBlend {
 public:
     SeamBlend() = default;
-    SeamBlend(const ReliefSurface& surface, const MeetingTable& edges, const MeetingTable& vertices);
+    /// Of the junctions of the surface's base.
+    explicit SeamBlend(const ReliefSurface& surface);
 
     /// Whether a patch has a correction.
     bool touches(std::uint32_t patch) const noexcept { return !of_.empty() && of_[patch] != no_index; }
-    /// Adds it to the value at a point.
+    /// Adds the correction to the value at a point; only for patches that have one.
     void add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point, ReliefValue& value) const noexcept;
 
 private:
@@ -35,6 +36,15 @@ private:
     struct Node {
         Vec3d value, slope;
     };
+    /// A correction and its derivatives along the parameters of the patch.
+    struct Correction {
+        Vec3d at{0}, s{0}, t{0};
+    };
+    void correct_corners(const ReliefSurface& surface, const JunctionTable& vertices);
+    void correct_sides(const ReliefSurface& surface, const JunctionTable& edges);
+    /// All of a side without length gets the one value of its vertex.
+    void correct_poles(const ReliefSurface& surface);
+    Correction correction(const Patch& patch, const Vec2d& st) const noexcept;
     Patch& patch_at_seam(const ReliefSurface& surface, std::uint32_t patch);
     Curve curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end);
     Node along(const Curve& curve, double x) const noexcept;
@@ -44,12 +54,12 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// A surface under its relief, and the correction at its seams: none but with Seam::blend.
+/// A surface with its relief, and the correction at its seams, which is empty except with Seam::blend.
 struct SeamedRelief {
     ReliefSurface surface;
     SeamBlend blend;
 };
-/// With creases to blend the surface's values are displacements. Base and relief must outlive it.
+/// With creases to blend, the values of the surface are displacements. Base and relief must outlive the result.
 SeamedRelief seamed(const BaseSurface& base, const Relief& relief, Seam seam);
 
 } // namespace bake

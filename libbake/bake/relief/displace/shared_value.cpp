@@ -1,17 +1,11 @@
 #include "bake/relief/displace/shared_value.h"
-#include <algorithm>
 
 namespace bake {
 
-bool first_of_groups(const MeetingSide* sides, std::size_t k) noexcept {
-    return std::none_of(sides, sides + k, [&](const MeetingSide& s) {
-        return s.uv_group == sides[k].uv_group && s.normal_group == sides[k].normal_group;
-    });
-}
-
-SharedValue shared_value(const ReliefSurface& surface, const MeetingSide* sides, std::span<const SideView> views) {
+SharedValue shared_value(const ReliefSurface& surface, std::span<const JunctionSide> sides,
+                         std::span<const SideView> views) {
     SharedValue shared;
-    std::uint32_t pairs = 0, uv_groups = 0, normal_groups = 0; // groups are numbered in the order they come
+    std::uint32_t pairs = 0, uv_groups = 0, normal_groups = 0; // groups are numbered in the order of their first side
     for (std::size_t k = 0; k < views.size(); ++k) {
         const auto& [point, value] = views[k];
         if (first_of_groups(sides, k)) shared.value += value.at, ++pairs;

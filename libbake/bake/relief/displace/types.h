@@ -1,4 +1,4 @@
-// What displacement takes and gives.
+// Inputs and results of displacement.
 #pragma once
 #include "bake/mesh/mesh.h"
 #include "bake/relief/height/height.h"
@@ -7,11 +7,11 @@
 
 namespace bake {
 
-/// What becomes of a vertex on a UV seam, where the height has a value on each side.
+/// The height of a vertex on a UV seam, where each side has a value of its own.
 enum class Seam {
     average, ///< their mean
     owner,   ///< that of the patch with the lowest number
-    blend,   ///< their mean, and both sides are led to it smoothly over one patch
+    blend,   ///< their mean, which both sides approach smoothly over one patch
 };
 
 /// Displacement by a vector instead of a height: three channels x, y, z, each amplitude (value - midlevel).
@@ -20,7 +20,7 @@ enum class VectorSpace {
     object,
 };
 
-/// What is laid over the surface: one channel (along n), or three with a vector space.
+/// One channel (a height along n), or three channels with a vector space.
 struct Relief {
     Image<float> values;
     HeightOptions height;
@@ -43,7 +43,7 @@ struct Rates {
     std::function<double(const Vec3d&, const Vec3d&)> measure;
     double error = 0;
     int most =
-        1024; ///< segments an edge is never cut into more than; by error four times as many where only a part needs them
+        1024; ///< largest number of segments of an edge; by error up to four times as many where only a part needs it
 };
 
 struct DisplaceOptions {
@@ -54,7 +54,7 @@ struct DisplaceOptions {
     bool margin = false;         ///< fill Displaced::margin
 };
 
-/// What it needs, known before the work: exact for points and faces, close from above for bytes.
+/// The size of the result, known before the work: exact for points and faces, a close upper bound for bytes.
 struct DisplaceCount {
     std::uint64_t points = 0, faces = 0, corners = 0, bytes = 0;
 };
@@ -62,7 +62,7 @@ struct DisplaceCount {
 struct DisplaceReport {
     DisplaceCount count;
     std::uint64_t triangles = 0;
-    double height_min = 0, height_max = 0; ///< of b, met on the surface
+    double height_min = 0, height_max = 0; ///< range of b over the points
 
     std::uint64_t seam_points = 0;
     double seam_mismatch = 0; ///< largest difference of b across a seam, object units
@@ -74,16 +74,15 @@ struct DisplaceReport {
     Vec3d fold_worst{0};
     Vec2d fold_worst_uv{0};
 
-    std::uint64_t no_tangents =
-        0; ///< points without tangent plane (poles): displaced, with a normal from the faces there
-    std::uint64_t no_normal = 0; ///< points without base normal: left where they are
+    std::uint64_t no_tangents = 0; ///< points without tangent plane (poles): displaced, their normals from the faces
+    std::uint64_t no_normal = 0;   ///< points without base normal: left where they are
 
     double error_max = 0, error_rms = 0; ///< with measure_error, at the faces' own parameters
     std::uint64_t uniform_triangles = 0; ///< rates by error: what a uniform rate of the same measured error needs
 };
 
 struct Displaced {
-    Mesh mesh; ///< quads where the rates let them, triangles elsewhere; uvs, groups and materials of the base
+    Mesh mesh; ///< quads where the rates allow, triangles elsewhere; uvs, groups and materials of the base
     DisplaceReport report;
     std::vector<float> margin; ///< positions, or none: smallest 1 + b a_i there
 };

@@ -3,6 +3,7 @@
 #include "bake/mesh/topology.h"
 #include "bake/mesh/weld.h"
 #include "bake/surface/patch/mesh_patch.h"
+#include "bake/surface/patch/patch_domain.h"
 #include "bake/surface/point/curvature.h"
 #include <algorithm>
 #include <limits>
@@ -62,7 +63,7 @@ struct LimitBase {
     std::vector<std::uint8_t> extraordinary = {}; ///< patches: bit k for corner k
 };
 
-/// Which corners of the patches are inner vertices of another number of patches than a regular lattice has.
+/// Which corners of the patches are extraordinary: inner vertices whose valence is not that of a regular lattice.
 std::vector<std::uint8_t> extraordinary_corners(const PatchComplex& complex) {
     std::vector<std::uint8_t> edge_patches(complex.edges, 0);
     for (const PatchComplex::Patch& patch : complex.patches)
@@ -86,16 +87,14 @@ std::vector<std::uint8_t> extraordinary_corners(const PatchComplex& complex) {
     return corners;
 }
 
-constexpr Vec2d quad_corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle_corners[] = {{0, 0}, {1, 0}, {0, 1}};
-
-/// The corners among these places that are extraordinary vertices say so.
+/// Clears `curved` at a corner that is an extraordinary vertex.
 void mark_extraordinary(std::uint8_t corners, bool quad, const Vec2d& st, SurfacePoint& point) noexcept {
     if (corners == 0) return;
     for (int k = 0; k < (quad ? 4 : 3); ++k)
-        if (corners >> k & 1 && st == (quad ? quad_corners[k] : triangle_corners[k])) point.curved = false;
+        if (corners >> k & 1 && st == patch_corners(quad ? 4 : 3)[k]) point.curved = false;
 }
 
-/// The quarter at corner k of a quad: st = origin + s along_s + t along_t.
+/// The quarter at corner k of a quad: (s, t) of the quarter is origin + s along_s + t along_t in the quad.
 struct Quarter {
     Vec2d origin, along_s, along_t;
 };
@@ -125,7 +124,7 @@ LimitBase whole_patches(const Mesh& cage, SubdivisionSurface surface, Patches& p
     return base;
 }
 
-/// One patch per corner of the cage: from that corner to the middles of its two sides and of the face.
+/// One patch per corner of the cage, between that corner, the middles of its two sides and the middle of the face.
 LimitBase corner_patches(const Mesh& cage, SubdivisionSurface surface, Patches& patches) {
     std::vector<std::uint32_t> next(cage.corners()), before(cage.corners());
     for (std::uint32_t f = 0; f < cage.faces(); ++f)
@@ -159,14 +158,14 @@ LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, P
                                                                  : whole_patches(cage, std::move(surface), patches);
 }
 
-/// Where p_s and p_t run along one line, as at a corner whose two sides are one smooth crease, their cross product is
-/// rounding; the normal there is what it tends to from the inside of the patch. At the tip of a spike (a sharp vertex
-/// without creases) everything runs along one line, and there is none.
+/// Where p_s and p_t are parallel, as at a corner whose two sides are one smooth crease, their cross product is rounding
+/// error, and the normal is its limit from the inside of the patch. At the tip of a spike (a sharp vertex without creases)
+/// the second derivatives are parallel too, and there is no normal.
 SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     const Jet2<double> s{limit.p, limit.p_s, limit.p_t, limit.p_ss, limit.p_st, limit.p_tt};
     SurfacePoint point{.jet = jet_of(s), .uv = limit.uv, .uv_s = limit.uv_s, .uv_t = limit.uv_t};
     const Vec3d N = glm::cross(s.p_u, s.p_v);
-    // sin^2 of their angle above (1e-5)^2: the limit is right to a tenth of that.
+    // The angle of the two is above 1e-5: ten times the error of the limit.
     if (glm::dot(N, N) > 1e-10 * glm::dot(s.p_u, s.p_u) * glm::dot(s.p_v, s.p_v)) return point;
     const Vec3d along_s = glm::cross(s.p_uu, s.p_v) + glm::cross(s.p_u, s.p_uv);
     const Vec3d along_t = glm::cross(s.p_uv, s.p_v) + glm::cross(s.p_u, s.p_vv);
@@ -179,8 +178,8 @@ SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     return point;
 }
 
-/// The derivatives along the axes of a quarter.
-void turn(const Quarter& q, SurfacePoint& point) noexcept {
+/// Makes derivatives along the axes of the patch derivatives along the axes of a quarter of it.
+void rotate_derivatives(const Quarter& q, SurfacePoint& point) noexcept {
     const auto along = [&](auto& a, auto& b) {
         const auto s = q.along_s.x * a + q.along_s.y * b, t = q.along_t.x * a + q.along_t.y * b;
         a = s, b = t;
@@ -206,7 +205,7 @@ void evaluate(const LimitBase& base, bool quad, std::uint32_t patch, std::span<c
         base.surface.evaluate(base.limit[patch], places, Derivatives::second, {points, places.size()});
         for (std::size_t i = 0; i < places.size(); ++i) {
             out[done + i] = point_of(points[i], places[i]);
-            if (quarter) turn(*quarter, out[done + i]);
+            if (quarter) rotate_derivatives(*quarter, out[done + i]);
             mark_extraordinary(extraordinary, quad, st[done + i], out[done + i]);
         }
     }
@@ -246,13 +245,15 @@ void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d>
 struct BaseSurface::Base {
     Mesh mesh;
     PatchComplex complex;
+    Junctions junctions;
     std::variant<std::monostate, MeshBase, LimitBase, ShapeBase> kind;
 
-    /// The complex, from what the surface says at the corners and the middles of the sides of its patches.
-    void hang_together(Patches patches);
+    /// Connects patches of a limit surface or a shape, by what the surface is at their corners and the middles of their
+    /// sides.
+    void connect(Patches patches);
 };
 
-void BaseSurface::Base::hang_together(Patches patches) {
+void BaseSurface::Base::connect(Patches patches) {
     static const Vec2d quad[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0}, {1, 0.5}, {0.5, 1}, {0, 0.5}};
     static const Vec2d triangle[] = {{0, 0}, {1, 0}, {0, 1}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}, {0, 0.5}};
     std::vector<RimValue> values(patches.size() * 8);
@@ -270,6 +271,7 @@ void BaseSurface::Base::hang_together(Patches patches) {
     const auto rim = [&](std::uint32_t patch, int k) { return values[8 * std::size_t(patch) + k]; };
     complex = make_complex(std::move(patches), rim, true, 1e-7); // uvs are floats near 1
     if (auto* limit = std::get_if<LimitBase>(&kind)) limit->extraordinary = extraordinary_corners(complex);
+    junctions = make_junctions(complex);
 }
 
 BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
@@ -283,20 +285,21 @@ BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
         return {base.surface.n[corner], uv == no_index ? Vec2d(nowhere) : Vec2d(base_->mesh.uvs[uv])};
     };
     base_->complex = make_complex(std::move(patches), rim, false, 0);
+    base_->junctions = make_junctions(base_->complex);
 }
 
 BaseSurface::BaseSurface(Mesh cage, const SubdivisionOptions& options) : base_(std::make_unique<Base>()) {
     base_->mesh = std::move(cage);
     Patches patches;
     base_->kind.emplace<LimitBase>(make_limit_base(base_->mesh, options, patches));
-    base_->hang_together(std::move(patches));
+    base_->connect(std::move(patches));
 }
 
 BaseSurface::BaseSurface(const ParametricSurface& shape, int columns, int rows) : base_(std::make_unique<Base>()) {
     base_->mesh = tessellate(shape, columns, rows);
     Patches patches;
     base_->kind.emplace<ShapeBase>(make_shape_base(shape, columns, rows, base_->mesh, patches));
-    base_->hang_together(std::move(patches));
+    base_->connect(std::move(patches));
 }
 
 BaseSurface::~BaseSurface() = default;
@@ -304,6 +307,7 @@ BaseSurface::BaseSurface(BaseSurface&&) noexcept = default;
 
 const Mesh& BaseSurface::mesh() const noexcept { return base_->mesh; }
 const PatchComplex& BaseSurface::complex() const noexcept { return base_->complex; }
+const Junctions& BaseSurface::junctions() const noexcept { return base_->junctions; }
 
 void BaseSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept {
     if (const auto* mesh = std::get_if<MeshBase>(&base_->kind)) bake::evaluate(*mesh, patch, st, out);

@@ -1,9 +1,9 @@
-// The surface that relief stands on, in patches: a mesh as it is, a subdivision limit, or an analytic shape.
+// A surface in patches: a mesh as it is, the limit surface of a cage, or an analytic shape.
 //
 // Patches have the parameters of subdivision.h: quads (0,0) (1,0) (1,1) (0,1), triangles (0,0) (1,0) (0,1).
 #pragma once
 #include "bake/surface/analytic/parametric.h"
-#include "bake/surface/patch/patch_complex.h"
+#include "bake/surface/patch/junctions.h"
 #include "bake/surface/point/surface_point.h"
 #include "bake/surface/subdivision/subdivision.h"
 
@@ -14,19 +14,20 @@ public:
     /// The mesh itself: triangles flat, quads bilinear, larger polygons as triangulate() splits them; normals and
     /// tangents as MeshSurface interpolates them. Bit-equal positions are one vertex.
     explicit BaseSurface(Mesh mesh);
-    /// The limit surface of a cage (check_cage() comes first). Where some face is not a quad, quads are four patches
-    /// each, so that patches meet along whole edges.
+    /// The limit surface of a cage (call check_cage() first). If any face is not a quad, each quad is four patches, so that
+    /// neighbouring patches share whole edges.
     BaseSurface(Mesh cage, const SubdivisionOptions& options);
     /// An analytic shape over columns x rows patches.
     BaseSurface(const ParametricSurface& shape, int columns, int rows);
     ~BaseSurface();
     BaseSurface(BaseSurface&&) noexcept;
 
-    const Mesh& mesh() const noexcept; ///< whose faces, groups and materials the patches are of
+    const Mesh& mesh() const noexcept; ///< the patches belong to its faces
     const PatchComplex& complex() const noexcept;
+    const Junctions& junctions() const noexcept; ///< of complex()
 
-    /// Same parameters, same bits, whoever asks. Both patches at an edge agree on its points up to rounding only:
-    /// whoever wants them equal asks one of them.
+    /// The same parameters always give the same bits. The two patches at an edge agree on its points only up to rounding:
+    /// a caller that needs equal points evaluates one of the patches.
     void evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept;
     /// The lattice (i / rate, j / rate), row by row of j, as SubdivisionSurface::evaluate_lattice.
     void evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const noexcept;

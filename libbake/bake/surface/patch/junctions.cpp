@@ -1,6 +1,6 @@
 #include "bake/surface/patch/junctions.h"
+#include "bake/mesh/topology.h"
 #include <algorithm>
-#include <numeric>
 
 namespace bake {
 namespace {
@@ -43,40 +43,13 @@ JunctionTable gather(const PatchComplex& complex, std::vector<std::uint32_t> of,
     return table;
 }
 
-/// Disjoint sets of the sides of one junction.
-class Groups {
-public:
-    explicit Groups(std::uint32_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a), b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    /// Calls set(member, number of its group), groups numbered in the order of their first member. Returns their count.
-    template <class Set> std::uint32_t number(const Set& set) {
-        std::uint32_t groups = 0;
-        std::vector<std::uint32_t> name(parent_.size());
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-            if (root(i) == i) name[i] = groups++;
-            set(i, name[root(i)]);
-        }
-        return groups;
-    }
-
-private:
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    std::vector<std::uint32_t> parent_;
-};
-
 void group_around_vertex(const PatchComplex& complex, JunctionTable& table, Junction& j) {
     struct Spoke {
         std::uint32_t edge, side;
     };
     std::vector<Spoke> spokes;
     const std::uint32_t count = j.last - j.first;
-    Groups uv(count), normal(count);
+    DisjointSets uv(count), normal(count);
     const bool sharp = complex.sharp_vertex[j.which];
     for (std::uint32_t k = 0; k < count; ++k) {
         const JunctionSide& side = table.sides[j.first + k];
@@ -97,9 +70,12 @@ void group_around_vertex(const PatchComplex& complex, JunctionTable& table, Junc
         if (!complex.seam[a.edge]) uv.join(a.side, b.side);
         if (!complex.crease[a.edge]) normal.join(a.side, b.side);
     }
-    j.uv_groups = uv.number([&](std::uint32_t i, std::uint32_t g) { table.sides[j.first + i].uv_group = g; });
-    j.normal_groups =
-        normal.number([&](std::uint32_t i, std::uint32_t g) { table.sides[j.first + i].normal_group = g; });
+    const DisjointSets::Numbers uvs = uv.numbers(), normals = normal.numbers();
+    j.uv_groups = uvs.sets, j.normal_groups = normals.sets;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        table.sides[j.first + k].uv_group = uvs.set[k];
+        table.sides[j.first + k].normal_group = normals.set[k];
+    }
 }
 
 JunctionTable edge_table(const PatchComplex& complex) {

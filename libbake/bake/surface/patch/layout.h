@@ -6,6 +6,7 @@
 // other groups are stored after the points.
 #pragma once
 #include "bake/surface/patch/patch_cells.h"
+#include "bake/surface/patch/patch_domain.h"
 #include "bake/surface/patch/tessellation.h"
 
 namespace bake {
@@ -59,8 +60,7 @@ struct CellRing {
     /// put(parameters in the patch, parameters in the cell) for each. Returns the first number inside.
     template <class Put>
     std::uint32_t number(const PatchCells& cells, std::uint32_t cell, const PatchRates& r, const Put& put) {
-        static constexpr Vec2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
-        const Vec2d* const corner = r.sides == 4 ? square : triangle;
+        const Vec2d* const corner = patch_corners(r.sides);
         std::uint32_t next = 0;
         for (int i = 0; i < r.sides; ++i) {
             side[i].clear();

@@ -60,7 +60,7 @@ SurfacePoint point_at(const MeshPatch& patch, double s, double t) noexcept {
         const double sigma = area * patch.facing > 0 ? 1 : -1;
         jet.p_u = across(mix(w.at, patch.p_u));
         jet.p_v = across(mix(w.at, patch.p_v));
-        // What this patch alone says of them. In slivers of the chart it is far off, and n_u and n_v would be with it.
+        // p_u and p_v of this patch alone. In slivers of the chart they are far off, and so would be n_u and n_v.
         const Vec3d p_s = mix(w.s, patch.p), p_t = mix(w.t, patch.p);
         const Vec3d own_u = (uv_t.y * p_s - uv_s.y * p_t) / area, own_v = (uv_s.x * p_t - uv_t.x * p_s) / area;
         const bool sliver = glm::dot(own_u, own_u) > 16 * glm::dot(jet.p_u, jet.p_u) ||

@@ -9,14 +9,16 @@ struct Refiner {
     const PatchComplex& base;
     const std::uint32_t K; ///< cells along a side
     PatchComplex out{};
-    std::uint32_t next_vertex = base.vertices + base.edges * (K - 1), next_edge = base.edges * K;
+    std::uint32_t next_vertex = base.vertices, next_edge = base.edges * K;
+    std::vector<std::uint32_t>
+        first_inside{}; ///< edges of the base: first vertex inside; none where there is no length
 
     /// Point k of a side of a patch, counted along the side.
     std::uint32_t side_vertex(const PatchComplex::Patch& patch, int side, std::uint32_t k) const noexcept {
         const std::uint32_t a = patch.vertex[side], b = patch.vertex[(side + 1) % patch.sides()];
         if (k == 0 || a == b) return a;
         if (k == K) return b;
-        return base.vertices + patch.edge[side] * (K - 1) + (patch.reversed[side] ? K - k : k) - 1;
+        return first_inside[patch.edge[side]] + (patch.reversed[side] ? K - k : k) - 1;
     }
     /// Segment k of a side, likewise.
     std::uint32_t side_edge(const PatchComplex::Patch& patch, int side, std::uint32_t k) const noexcept {
@@ -105,6 +107,14 @@ struct Refiner {
         for (std::uint32_t e = 0; e < base.edges; ++e) {
             out.seam.insert(out.seam.end(), K, base.seam[e]);
             out.crease.insert(out.crease.end(), K, base.crease[e]);
+        }
+        std::vector<bool> has_length(base.edges, true);
+        for (const PatchComplex::Patch& patch : base.patches)
+            for (int i = 0; i < patch.sides(); ++i)
+                if (is_point(patch, i)) has_length[patch.edge[i]] = false;
+        for (std::uint32_t e = 0; e < base.edges; ++e) {
+            first_inside.push_back(next_vertex);
+            if (has_length[e]) next_vertex += K - 1;
         }
         out.patches.reserve(base.patches.size() * K * K);
         for (const PatchComplex::Patch& patch : base.patches) {

@@ -1,4 +1,5 @@
 #include "bake/surface/patch/patch_locator.h"
+#include "bake/surface/patch/patch_domain.h"
 
 namespace bake {
 namespace {
@@ -13,7 +14,7 @@ Vec2d solve(const Vec2d& uv_s, const Vec2d& uv_t, const Vec2d& r) noexcept {
     return {(r.x * uv_t.y - uv_t.x * r.y) / area, (uv_s.x * r.y - r.x * uv_s.y) / area};
 }
 
-/// The side that (s, t) is farthest beyond, no_index inside; and (s, t) moved back into the patch.
+/// Moves (s, t) into the patch. Returns the side that it was farthest outside of, or no_index.
 std::uint32_t clamp(int sides, Vec2d& st) noexcept {
     const double quad[] = {-st.y, st.x - 1, st.y - 1, -st.x}, triangle[] = {-st.y, st.x + st.y - 1, -st.x};
     const double* const beyond = sides == 4 ? quad : triangle;
@@ -34,14 +35,10 @@ std::uint32_t clamp(int sides, Vec2d& st) noexcept {
     return worst;
 }
 
-/// How far along side k, and the reverse.
+/// How far along side k (s, t) lies: the inverse of on_side().
 double along(int sides, std::uint32_t k, const Vec2d& st) noexcept {
     if (sides == 3) return k == 0 ? st.x : k == 1 ? st.y : 1 - st.y;
     return k == 0 ? st.x : k == 1 ? st.y : k == 2 ? 1 - st.x : 1 - st.y;
-}
-Vec2d on_side(int sides, std::uint32_t k, double x) noexcept {
-    if (sides == 3) return k == 0 ? Vec2d(x, 0) : k == 1 ? Vec2d(1 - x, x) : Vec2d(0, 1 - x);
-    return k == 0 ? Vec2d(x, 0) : k == 1 ? Vec2d(1, x) : k == 2 ? Vec2d(1 - x, 1) : Vec2d(0, 1 - x);
 }
 
 } // namespace
@@ -60,11 +57,12 @@ bool PatchLocator::cross(std::uint32_t& patch, std::uint32_t side, Vec2d& st) co
     const auto& from = complex.patches[patch];
     const std::uint32_t edge = from.edge[side];
     if (complex.seam[edge]) return false;
-    const Side& to = sides_[edge][0].patch == patch && sides_[edge][0].side == side ? sides_[edge][1] : sides_[edge][0];
+    const PatchSide& to =
+        sides_[edge][0].patch == patch && sides_[edge][0].side == side ? sides_[edge][1] : sides_[edge][0];
     if (to.patch == no_index) return false;
     const auto& other = complex.patches[to.patch];
     const double x = along(from.sides(), side, st);
-    st = on_side(other.sides(), to.side, from.reversed[side] != other.reversed[to.side] ? 1 - x : x);
+    st = on_side(other.sides(), int(to.side), from.reversed[side] != other.reversed[to.side] ? 1 - x : x);
     patch = to.patch;
     return true;
 }
@@ -86,7 +84,7 @@ Located PatchLocator::locate(const Vec2d& uv, std::uint32_t patch, const Vec2d& 
         const Vec2d was = at.st;
         at.st += move;
         const std::uint32_t beyond = clamp(sides, at.st);
-        // Twice beyond the same side, or no way left inside: the neighbour's.
+        // Newton left the patch over one side twice, or cannot move inside: continue in the neighbour.
         if (beyond != no_index && (beyond == beyond_before || at.st == was)) {
             if (++crossings > most_crossings || !cross(at.patch, beyond, at.st)) {
                 if (at.st == was) break;

@@ -28,7 +28,7 @@ int channels(MapQuantity quantity) noexcept {
 
 namespace {
 
-constexpr double on_chart = 1e-9; ///< uv: a centre this close to the point found lies on the chart
+constexpr double on_chart = 1e-9; ///< uv: largest distance of a covered texel's centre from the point found
 
 void write(MapQuantity quantity, const SurfaceValues& s, float* to) noexcept {
     const auto put = [&](const Vec3d& v) { to[0] = float(v.x), to[1] = float(v.y), to[2] = float(v.z); };
@@ -43,7 +43,7 @@ void write(MapQuantity quantity, const SurfaceValues& s, float* to) noexcept {
     }
 }
 
-/// How much of a point there is: what a texel of a map needs to be its own.
+/// How much of a point exists, and how much a quantity needs to exist for a texel to show it.
 enum Level : unsigned char { nothing, point, normal, curvature, everything };
 Level level_of(Degenerate degenerate) noexcept {
     switch (degenerate) {
@@ -69,13 +69,13 @@ Image<unsigned char> owners(const Image<unsigned char>& level, Level least) {
     return out;
 }
 
-/// The point of the surface under a texel.
+/// Finds the point of the surface at a texel.
 class TexelFinder {
 public:
     TexelFinder(const BaseSurface& surface, const SurfaceMesh& mesh)
         : surface_(surface), mesh_(mesh), locator_(surface) {}
 
-    /// `hit` is where the mesh has the texel's centre, or the point of it nearest to the centre.
+    /// `hit` is the point of the mesh at the texel's centre, or nearest to it.
     Located find(const TexelHit& hit, const Vec2d& centre) const noexcept {
         const TrianglePlace& place = mesh_.places[hit.triangle];
         const double b1 = hit.b1, b2 = hit.b2;
@@ -112,7 +112,7 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
                                        std::span<const MapQuantity> quantities, const SurfaceMapOptions& options,
                                        const std::string& path, SurfaceMapReport& report, Progress* progress) {
     if (mesh.mesh.corner_uv.empty())
-        throw Error(Refusal::unsuitable, path + ": has no uvs to lay a map out by; unwrap the mesh first");
+        throw Error(Refusal::unsuitable, path + ": has no uvs, which maps need; unwrap the mesh first");
     const int width = options.width, height = options.height;
     const UvRaster raster = uv_raster(mesh.mesh, mesh.triangles, width, height);
     if (raster.covered + raster.border == 0)
@@ -122,7 +122,7 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
     for (const MapQuantity q : quantities) maps.emplace_back(width, height, channels(q));
     Image<unsigned char> level(width, height, 1);
     const TexelFinder finder(surface, mesh);
-    // The point found is the centre's own up to the floats of the mesh's uvs.
+    // On a mesh the uvs are floats, which limits how near to the centre the point can be.
     const double tolerance = mesh.kind == SurfaceKind::mesh ? 1e-6 : on_chart;
     std::atomic<std::int64_t> covered{0}, border{0}, degenerate{0};
     std::vector<double> residuals(std::size_t(height), 0.0);

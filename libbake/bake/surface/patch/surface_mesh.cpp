@@ -2,7 +2,9 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "bake/surface/patch/tessellator.h"
 #include "bake/surface/point/curvature.h"
+#include <utility>
 
 namespace bake {
 
@@ -29,11 +31,6 @@ SurfaceValues surface_values(const SurfacePoint& point, bool has_uv) noexcept {
 }
 
 namespace {
-
-/// What patches say of a point they share differs by less than this, unless there is a crease or a seam.
-constexpr float same_normal = 1e-3f, same_uv = 1e-6f;
-
-constexpr Vec2d quad_corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle_corner[] = {{0, 0}, {1, 0}, {0, 1}};
 
 SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const Vec2d& st,
                         const SurfacePoint& point) noexcept {
@@ -73,27 +70,11 @@ template <class T> void keep_used(std::vector<T>& values, std::vector<std::uint3
     values = std::move(out);
 }
 
-/// Per point, the first of its group with the same value up to `tolerance`. Groups are numbered below the points' number.
-template <class Value>
-std::vector<std::uint32_t> first_alike(std::size_t points, const std::vector<std::uint32_t>& group, float tolerance,
-                                       const Value& value) {
-    std::vector<std::uint32_t> out(points), last(points, no_index), before(points);
-    for (std::uint32_t i = 0; i < points; ++i) {
-        std::uint32_t& head = last[group[i]];
-        std::uint32_t at = head;
-        while (at != no_index && glm::length(value(i) - value(at)) > tolerance) at = before[at];
-        if (at == no_index) at = i, before[i] = head, head = i;
-        out[i] = at;
-    }
-    return out;
-}
-
-/// Meshes and shapes: quads are one patch, other polygons one per triangle, in the order of the faces.
-void as_it_is(const BaseSurface& surface, SurfaceMesh& out) {
-    out.mesh = surface.mesh();
-    out.triangles = triangulate(out.mesh);
+/// The place of every triangle of a mesh or a shape, and of every corner in the first triangle that has it. Quads are one
+/// patch, other polygons one per triangle, in the order of the faces.
+std::vector<std::pair<std::uint32_t, Vec2d>> place_triangles(SurfaceMesh& out) {
     const Mesh& mesh = out.mesh;
-    std::vector<std::pair<std::uint32_t, Vec2d>> place(mesh.corners(), {no_index, Vec2d(0)});
+    std::vector<std::pair<std::uint32_t, Vec2d>> corner_place(mesh.corners(), {no_index, Vec2d(0)});
     std::uint32_t patch = 0;
     for (std::size_t t = 0; t < out.triangles.size(); ++t) {
         const Triangle& triangle = out.triangles[t];
@@ -103,184 +84,155 @@ void as_it_is(const BaseSurface& surface, SurfaceMesh& out) {
         here.patch = patch;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t c = triangle.corner[k];
-            here.st[k] = quad ? quad_corner[c - first] : triangle_corner[k];
-            if (place[c].first == no_index) place[c] = {patch, here.st[k]};
+            here.st[k] = quad ? quad_corners[c - first] : triangle_corners[k];
+            if (corner_place[c].first == no_index) corner_place[c] = {patch, here.st[k]};
         }
         const bool second_half = quad && t > 0 && out.triangles[t - 1].face == triangle.face;
         patch += !quad || second_half;
     }
-    out.samples.resize(mesh.corners());
-    out.corner_sample.resize(mesh.corners());
-    for_rows(std::int64_t(mesh.corners()), 1024, [&](std::int64_t begin, std::int64_t end) {
+    return corner_place;
+}
+
+/// One normal per position and value, in order of first use.
+void number_normals(SurfaceMesh& out) {
+    Mesh& mesh = out.mesh;
+    mesh.normals.clear();
+    mesh.corner_normal.resize(mesh.corners());
+    // Lists of the normals at one position: the last one, and the one before each.
+    std::vector<std::uint32_t> last(mesh.positions.size(), no_index), before;
+    for (std::uint32_t c = 0; c < mesh.corners(); ++c) {
+        const Vec3f& n = out.samples[c].n;
+        std::uint32_t& head = last[mesh.corner_position[c]];
+        std::uint32_t at = head;
+        while (at != no_index && mesh.normals[at] != n) at = before[at];
+        if (at == no_index) {
+            at = std::uint32_t(mesh.normals.size());
+            mesh.normals.push_back(n);
+            before.push_back(std::exchange(head, at));
+        }
+        mesh.corner_normal[c] = at;
+    }
+}
+
+/// Meshes and shapes keep their own faces.
+void keep_faces(const BaseSurface& surface, SurfaceMesh& out) {
+    out.mesh = surface.mesh();
+    out.triangles = triangulate(out.mesh);
+    const auto corner_place = place_triangles(out);
+    out.samples.resize(out.mesh.corners());
+    out.corner_sample.resize(out.mesh.corners());
+    for_rows(std::int64_t(out.mesh.corners()), 1024, [&](std::int64_t begin, std::int64_t end) {
         for (auto c = std::size_t(begin); c < std::size_t(end); ++c) {
+            const auto& [patch, st] = corner_place[c];
             SurfacePoint point;
-            surface.evaluate(place[c].first, {&place[c].second, 1}, {&point, 1});
-            out.samples[c] = sample_at(surface, place[c].first, place[c].second, point);
+            surface.evaluate(patch, {&st, 1}, {&point, 1});
+            out.samples[c] = sample_at(surface, patch, st, point);
             out.corner_sample[c] = std::uint32_t(c);
         }
     });
-    if (out.kind != SurfaceKind::mesh) return;               // tessellate() has exact normals
-    keep_used(out.mesh.positions, out.mesh.corner_position); // no more positions than corners are left
-    const auto normal = [&](std::uint32_t c) { return out.samples[c].n; };
-    out.mesh.corner_normal = first_alike(mesh.corners(), out.mesh.corner_position, 0, normal);
-    out.mesh.normals.clear();
-    for (const SurfaceSample& sample : out.samples) out.mesh.normals.push_back(sample.n);
-    keep_used(out.mesh.normals, out.mesh.corner_normal);
+    if (out.kind != SurfaceKind::mesh) return; // a shape's mesh has exact normals
+    keep_used(out.mesh.positions, out.mesh.corner_position);
+    number_normals(out);
 }
 
-/// Numbers of the points of one patch's lattice.
-struct Lattice {
-    int rate;
-    bool quad;
-    std::uint32_t size() const noexcept {
-        const auto n = std::uint32_t(rate + 1);
-        return quad ? n * n : n * (n + 1) / 2;
+/// Samples at the lattice of every patch, and which of them each corner and triangle shows.
+void sample_patches(const BaseSurface& surface, const PatchLayout& layout, SurfaceMesh& out, Progress* progress) {
+    const PatchCells& cells = *layout.cells;
+    std::vector<std::uint32_t> first{0}; // sample of each patch
+    for (std::uint32_t p = 0; p < cells.count(); ++p) {
+        const PatchRates r = layout.of_cell(p);
+        first.push_back(first.back() + std::uint32_t(r.sides) * r.across + inner_points(r));
     }
-    std::uint32_t at(int i, int j) const noexcept {
-        return std::uint32_t(quad ? j * (rate + 1) + i : j * (rate + 1) - j * (j - 1) / 2 + i);
-    }
-    int row_length(int j) const noexcept { return quad ? rate + 1 : rate + 1 - j; }
-    /// Point k of side `side`.
-    std::uint32_t on_side(int side, int k) const noexcept {
-        if (quad)
-            return side == 0 ? at(k, 0) : side == 1 ? at(rate, k) : side == 2 ? at(rate - k, rate) : at(0, rate - k);
-        return side == 0 ? at(k, 0) : side == 1 ? at(rate - k, k) : at(0, rate - k);
-    }
-};
-
-/// Per lattice point of every patch, the first one that is the same point of the surface.
-std::vector<std::uint32_t> first_points(const PatchComplex& complex, const std::vector<std::uint32_t>& begin,
-                                        int rate) {
-    std::vector<std::uint32_t> first(begin.back());
-    for (std::uint32_t i = 0; i < begin.back(); ++i) first[i] = i;
-    std::vector<std::uint32_t> vertex(complex.vertices, no_index), edge(complex.edges, no_index);
-    for (std::uint32_t p = 0; p < complex.patches.size(); ++p) {
-        const PatchComplex::Patch& patch = complex.patches[p];
-        const Lattice lattice{rate, patch.sides() == 4};
-        for (int side = 0; side < patch.sides(); ++side) {
-            const std::uint32_t corner = begin[p] + lattice.on_side(side, 0);
-            std::uint32_t& at_vertex = vertex[patch.vertex[std::size_t(side)]];
-            if (at_vertex == no_index) at_vertex = corner;
-            first[corner] = at_vertex;
-            // Side `side` of patch `owner` was the first on this edge.
-            std::uint32_t& owner = edge[patch.edge[std::size_t(side)]];
-            if (owner == no_index) {
-                owner = 4 * p + std::uint32_t(side);
-                continue;
-            }
-            const PatchComplex::Patch& other = complex.patches[owner / 4];
-            const Lattice others{rate, other.sides() == 4};
-            const bool against = patch.reversed[std::size_t(side)] != other.reversed[owner % 4];
-            for (int k = 1; k < rate; ++k)
-                first[begin[p] + lattice.on_side(side, k)] =
-                    begin[owner / 4] + others.on_side(int(owner % 4), against ? rate - k : k);
-        }
-    }
-    return first;
-}
-
-void limit_lattice(const BaseSurface& surface, int rate, SurfaceMesh& out, Progress* progress) {
-    const PatchComplex& complex = surface.complex();
-    const Mesh& cage = surface.mesh();
-    const bool has_uv = !cage.corner_uv.empty();
-    double total = 0;
-    for (const auto& patch : complex.patches) total += patch.sides() == 4 ? 4.0 * rate * rate : 3.0 * rate * rate;
-    if (total + double(complex.patches.size()) * 4 * rate > 4e9)
-        throw Error{Refusal::unsuitable, "the limit surface: " + std::to_string(complex.patches.size()) +
-                                             " patches of " + std::to_string(rate) + " x " + std::to_string(rate) +
-                                             " cells are more than a mesh can have; take a lower --resolution"};
-    std::vector<std::uint32_t> begin{0};
-    for (const auto& patch : complex.patches) begin.push_back(begin.back() + Lattice{rate, patch.sides() == 4}.size());
-
-    Mesh& mesh = out.mesh;
-    mesh.positions.resize(begin.back());
-    mesh.uvs.resize(has_uv ? begin.back() : 0);
-    out.samples.resize(begin.back());
+    std::vector<Vec2d> st(first.back());
+    out.samples.resize(first.back());
+    out.corner_sample.resize(layout.corners);
     for_rows(
-        std::int64_t(complex.patches.size()), 4,
-        [&](std::int64_t from, std::int64_t to) {
+        cells.count(), 4,
+        [&](std::int64_t begin, std::int64_t end) {
+            CellRing ring;
             std::vector<SurfacePoint> points;
-            for (auto p = std::uint32_t(from); p < std::uint32_t(to); ++p) {
-                const Lattice lattice{rate, complex.patches[p].sides() == 4};
-                points.resize(lattice.size());
-                surface.evaluate_lattice(p, rate, points);
-                for (int j = 0; j <= rate; ++j)
-                    for (int i = 0; i < lattice.row_length(j); ++i) {
-                        const SurfacePoint& point = points[lattice.at(i, j)];
-                        const std::uint32_t at = begin[p] + lattice.at(i, j);
-                        mesh.positions[at] = Vec3f(point.jet.p);
-                        if (has_uv) mesh.uvs[at] = Vec2f(point.uv);
-                        out.samples[at] = sample_at(surface, p, Vec2d(double(i) / rate, double(j) / rate), point);
-                    }
+            for (auto p = std::uint32_t(begin); p < std::uint32_t(end); ++p) {
+                const PatchRates r = layout.of_cell(p);
+                const std::span<Vec2d> here(&st[first[p]], first[p + 1] - first[p]);
+                std::size_t filled = 0;
+                const std::uint32_t inside =
+                    ring.number(cells, p, r, [&](const Vec2d& in_patch, const Vec2d&) { here[filled++] = in_patch; });
+                points.resize(here.size());
+                surface.evaluate(p, here, points);
+                for (std::size_t k = 0; k < here.size(); ++k)
+                    out.samples[first[p] + k] = sample_at(surface, p, here[k], points[k]);
+                std::uint32_t* corner = &out.corner_sample[layout.corner_first[p]];
+                FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
+                    for (const std::uint32_t k : face) *corner++ = first[p] + k;
+                });
+                emit_faces(r, ring.ring, inside, visitor);
             }
         },
         progress);
-
-    // Points that are one share what is equal up to rounding.
-    const std::vector<std::uint32_t> first = first_points(complex, begin, rate);
-    const auto normal_at = [&](std::uint32_t i) { return out.samples[i].n; };
-    const auto uv_at = [&](std::uint32_t i) { return mesh.uvs[i]; };
-    const std::vector<std::uint32_t> normal = first_alike(first.size(), first, same_normal, normal_at);
-    std::vector<std::uint32_t> uv;
-    if (has_uv) uv = first_alike(first.size(), first, same_uv, uv_at);
-    mesh.normals.resize(begin.back());
-    for (std::uint32_t i = 0; i < begin.back(); ++i) mesh.normals[i] = out.samples[i].n;
-
-    mesh.materials = cage.materials, mesh.groups = cage.groups;
-    for (std::uint32_t p = 0; p < complex.patches.size(); ++p) {
-        const PatchComplex::Patch& patch = complex.patches[p];
-        const Lattice lattice{rate, patch.sides() == 4};
-        const auto face = [&](std::initializer_list<std::pair<int, int>> corners) {
-            for (const auto& [i, j] : corners) {
-                const std::uint32_t at = begin[p] + lattice.at(i, j);
-                mesh.corner_position.push_back(first[at]);
-                mesh.corner_normal.push_back(normal[at]);
-                if (has_uv) mesh.corner_uv.push_back(uv[at]);
-                out.corner_sample.push_back(at);
-            }
-            mesh.face_begin.push_back(std::uint32_t(mesh.corner_position.size()));
-            if (!cage.face_material.empty()) mesh.face_material.push_back(cage.face_material[patch.face]);
-            if (!cage.face_group.empty()) mesh.face_group.push_back(cage.face_group[patch.face]);
-        };
-        for (int j = 0; j < rate; ++j)
-            for (int i = 0; i < (lattice.quad ? rate : rate - j); ++i) {
-                if (lattice.quad) {
-                    face({{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
-                    continue;
-                }
-                face({{i, j}, {i + 1, j}, {i, j + 1}});
-                if (i + j + 1 < rate) face({{i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
-            }
-    }
-    out.triangles = triangulate(mesh);
     out.places.resize(out.triangles.size());
-    std::vector<std::uint32_t> patch_of(begin.back());
-    std::vector<Vec2d> st_of(begin.back());
-    for (std::uint32_t p = 0; p < complex.patches.size(); ++p) {
-        const Lattice lattice{rate, complex.patches[p].sides() == 4};
-        for (int j = 0; j <= rate; ++j)
-            for (int i = 0; i < lattice.row_length(j); ++i) {
-                patch_of[begin[p] + lattice.at(i, j)] = p;
-                st_of[begin[p] + lattice.at(i, j)] = {double(i) / rate, double(j) / rate};
-            }
-    }
-    for (std::size_t t = 0; t < out.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t at = out.corner_sample[out.triangles[t].corner[k]];
-            out.places[t].patch = patch_of[at];
-            out.places[t].st[k] = st_of[at];
+    const std::size_t faces_per_patch = out.mesh.faces() / cells.count();
+    for_rows(std::int64_t(out.triangles.size()), 16384, [&](std::int64_t begin, std::int64_t end) {
+        for (auto t = std::size_t(begin); t < std::size_t(end); ++t) {
+            out.places[t].patch = std::uint32_t(out.triangles[t].face / faces_per_patch);
+            for (std::size_t k = 0; k < 3; ++k) out.places[t].st[k] = st[out.corner_sample[out.triangles[t].corner[k]]];
         }
-    keep_used(mesh.positions, mesh.corner_position);
-    keep_used(mesh.normals, mesh.corner_normal);
-    keep_used(mesh.uvs, mesh.corner_uv);
+    });
+}
+
+/// Where the surface has no normal (the tip of a spike), each corner shows that of its own patch.
+void add_missing_normals(SurfaceMesh& out) {
+    Mesh& mesh = out.mesh;
+    bool any = false;
+    for (std::size_t c = 0; c < mesh.corners(); ++c) {
+        if (mesh.normals[mesh.corner_normal[c]] != Vec3f(0)) continue;
+        any = true;
+        mesh.corner_normal[c] = std::uint32_t(mesh.normals.size());
+        mesh.normals.push_back(out.samples[out.corner_sample[c]].n);
+    }
+    if (any) keep_used(mesh.normals, mesh.corner_normal);
+}
+
+/// rate x rate quads or rate^2 triangles of every patch.
+void tessellate_limit(const BaseSurface& surface, int rate, SurfaceMesh& out, Progress* progress) {
+    const PatchCells cells(surface, 1);
+    const CellRates rates{.uniform = std::uint32_t(rate)};
+    const PatchLayout layout = make_layout(cells, rates, !surface.mesh().corner_uv.empty());
+    if (std::max(layout.corners, layout.points + 4 * std::uint64_t(rate) * cells.count()) >= no_index)
+        throw Error{Refusal::unsuitable, "the limit surface: " + std::to_string(cells.count()) + " patches of " +
+                                             std::to_string(rate) + " x " + std::to_string(rate) +
+                                             " cells are more than a mesh can have; take a lower resolution"};
+    const VertexWriter writer{.at_patch =
+                                  [](const PatchVertices& v, Mesh& mesh, std::size_t) {
+                                      for (std::size_t k = 0; k < v.index.size(); ++k) {
+                                          mesh.positions[v.index[k]] = Vec3f(v.points[k].jet.p);
+                                          mesh.normals[v.index[k]] = Vec3f(v.points[k].jet.n);
+                                      }
+                                  },
+                              .at_junction =
+                                  [](const JunctionVertices& v, Mesh& mesh, std::size_t) {
+                                      std::uint32_t groups = 0; // groups are numbered in the order of their first side
+                                      for (std::uint32_t j = 0; j < v.count; ++j)
+                                          mesh.positions[v.first_index + j] = Vec3f(v.points[j].jet.p);
+                                      for (std::size_t k = 0; k < v.sides.size(); ++k) {
+                                          if (v.sides[k].normal_group != groups) continue;
+                                          for (std::uint32_t j = 0; j < v.count; ++j)
+                                              mesh.normals[v.normal_index(groups, j)] =
+                                                  Vec3f(v.points[k * v.count + j].jet.n);
+                                          ++groups;
+                                      }
+                                  }};
+    out.mesh = tessellate(layout, writer);
+    out.triangles = triangulate(out.mesh);
+    sample_patches(surface, layout, out, progress);
+    add_missing_normals(out);
 }
 
 } // namespace
 
 SurfaceMesh surface_mesh(const BaseSurface& surface, SurfaceKind kind, int rate, Progress* progress) {
     SurfaceMesh out{.kind = kind};
-    if (kind == SurfaceKind::limit) limit_lattice(surface, rate, out, progress);
-    else as_it_is(surface, out);
+    if (kind == SurfaceKind::limit) tessellate_limit(surface, rate, out, progress);
+    else keep_faces(surface, out);
     Mesh& mesh = out.mesh;
     std::vector<Vec3f> normals;
     normals.reserve(mesh.corners());

@@ -1,4 +1,4 @@
-// A surface as a mesh to write: normals, tangents and curvatures at its corners, and where each lies on the surface.
+// A surface as a mesh to write: normals, tangents and curvatures at its corners, and the patch and parameters of each.
 #pragma once
 #include "bake/mesh/triangulate.h"
 #include "bake/surface/patch/base_surface.h"
@@ -7,14 +7,14 @@ namespace bake {
 
 class Progress;
 
-/// What a BaseSurface was made of.
+/// What a BaseSurface was made from.
 enum class SurfaceKind { mesh, limit, shape };
 
 /// What is wrong at a point.
 enum class Degenerate : unsigned char {
     none,
-    pole,           ///< no tangent plane along the parameters, but a normal: the limit, or that of the meridian
-    without_normal, ///< neither
+    pole,           ///< p_u x p_v is 0, but there is a normal: the limit, or that of the meridian
+    without_normal, ///< p_u x p_v is 0, and there is no normal
     no_chart,       ///< a normal, but no area in uv: p_u and p_v do not exist
 };
 
@@ -26,16 +26,16 @@ struct SurfaceValues {
     Degenerate degenerate = Degenerate::none;
 };
 /// p_u and p_v are zero where the chart has no area, curvatures zero where there is no tangent plane. Without uvs
-/// (`has_uv` false) no_chart is nothing wrong.
+/// (`has_uv` false) no_chart is not reported.
 SurfaceValues surface_values(const SurfacePoint& point, bool has_uv) noexcept;
 
-/// A triangle of the mesh on the surface: all three corners in one patch.
+/// Where a triangle of the mesh lies: all three corners are points of one patch.
 struct TrianglePlace {
     std::uint32_t patch;
     Vec2d st[3];
 };
 
-/// One distinct point of a patch that corners of the mesh show.
+/// One point of a patch. Several corners of the mesh may show it.
 struct SurfaceSample {
     Vec3f n;
     float length_u, length_v; ///< |p_u|, |p_v|
@@ -52,8 +52,7 @@ struct SurfaceMesh {
     std::vector<std::uint32_t> corner_sample; ///< corners
 };
 
-/// Meshes and shapes as they are, limit surfaces as rate x rate quads (or rate^2 triangles) of every patch, points at
-/// common edges taken from the first patch that has them. With unit normals, MikkTSpace tangents where there are uvs,
+/// Meshes and shapes keep their faces; of a limit surface every patch becomes rate x rate quads or rate^2 triangles. With unit normals, MikkTSpace tangents where there are uvs,
 /// and the attributes mean_curvature and gauss_curvature. At a degenerate corner normal and curvatures are those of a
 /// point 1/1024 of the way to the middle of the patch, so that a sphere has its curvature at the poles too.
 /// Throws Error{Refusal::unsuitable} for more corners than a mesh can have.

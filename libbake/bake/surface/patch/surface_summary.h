@@ -4,7 +4,7 @@
 
 namespace bake {
 
-/// Over the corners of a mesh; the mean is weighted by area. All zero where there is nothing to sum.
+/// Over the corners of a mesh; the mean is weighted by area. All are zero if there are no values.
 struct ValueRange {
     double min = 0, max = 0, mean = 0;
 };
@@ -18,7 +18,7 @@ struct DegeneratePoint {
 
 struct SurfaceSummary {
     ValueRange x, y, z;
-    ValueRange length_u, length_v;              ///< |p_u|, |p_v|, where the chart has area
+    ValueRange length_u, length_v;              ///< |p_u| and |p_v|, where the chart has area
     ValueRange mean_curvature, gauss_curvature; ///< where there is a tangent plane
     double area = 0;                            ///< of the mesh's triangles
     std::vector<DegeneratePoint> degenerate;    ///< one per position and kind, in order of the corners

@@ -24,7 +24,7 @@ bool has_inside(const PatchRates& r) noexcept { return r.sides == 4 ? r.across >
 /// Points before row j >= 1 of a triangle's inner lattice of m segments.
 std::uint32_t triangle_rows(std::uint32_t m, std::uint32_t j) noexcept { return (j - 1) * (m - 1) - j * (j - 1) / 2; }
 
-/// Inner points by their place in the lattice.
+/// Inner points by their row and column in the lattice.
 struct Inside {
     const PatchRates& rates;
     std::uint32_t first;
@@ -35,9 +35,8 @@ struct Inside {
     }
 };
 
-/// The strip between a chain of `outer_count` segments and one on its left, both running the same way. `later(i, j)` is
-/// negative where the outer chain's segment i has its middle before that of the inner chain's segment j, 0 where a quad
-/// over both is wanted.
+/// The strip between a chain of `outer_count` segments and a chain to the left of it that runs the same way. later(i, j) is
+/// negative if the middle of the outer segment i comes before that of the inner segment j, and 0 to make a quad of both.
 template <class Outer, class Inner, class Later, class Sink>
 void emit_strip(std::uint32_t outer_count, const Outer& outer, std::uint32_t inner_count, const Inner& inner,
                 const Later& later, Sink& sink) {
@@ -110,7 +109,7 @@ template <class Sink> void emit_strips(const PatchRates& r, const PatchRing& rin
             if (side == 1) return inside(m - 1, ahead);
             return side == 2 ? inside(m - ahead, n - 1) : inside(1, n - ahead);
         };
-        // The chain inside lies one lattice step in: on a triangle it is half a step short at either end.
+        // The inner chain is the first row of the lattice. On a triangle it is half a step shorter at both ends.
         const std::int64_t shift = r.sides == 4 ? 3 : 4;
         emit_strip(
             std::uint32_t(e), [&](std::uint32_t i) { return ring.side[side][i]; }, //
@@ -157,7 +156,7 @@ PatchRates fitted(PatchRates r) noexcept {
         return r;
     }
     if (on_lattice(r) || has_inside(r)) return r;
-    // No points inside are wanted: a lattice of one row, a ladder or a fan does without them.
+    // Without points inside: a lattice of one row, a ladder or a fan.
     if (is_ladder(r) && r.side[0] == r.side[2] && r.side[1] == r.side[3]) r.across = r.side[0], r.up = r.side[1];
     else if (!is_ladder(r) && largest_side(r) > 2) r.across = std::max(r.across, 2u), r.up = std::max(r.up, 2u);
     return r;
@@ -186,7 +185,7 @@ template <class Sink>
 void emit_rows(const PatchRates& r, const PatchRing& ring, std::uint32_t inner, std::uint32_t first, std::uint32_t last,
                Sink& sink) {
     const std::uint32_t m = r.across, n = r.up;
-    // A row's points are its two ends on the border and a run of consecutive numbers between.
+    // The points of a row are two on the border, with consecutive numbers between them.
     const auto emit = [&](std::uint32_t j, const auto& low, const auto& high) {
         const FaceCorner left[2] = {ring.side[3][n - j], ring.side[3][n - j - 1]};
         const FaceCorner right[2] = {ring.side[1][j], ring.side[1][j + 1]};

@@ -1,4 +1,5 @@
-// How one patch is cut into faces: a lattice inside, and strips of triangles from it to sides cut differently.
+// How one patch becomes faces: a lattice inside, and strips of triangles between the lattice and sides that have other
+// rates.
 //
 //   quad      corners (0,0) (1,0) (1,1) (0,1), sides from each to the next
 //   triangle  corners (0,0) (1,0) (0,1)
@@ -20,12 +21,12 @@ struct PatchRates {
 enum class PatchPattern {
     lattice, ///< sides and lattice agree: quads on quads, triangles on triangles
     ladder,  ///< two opposite sides of one segment each: a strip between the other two
-    fan,     ///< no points inside, sides of one or two segments: all faces meet in one middle of a side
+    fan,     ///< no points inside, sides of one or two segments: all faces share the middle of one side
     strips,  ///< a lattice inside, at least one point of it, and a strip along each side
 };
 PatchPattern pattern(const PatchRates& rates) noexcept;
 
-/// The rates with the lattice inside changed to the nearest one that a pattern fits.
+/// The rates, with the lattice inside replaced by the nearest one that some pattern can connect to the sides.
 PatchRates fitted(PatchRates rates) noexcept;
 
 /// Points of the lattice strictly inside the patch; none in ladders and fans.
@@ -36,13 +37,13 @@ struct FaceCorner {
     std::uint32_t position, normal, uv;
 };
 
-/// Points on the border: side i from corner i to the next, both included.
+/// Points on the border: side i runs from corner i to the next, both included.
 struct PatchRing {
     std::array<std::span<const FaceCorner>, 4> side;
 };
 
-/// Writes faces of a mesh whose arrays have their size already, from one place on. Corners whose predecessor has the
-/// same position are left out, as are faces of fewer than three others: what remains of a quad at a pole is a triangle.
+/// Writes faces into arrays that have their final size, from a given face and corner on. Corners whose predecessor has the
+/// same position are left out, and so are faces with fewer than three other corners: a quad at a pole becomes a triangle.
 class FaceWriter {
 public:
     FaceWriter(Mesh& mesh, std::uint64_t face, std::uint64_t corner) noexcept;
@@ -75,7 +76,7 @@ private:
     std::uint64_t face_, corner_;
 };
 
-/// Counts what a FaceWriter would write.
+/// Counts the faces and corners that a FaceWriter would write.
 class FaceCounter {
 public:
     void quad(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, const FaceCorner& d) noexcept {
@@ -89,7 +90,7 @@ public:
     std::uint64_t faces = 0, corners = 0;
 };
 
-/// Hands every face's positions, three or four, to a function.
+/// Calls a function with the three or four positions of every face.
 class FaceVisitor {
 public:
     using Visit = std::function<void(std::span<const std::uint32_t>)>;
