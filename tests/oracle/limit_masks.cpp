@@ -40,7 +40,7 @@ Vec3d centroid(const Cage& cage, Index face) {
     return sum / double(cage.faces[face].vertex.size());
 }
 
-// The faces' share of a smooth edge point: their centroids under Catmull-Clark, their opposite points under Loop.
+// The point of a smooth edge: from the centroids of its faces under Catmull-Clark, from the opposite vertices under Loop.
 Vec3d smooth_edge_point(const Cage& cage, const Edge& edge, const EdgeFaces& of) {
     const Vec3d ends = cage.points[edge.first] + cage.points[edge.second];
     if (cage.scheme == bake::Scheme::catmark)
@@ -56,7 +56,7 @@ double loop_beta(int n) {
 }
 
 struct Star {
-    std::vector<std::pair<Index, double>> edges; ///< other ends and sharpness
+    std::vector<std::pair<Index, double>> edges; ///< opposite end and sharpness of each edge
     std::vector<Index> faces;
 };
 
@@ -78,7 +78,7 @@ Vec3d vertex_point(const Cage& cage, Index v, const Star& star, const std::vecto
     return (n - 2) / n * p + (ring + centres) / (n * n);
 }
 
-// Where a rule ends with this level, its weight is what is left of the sharpness.
+// The next position of a vertex. If sharp rules end at this level, they are blended with the remaining sharpness as weight.
 Vec3d next_vertex(const Cage& cage, Index v, const Star& star) {
     std::vector<double> now, then;
     double left = 0;
@@ -225,24 +225,24 @@ LimitMasks::LimitMasks(const Cage& cage) : cage_(cage), sharp_edges_(cage.points
     }
 }
 
-LimitMasks::Sector LimitMasks::sector(Place at, bool stop_at_creases) const {
-    const auto vertex = [&](Place place, std::size_t ahead) {
+LimitMasks::Sector LimitMasks::sector(FaceCorner at, bool stop_at_creases) const {
+    const auto vertex = [&](FaceCorner place, std::size_t ahead) {
         const auto& v = cage_.faces[place.face].vertex;
         return v[(place.corner + ahead) % v.size()];
     };
     const Index v = vertex(at, 0);
-    const auto last = [&](Place place) { return cage_.faces[place.face].vertex.size() - 1; };
+    const auto last = [&](FaceCorner place) { return cage_.faces[place.face].vertex.size() - 1; };
     const auto stops = [&](Index other) {
         return stop_at_creases && cage_.creases.count(edge_of(v, other)) && cage_.creases.at(edge_of(v, other)) > 0;
     };
-    // Clockwise, across the edge that leaves the corner, to where the sector begins.
-    const Place from = at;
+    // Rotates clockwise to the first face of the sector.
+    const FaceCorner from = at;
     bool closed = false;
     for (;;) {
         const Index other = vertex(at, 1);
         const auto across = leaving_.find({other, v});
         if (across == leaving_.end() || stops(other)) break;
-        const Place next = across->second;
+        const FaceCorner next = across->second;
         at = {next.face, Index((next.corner + 1) % cage_.faces[next.face].vertex.size())};
         if (at.face == from.face && at.corner == from.corner) {
             closed = true;
@@ -251,7 +251,7 @@ LimitMasks::Sector LimitMasks::sector(Place at, bool stop_at_creases) const {
     }
     Sector sector;
     sector.closed = closed;
-    const Place begin = at;
+    const FaceCorner begin = at;
     for (;;) {
         sector.edges.push_back(cage_.points[vertex(at, 1)]);
         if (cage_.scheme == bake::Scheme::catmark) sector.diagonals.push_back(cage_.points[vertex(at, 2)]);
@@ -268,9 +268,9 @@ LimitMasks::Sector LimitMasks::sector(Place at, bool stop_at_creases) const {
 
 namespace {
 
-// The tangent across a crease or border: the left eigenvector of the sector's subdivision matrix with sines inside, and
-// at the vertex (a) and the two ends (b) what their columns then ask for. Published tables are for rules that differ at
-// irregular vertices (Hoppe's, Biermann's); where those do not, they are this.
+// The tangent across a crease or border: the left eigenvector of the sector's subdivision matrix. Its components are sines
+// at the inner points; a at the vertex and b at the two ends follow from the columns of the matrix. Published tables
+// (Hoppe, Biermann) are for modified rules at irregular vertices; they agree with this where the rules do.
 Vec3d across_crease(const Vec3d& v, const std::vector<Vec3d>& e, const std::vector<Vec3d>& f, bool loop) {
     const int k = int(e.size()) - 1; // faces
     const double theta = pi / k, c = std::cos(theta);
@@ -309,7 +309,7 @@ Limit LimitMasks::dart(Index vertex) const {
     Limit limit;
     for (int level = 1; level <= 20; ++level) {
         cut = neighbourhood(subdivide(cut), 0);
-        if (level == 14) limit.normal = smooth().normal; // later ones drown in rounding
+        if (level == 14) limit.normal = smooth().normal; // at later levels rounding dominates
     }
     limit.p = smooth().p;
     return limit;

@@ -55,21 +55,22 @@ public:
     Limit at(std::uint32_t face, std::uint32_t corner) const;
 
 private:
-    struct Place {
+    struct FaceCorner {
         std::uint32_t face, corner;
     };
     struct Sector {
         std::vector<Vec3d> edges, diagonals; ///< counter-clockwise
         bool closed = false;
     };
-    Sector sector(Place at, bool stop_at_creases) const;
+    Sector sector(FaceCorner at, bool stop_at_creases) const;
     /// The end of a crease (dart) has no mask. After twenty levels the mask of a smooth vertex is accurate to 1e-8 of the
     /// edge length.
     Limit dart(std::uint32_t vertex) const;
 
     const Cage& cage_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Place> leaving_; ///< by the directed edge that leaves the corner
-    std::vector<int> sharp_edges_;                                     ///< at each point, borders too
+    std::map<std::pair<std::uint32_t, std::uint32_t>, FaceCorner>
+        leaving_;                  ///< by the directed edge that leaves the corner
+    std::vector<int> sharp_edges_; ///< at each point, borders too
 };
 
 } // namespace oracle
