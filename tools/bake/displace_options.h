@@ -1,4 +1,4 @@
-// Options of displace, and what they mean for the library.
+// Options of bake displace, and the inputs of the library that follow from them.
 #pragma once
 #include "bake/relief/displace/displace.h"
 #include "inputs/surface_input.h"
@@ -10,8 +10,8 @@ enum class BaseKind {
     automatic, ///< none without rates, linear with them
     none,      ///< the vertices of the mesh
     linear,    ///< the mesh, with its faces cut finer
-    catmark,   ///< the limit surfaces of the mesh as a cage
-    loop,
+    catmark,   ///< the limit surface of the mesh as a cage, by Catmull-Clark
+    loop,      ///< the same by Loop
 };
 
 struct DisplaceArgs {
@@ -30,22 +30,22 @@ struct DisplaceArgs {
 void add_displace_options(CLI::App& sub, DisplaceArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other, before anything is read.
 void check_usage(const DisplaceArgs& args);
-/// Segments of the refinements and limits that are asked for without rates, as levels.
+/// The level of a refinement or limit surface for which the user gives no rate.
 inline constexpr int default_levels = 3;
 
 /// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface.
 BaseSurface make_base(const DisplaceArgs& args);
 
-/// The relief, and what its file said.
+/// The relief, and how its file is described.
 struct ReliefFile {
     Relief relief;
     std::string described; ///< "8-bit height, 231 levels"
     bool default_amplitude = false;
 };
-/// `size` is the diagonal of what it is laid over.
+/// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
 ReliefFile load_relief(const DisplaceArgs& args, double size);
 
-/// Reads the camera where one is named.
+/// Reads the camera file if --camera names one.
 DisplaceOptions resolve_options(const DisplaceArgs& args, double size);
 
 /// "2G", "1.5GiB", "500M" or bytes. Throws Error{Refusal::usage}.

@@ -8,7 +8,7 @@
 namespace bake {
 namespace {
 
-/// Over at most 65536 faces taken evenly: a figure to compare others with.
+/// The mean length of the edges of at most 65536 evenly chosen faces.
 double mean_edge(const Mesh& mesh) {
     const std::size_t step = std::max<std::size_t>(1, (mesh.faces() + 65535) / 65536);
     double sum = 0;
@@ -22,7 +22,7 @@ double mean_edge(const Mesh& mesh) {
     return edges > 0 ? sum / double(edges) : 0;
 }
 
-/// The margin of every corner, where it can be written.
+/// Adds the fold margin as an attribute of the corners.
 void add_margin(Displaced& displaced) {
     Attribute attribute{.name = "fold_margin", .components = 1, .values = {}};
     attribute.values.reserve(displaced.mesh.corners());
@@ -40,7 +40,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     check_usage(args);
     for (const std::string* input : {&args.height.path, &args.surface.mesh})
         if (!input->empty()) check_not_input(args.out, *input);
-    OutputFile(args.out); // refuses at once a name that cannot be written
+    OutputFile(args.out); // a file that cannot be written is refused before the work
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
     const BaseSurface base = make_base(args);

@@ -163,7 +163,7 @@ SeamBlend::SeamBlend(const ReliefSurface& surface) {
 SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end) {
     const auto count = int(values.size()) - 1;
     const Curve c{std::uint32_t(nodes_.size()), std::uint32_t(count)};
-    std::vector<Vec3d> rest(values.size()); // without what the corners bring
+    std::vector<Vec3d> rest(values.size()); // less the contribution of the corners
     for (int k = 0; k <= count; ++k) {
         const double x = step(double(k) / count);
         rest[k] = values[k] - (1 - x) * at_begin - x * at_end;
@@ -197,7 +197,7 @@ SeamBlend::Correction SeamBlend::correction(const Patch& p, const Vec2d& st) con
         sum.t += weight.t * v + weight.at * v_t;
     };
     if (p.sides == 4) {
-        // Distance from the begin of the side, and from the opposite side.
+        // Distance from the start of the side, and from the opposite side.
         const Graded s{st.x, 1, 0}, t{st.y, 0, 1}, s_back{1 - st.x, -1, 0}, t_back{1 - st.y, 0, -1};
         const Graded along_side[4] = {s, t, s_back, t_back}, near_side[4] = {t_back, s, t, s_back};
         for (int i = 0; i < 4; ++i) {

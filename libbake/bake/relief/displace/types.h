@@ -28,7 +28,7 @@ struct Relief {
     std::optional<VectorSpace> vector;
 };
 
-/// How finely each patch edge is cut, as segments: 1 and more.
+/// How many segments each edge of a patch gets, at least 1.
 struct Rates {
     enum class Rule {
         uniform,   ///< 2^levels on every edge of the mesh
@@ -38,8 +38,8 @@ struct Rates {
     Rule rule = Rule::uniform;
     int levels = 0;
     double size = 0;
-    /// Length of a short segment between two displaced points, in any unit; space itself where it is empty. The picture
-    /// of a camera makes it pixels.
+    /// Length of a short segment between two displaced points, in any unit, such as pixels in the picture of a camera.
+    /// Empty: the distance in space.
     std::function<double(const Vec3d&, const Vec3d&)> measure;
     double error = 0;
     int most =
@@ -49,7 +49,7 @@ struct Rates {
 struct DisplaceOptions {
     Rates rates;
     Seam seam = Seam::average;
-    std::uint64_t max_bytes = 0; ///< refuse what would need more; 0: what the machine has
+    std::uint64_t max_bytes = 0; ///< largest result that is not refused; 0: the memory of the machine
     bool measure_error = false;  ///< fill report.error: distance of the result from the displaced surface
     bool margin = false;         ///< fill Displaced::margin
 };

@@ -17,11 +17,11 @@ struct Grid {
     double v(int j) const noexcept { return double(j) / rows; }
 };
 
-/// The vertex that stands for (i, j): closures go to the lower end, collapsed edges to their first vertex.
+/// Which grid vertex (i, j) is: at a closure that of the lower end, on a collapsed edge the first of the edge.
 struct Sharing {
     const ParametricSurface& surface;
     Grid grid;
-    bool low_u = false, high_u = false, low_v = false, high_v = false; ///< edges that are one point
+    bool low_u = false, high_u = false, low_v = false, high_v = false; ///< edges that collapse to one point
 
     Sharing(const ParametricSurface& s, Grid g) : surface(s), grid(g) {
         const auto point = [&](int i, int j) { return s.derivatives(g.u(i), g.v(j)).p; };
@@ -44,7 +44,8 @@ struct Sharing {
         if ((i == 0 && low_u) || (i == grid.columns && high_u)) j = 0;
         return grid.at(i, j);
     }
-    /// Normals are opposite where a twisted closure meets, and each meridian's own where a pole has none.
+    /// The normals of the two ends of a twisted closure are opposite, so they stay apart; at a pole without normal each
+    /// meridian keeps its own.
     std::uint32_t normal(int i, int j) const noexcept {
         const bool twisted_end = i == grid.columns && surface.closure_u() == Closure::twisted;
         if (twisted_end)
@@ -103,7 +104,7 @@ struct BezierSharing {
         const int along = borders.reversed[patch][side] ? rate - k : k;
         return inner[border][along_u ? 0 : 1] + std::uint32_t(along - 1);
     }
-    /// The points on the borders, each from its border alone.
+    /// Evaluates the points on the borders, each from the curve of its border alone.
     void place(std::vector<Vec3f>& positions) const {
         for (std::size_t b = 0; b < borders.curve.size(); ++b)
             for (const bool along_u : {true, false}) {

@@ -58,7 +58,7 @@ void evaluate(const MeshBase& base, std::uint32_t patch, std::span<const Vec2d> 
 struct LimitBase {
     SubdivisionSurface surface;
     bool quarters = false;                        ///< every quad of the cage is four patches
-    std::vector<std::uint32_t> limit;             ///< patches: that of the surface it lies in
+    std::vector<std::uint32_t> limit;             ///< patches: the patch of `surface` that has it
     std::vector<std::uint8_t> corner;             ///< patches: 0 for a whole one, 1 + k for the quarter at corner k
     std::vector<std::uint8_t> extraordinary = {}; ///< patches: bit k for corner k
 };
@@ -178,7 +178,7 @@ SurfacePoint point_of(const LimitPoint& limit, const Vec2d& st) noexcept {
     return point;
 }
 
-/// Makes derivatives along the axes of the patch derivatives along the axes of a quarter of it.
+/// Converts derivatives along the axes of a patch to derivatives along the axes of a quarter of the patch.
 void rotate_derivatives(const Quarter& q, SurfacePoint& point) noexcept {
     const auto along = [&](auto& a, auto& b) {
         const auto s = q.along_s.x * a + q.along_s.y * b, t = q.along_t.x * a + q.along_t.y * b;

@@ -12,7 +12,7 @@ struct Sum {
     }
     ValueRange range() const noexcept {
         if (!(min <= max)) return {};
-        // Where nothing has area the mean of the two says more than 0 / 0.
+        // Without any area, the middle of the range instead of 0 / 0.
         return {min, max, weight > 0 ? sum / weight : (min + max) / 2};
     }
 };
