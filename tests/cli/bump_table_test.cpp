@@ -1,6 +1,7 @@
 // bake bump-table from outside: signs, units, borders, encodings and mips on heights whose slopes are known.
 #include "bake/base/vec.h"
 #include "bake/picture/image_io.h"
+#include "bake/relief/map/slope_code.h"
 #include "cli/command.h"
 #include "picture/png_bytes.h"
 #include <algorithm>
@@ -59,7 +60,8 @@ TEST_SUITE("cli") {
             std::vector<std::string> options;
             double u, v;
         } const cases[] = {{{"--units", "texel"}, u, v},
-                           {{"--units", "lecture"}, 2 * u, 2 * v},
+                           {{"--units", "difference"}, 2 * u, 2 * v},
+                           {{"--units", "lecture"}, 2 * u, 2 * v}, // the earlier name
                            {{"--units", "uv"}, 16 * u, 8 * v},
                            {{}, 16 * u, 8 * v},
                            {{"--units", "world"}, 16 * u, 16 * v}, // 1 wide and 1/2 high
@@ -87,7 +89,7 @@ TEST_SUITE("cli") {
         }
     }
 
-    TEST_CASE("bump-table: the lecture's table is I(u+1,v) - I(u-1,v), I(u,v+1) - I(u,v-1), borders wrapped per axis") {
+    TEST_CASE("bump-table: --units difference is I(u+1,v) - I(u-1,v), I(u,v+1) - I(u,v-1), borders wrapped per axis") {
         const Folder folder;
         const Image<float> h = height_of(5, 4, [](int x, int y) { return ((x * 7 + y * 13) % 11) / 16.0; });
         write_image(folder / "h.exr", h, {.depth = Depth::float32});
@@ -100,10 +102,10 @@ TEST_SUITE("cli") {
                     CHECK(slopes.at(x, y, 1) == h.at(x, along_v(y - 1, 4)) - h.at(x, along_v(y + 1, 4)));
                 }
         };
-        check(table(folder, {"--units", "lecture", "--filter", "central"}), repeat, repeat);
-        check(table(folder, {"--units", "lecture", "--filter", "central", "--wrap", "mirror"}), mirror, mirror);
-        check(table(folder, {"--units", "lecture", "--filter", "central", "--wrap-u", "mirror"}), mirror, repeat);
-        check(table(folder, {"--units", "lecture", "--filter", "central", "--wrap", "mirror", "--wrap-u", "repeat"}),
+        check(table(folder, {"--units", "difference", "--filter", "central"}), repeat, repeat);
+        check(table(folder, {"--units", "difference", "--filter", "central", "--wrap", "mirror"}), mirror, mirror);
+        check(table(folder, {"--units", "difference", "--filter", "central", "--wrap-u", "mirror"}), mirror, repeat);
+        check(table(folder, {"--units", "difference", "--filter", "central", "--wrap", "mirror", "--wrap-u", "repeat"}),
               repeat, mirror);
     }
 
@@ -122,7 +124,10 @@ TEST_SUITE("cli") {
             const auto bias = nlohmann::json::parse(run.out)["bias"];
             const double range = bias["range"];
             CHECK(bias["zero_level"] == 32768);
-            const Image<float> stored = read_image(folder / file);
+            ImageInfo info;
+            const Image<float> stored = read_image(folder / file, &info);
+            REQUIRE(slope_code(info.description));
+            CHECK(slope_code(info.description)->range == float(range));
             CHECK(stored.channels() ==
                   (std::string(file) == "b.tif" ? 2 : 3)); // two channels of a PNG would be grey and alpha
             double worst = 0, most = 0;

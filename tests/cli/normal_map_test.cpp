@@ -69,7 +69,7 @@ TEST_SUITE("cli") {
         check({"--amplitude", "-1"}, 0.5, -0.25);
         check({"--amplitude", "2", "--extent", "2,2"}, -0.5, 0.25);
         check({"--midlevel", "0.1"}, -0.5, 0.25);
-        for (const char* method : {"blinn", "surface-gradient", "exact", "lecture"})
+        for (const char* method : {"blinn", "surface-gradient", "exact", "constant-scale", "lecture"})
             check({"--method", method}, -0.5, 0.25);
     }
 

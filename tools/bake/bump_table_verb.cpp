@@ -20,27 +20,24 @@ struct BumpTableArgs {
 
 constexpr const char* bumpslopes_channels[] = {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"};
 
-/// Integer files hold slope * 32767 / range + 32768, so that a slope of 0 is a level of its own.
-struct Bias {
-    float range = 0; ///< largest slope; 0: not biased
-    float operator()(float slope) const { return (slope / range * 32767 + 32768) / 65535; }
-};
+using Code = std::optional<SlopeCode>; ///< of 16-bit files
 
-WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png) {
+WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png, const Code& code = {}) {
     WriteOptions options{
         .depth = depth, .compression = args.compression, .mips = args.layout == TableLayout::bumpslopes};
     if (args.layout == TableLayout::bumpslopes)
         options.channels.assign(std::begin(bumpslopes_channels), std::end(bumpslopes_channels));
     else options.channels = {"b_u", "b_v"};
     if (png) options.channels = {"R", "G", "B"};
+    if (code) options.description = to_text(*code);
     return options;
 }
 
 /// Rows of pairs as the file has them: biased, and with a third, zero channel in PNG, where two would mean alpha.
 class TableSink {
 public:
-    TableSink(ImageWriter& writer, int width, const Bias& bias, bool third, float limit, const std::string& path)
-        : writer_(writer), width_(width), bias_(bias), third_(third), limit_(limit), path_(path) {}
+    TableSink(ImageWriter& writer, int width, const Code& code, bool third, float limit, const std::string& path)
+        : writer_(writer), width_(width), code_(code), third_(third), limit_(limit), path_(path) {}
 
     void operator()(const float* pairs, int rows) {
         const std::size_t count = 2 * std::size_t(rows) * width_;
@@ -50,12 +47,12 @@ public:
                     throw Error(Refusal::unsuitable,
                                 path_ +
                                     format(": a slope of %g does not fit half floats; use --depth float", pairs[i]));
-        if (bias_.range == 0) return writer_.write(pairs, rows);
+        if (!code_) return writer_.write(pairs, rows);
         const int channels = third_ ? 3 : 2;
         room_.resize(count / 2 * channels);
         for (std::size_t i = 0; i < count / 2; ++i) {
-            room_[i * channels] = bias_(pairs[2 * i]);
-            room_[i * channels + 1] = bias_(pairs[2 * i + 1]);
+            room_[i * channels] = code_->encode(pairs[2 * i]);
+            room_[i * channels + 1] = code_->encode(pairs[2 * i + 1]);
             if (third_) room_[i * channels + 2] = 0;
         }
         writer_.write(room_.data(), rows);
@@ -64,7 +61,7 @@ public:
 private:
     ImageWriter& writer_;
     int width_;
-    Bias bias_;
+    Code code_;
     bool third_;
     float limit_;
     std::string path_;
@@ -75,11 +72,11 @@ bool is_png(const std::string& path) { return CLI::detail::to_lower(path).ends_w
 
 constexpr float largest_half = 65504;
 
-void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Bias& bias,
+void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Code& code,
                   Progress& progress) {
-    const bool png = bias.range > 0 && is_png(args.out);
-    ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png));
-    TableSink sink(writer, table.width(), bias, png, depth == Depth::half ? largest_half : 0, args.out);
+    const bool png = code && is_png(args.out);
+    ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png, code));
+    TableSink sink(writer, table.width(), code, png, depth == Depth::half ? largest_half : 0, args.out);
     for_bands(table, std::ref(sink), &progress);
     writer.finish();
 }
@@ -113,7 +110,7 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
 
 std::string_view name(SlopeUnits units) {
     switch (units) {
-    case SlopeUnits::lecture: return "lecture (two-sided difference)";
+    case SlopeUnits::difference: return "difference h[+1] - h[-1]";
     case SlopeUnits::texel: return "per texel";
     case SlopeUnits::uv: return "per unit of u and v";
     case SlopeUnits::world: return "per object unit";
@@ -150,19 +147,16 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("read");
     const int width = height.values.width(), rows = height.values.height();
     const BumpTable table(height, args.options, args.layout);
-    Bias bias;
-    if (depth == Depth::u16) {
-        bias.range = largest(table);
-        if (bias.range == 0) bias.range = 1; // a flat table
-    }
+    Code code;
+    if (depth == Depth::u16) code = code_for(table);
     progress.start("bake", rows);
-    if (args.layout == TableLayout::slopes) write_slopes(args, table, depth, bias, progress);
+    if (args.layout == TableLayout::slopes) write_slopes(args, table, depth, code, progress);
     else write_moments(args, table, depth, progress);
     progress.finish();
     watch.lap("bake and write");
 
     const Vec2d extent = resolve_extent(args.options.extent_u, args.options.extent_v, width, rows);
-    const BudgetInput input = table_budget(height, args.options, depth, bias.range);
+    const BudgetInput input = table_budget(height, args.options, depth, code);
     const ErrorBudget budget = error_budget(input);
     const std::optional<FilterAdvice> advice = better_filter(input, budget);
     if (advice) note(common, to_text(*advice));
@@ -181,15 +175,14 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
                                  {"error_budget", to_json(budget)},
                                  {"seconds", watch.to_json()}};
         if (advice) result["better_filter"] = to_json(*advice);
-        if (bias.range > 0)
-            result["bias"] = {{"range", bias.range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
+        if (code) result["bias"] = {{"range", code->range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
         std::printf("%s\n", result.dump(2).c_str());
         return 0;
     }
     std::printf("%s: %d x %d, slopes %s, filter %s (%s)\n", args.out.c_str(), width, rows,
                 std::string(name(args.options.units)).c_str(), std::string(name(table.filter())).c_str(),
                 describe_levels(height).c_str());
-    if (bias.range > 0) std::printf("stored biased: slope = (level - 32768) / 32767 * %.9g\n", double(bias.range));
+    if (code) std::printf("stored biased: %s\n", to_text(*code).c_str());
     if (height.step > 0)
         std::printf("one level of the height tilts the normal by %.3f deg at extent %g x %g\n", tilt, extent.x,
                     extent.y);
@@ -212,15 +205,16 @@ std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     sub.add_option_function<std::string>(
            "--units",
            [args](const std::string& given) {
-               args->units = given == "lecture" ? SlopeUnits::lecture
-                             : given == "texel" ? SlopeUnits::texel
-                             : given == "uv"    ? SlopeUnits::uv
-                                                : SlopeUnits::world;
+               args->units = given == "difference" || given == "lecture" ? SlopeUnits::difference
+                             : given == "texel"                          ? SlopeUnits::texel
+                             : given == "uv"                             ? SlopeUnits::uv
+                                                                         : SlopeUnits::world;
            },
-           "Slopes: lecture h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object unit "
+           "Slopes: difference h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object "
+           "unit "
            "(needs --extent to differ from 1 wide)")
-        ->check(one_of({"lecture", "texel", "uv", "world"}))
-        ->type_name("lecture|texel|uv|world");
+        ->check(one_of({"difference", "texel", "uv", "world", "lecture"}))
+        ->type_name("difference|texel|uv|world");
     sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")
         ->check(not_empty())
         ->capture_default_str();

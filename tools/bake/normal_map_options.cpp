@@ -11,8 +11,13 @@ void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
         ->check(not_empty())
         ->type_name("N|WxH");
     std::vector<std::pair<std::string, NormalMethod>> methods;
-    for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
-    add_choice(sub, "--method", args.method, methods, "Terms of the displaced normal that are kept");
+    std::string names;
+    for (const NormalMethod method : all_normal_methods) {
+        methods.emplace_back(name(method), method);
+        names += (names.empty() ? "" : "|") + methods.back().first;
+    }
+    methods.emplace_back("lecture", NormalMethod::constant_scale); // its earlier name
+    add_choice(sub, "--method", args.method, methods, "Terms of the displaced normal that are kept")->type_name(names);
     sub.add_option(
            "--amplitude", args.amplitude,
            "Height of white above black: object units, or 1% of the bounding box's diagonal; required with a mesh [1]")

@@ -38,7 +38,7 @@ Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const No
     result.budget = error_budget(input);
     result.advice = better_filter(input, result.budget);
     result.tilt_deg =
-        step_tilt_deg(height.step, options.height_options.amplitude, target.lecture.u, height.values.width());
+        step_tilt_deg(height.step, options.height_options.amplitude, target.scale.u, height.values.width());
     return result;
 }
 

@@ -23,6 +23,7 @@ struct ImageInfo {
     bool srgb_tagged = false; ///< the file says its values are sRGB-encoded
     int alpha_channel = -1;   ///< index in channels, -1 without alpha
     EnvironmentTag environment = EnvironmentTag::none;
+    std::string description = {}; ///< free text: PNG Description, TIFF ImageDescription, EXR comments
 };
 
 /// Limits on what a reader believes of a header before it allocates.
@@ -41,8 +42,9 @@ struct WriteOptions {
     std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
     Compression compression = Compression::automatic;
     EnvironmentTag environment = EnvironmentTag::none; ///< exr only: other readers then see an environment
-    bool srgb = false; ///< png: tagged as sRGB-encoded, which 16-bit pictures are not taken for otherwise
-    bool mips = false; ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
+    bool srgb = false;            ///< png: tagged as sRGB-encoded, which 16-bit pictures are not taken for otherwise
+    std::string description = {}; ///< free text, as ImageInfo
+    bool mips = false;            ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };
 
 } // namespace bake

@@ -102,6 +102,7 @@ ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
     info.environment = environment_tag(spec);
+    info.description = spec.get_string_attribute("ImageDescription");
     // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
     if (info.format == "png")
         if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
@@ -310,6 +311,7 @@ void open_writer(const FormatHost& host, const std::string& path, const std::str
     spec.attribute("oiio:UnassociatedAlpha", 1);
     // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
     if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (!options.description.empty()) spec.attribute("ImageDescription", options.description);
     if (options.environment == EnvironmentTag::cube) {
         spec.attribute("textureformat", cube_format);
         spec.full_height = spec.full_width;

@@ -74,6 +74,9 @@ public:
         info.type = bits == 8 ? SampleType::u8 : SampleType::u16;
         info.bits = bits;
         info.srgb_tagged = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0 || std::strstr(profile_name(), "sRGB");
+        png_textp texts = nullptr;
+        for (int i = png_get_text(png_, info_, &texts, nullptr); i-- > 0;)
+            if (!std::strcmp(texts[i].key, "Description")) info.description = texts[i].text;
         if (colours & PNG_COLOR_MASK_ALPHA) info.alpha_channel = int(info.channels.size()) - 1;
         return info;
     }

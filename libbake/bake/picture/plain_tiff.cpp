@@ -145,6 +145,8 @@ std::optional<PlainTiff> find_plain_tiff(const std::string& path, const ReadLimi
                          : depth == 16 ? SampleType::u16
                                        : SampleType::u8,
                  .bits = int(depth)};
+    char* description = nullptr;
+    if (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &description) == 1) tiff.info.description = description;
     return tiff;
 }
 
@@ -212,6 +214,8 @@ bool describe(TIFF* tiff, const PictureSize& size, const WriteOptions& options) 
            set(TIFFTAG_PHOTOMETRIC, colours == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB) &&
            set(TIFFTAG_SAMPLESPERPIXEL, size.channels) && set(TIFFTAG_ROWSPERSTRIP, strip_rows) &&
            set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) && set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) &&
+           (options.description.empty() ||
+            TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, options.description.c_str()) == 1) &&
            (extra.empty() || TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, int(extra.size()), extra.data()) == 1);
 }
 

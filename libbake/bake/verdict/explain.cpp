@@ -85,7 +85,7 @@ NormalMethod baked_method(const ExplainInput& in, const Jet<float>& jet, const H
 }
 
 RouteStep normal_step(NormalMethod baked, const BakeTarget& target, const Jet<double>& jet, const Height<double>& h) {
-    const LectureScale<double> scale{target.lecture.u, target.lecture.v};
+    const ConstantScale<double> scale{target.scale.u, target.scale.v};
     RouteStep step{"displaced_normal: N' by each method, unit", {}};
     const Vec3d exact = unit_or_zero(displaced_normal(jet, h, NormalMethod::exact));
     step.entries.push_back({"tilt from n", {glm::degrees(angle_between(exact, jet.n))}, "degrees, exact"});
@@ -181,7 +181,7 @@ std::vector<RouteStep> explain(const ExplainInput& in) {
         normal_step(baked, target, jet_at<double>(target.surface, hit.triangle, hit.b1, hit.b2), {h.b, h.b_u, h.b_v}));
     if (baked != in.options.method)
         route.back().entries.push_back({"folded here", {}, "blinn is used instead of exact"});
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, baked, target.lecture));
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, baked, target.scale));
     const Frame frame = frame_at(target, hit);
     const Vec3f t =
         in.options.space == Space::object ? normal : to_tangent_space(normal, frame.tangent, frame.n, frame.sign);

@@ -70,7 +70,7 @@ TEST_SUITE("unit") {
             for (std::size_t i = 0; i < table.size(); ++i)
                 CHECK(table.data()[i] == doctest::Approx(texel.data()[i] * (i % 2 ? v : u)).epsilon(1e-5));
         };
-        check(slopes(SlopeUnits::lecture), 2, 2);
+        check(slopes(SlopeUnits::difference), 2, 2);
         check(slopes(SlopeUnits::uv), 24, 12);
         check(slopes(SlopeUnits::world), 24, 24); // 1 wide, 1/2 high
         check(slopes(SlopeUnits::world, 1, 3), 8, 8);

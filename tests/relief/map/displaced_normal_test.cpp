@@ -101,8 +101,9 @@ TEST_SUITE("oracle") {
         }
     }
 
-    TEST_CASE("displaced_normal: lecture on a lat-long sphere, scaled at the equator, is off by asin(tan^2(lat / 2)) "
-              "at worst") {
+    TEST_CASE(
+        "displaced_normal: constant-scale on a lat-long sphere, scaled at the equator, is off by asin(tan^2(lat / 2)) "
+        "at worst") {
         const struct { double latitude, deg; } worst[] = {{30, 4.12}, {45, 9.88}, {60, 19.47}, {80, 44.76}};
         for (const auto& [latitude, deg] : worst) {
             CAPTURE(latitude);
@@ -111,9 +112,9 @@ TEST_SUITE("oracle") {
             for (double slope = 0.001; slope < 20; slope *= 1.002)
                 for (double turn = 0; turn < pi; turn += 0.01) {
                     const Height<double> h{0, slope * cos(turn), slope * sin(turn)};
-                    largest = std::max(
-                        largest, angle_deg(displaced_normal(s, h, NormalMethod::lecture, LectureScale<double>{1, 1}),
-                                           displaced_normal(s, h, NormalMethod::exact)));
+                    largest = std::max(largest, angle_deg(displaced_normal(s, h, NormalMethod::constant_scale,
+                                                                           ConstantScale<double>{1, 1}),
+                                                          displaced_normal(s, h, NormalMethod::exact)));
                 }
             CHECK(largest == doctest::Approx(deg).epsilon(5e-3));
         }
@@ -169,13 +170,14 @@ TEST_SUITE("unit") {
         CHECK(error(0.001) / error(0.0005) == doctest::Approx(4).epsilon(0.05));
     }
 
-    TEST_CASE("displaced_normal: the lecture equals blinn on an even, square chart") {
+    TEST_CASE("displaced_normal: constant-scale equals blinn on an even, square chart") {
         Jet<double> plane{};
         plane.p_u = {3, 0, 0}, plane.p_v = {0, 3, 0}, plane.n = {0, 0, 1};
         const Height<double> h{0.3, 0.7, -1.1};
-        check_vector(unit_normal(plane, h, NormalMethod::blinn),
-                     glm::normalize(displaced_normal(plane, h, NormalMethod::lecture, LectureScale<double>{3, 3})),
-                     1e-15);
+        check_vector(
+            unit_normal(plane, h, NormalMethod::blinn),
+            glm::normalize(displaced_normal(plane, h, NormalMethod::constant_scale, ConstantScale<double>{3, 3})),
+            1e-15);
     }
 }
 

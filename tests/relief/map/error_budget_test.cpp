@@ -137,7 +137,7 @@ TEST_SUITE("oracle") {
                      {0, Depth::u16, Filter::central, NormalMethod::exact},
                      {0, Depth::half, Filter::automatic, NormalMethod::exact},
                      {16, Depth::u16, Filter::sobel, NormalMethod::blinn},
-                     {16, Depth::u16, Filter::automatic, NormalMethod::lecture}};
+                     {16, Depth::u16, Filter::automatic, NormalMethod::constant_scale}};
         for (const auto& c : cases) {
             CAPTURE(c.height_bits);
             const HeightTexture height = relief_texture(r, 512, c.height_bits);

@@ -7,7 +7,8 @@ using oracle::TorusRelief;
 
 TEST_SUITE("oracle") {
 
-    TEST_CASE("normal_map: exact stays exact as the torus relief grows, blinn falls behind with its height, lecture is "
+    TEST_CASE("normal_map: exact stays exact as the torus relief grows, blinn falls behind with its height, "
+              "constant-scale is "
               "off at any") {
         const Mesh mesh = oracle::torus_mesh(512, 256);
         const BakeTarget target = make_bake_target(mesh, "torus", 512, 512);
@@ -31,6 +32,6 @@ TEST_SUITE("oracle") {
         CHECK(high[NormalMethod::exact] < 0.01);
         CHECK(high[NormalMethod::blinn] > 100 * low[NormalMethod::blinn]);
         CHECK(high[NormalMethod::surface_gradient] == doctest::Approx(high[NormalMethod::blinn]).epsilon(0.001));
-        CHECK(low[NormalMethod::lecture] > 50 * low[NormalMethod::blinn]);
+        CHECK(low[NormalMethod::constant_scale] > 50 * low[NormalMethod::blinn]);
     }
 }

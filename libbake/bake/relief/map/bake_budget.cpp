@@ -52,7 +52,7 @@ Vec3f stored_normal(const Vec3f& rgb, Depth depth) noexcept {
 BudgetInput plane_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
                          const Vec2d& extent, Depth depth) {
     BudgetInput input = common_input(height, field, options, depth);
-    input.lecture = {extent.x, extent.y};
+    input.scale = {extent.x, extent.y};
     input.jet = [plane = plane_jet(extent)](double, double) { return plane; };
     return input;
 }
@@ -60,7 +60,7 @@ BudgetInput plane_budget(const HeightTexture& height, const HeightField& field, 
 BudgetInput mesh_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
                         const BakeTarget& target, Depth depth) {
     BudgetInput input = common_input(height, field, options, depth);
-    input.lecture = {target.lecture.u, target.lecture.v};
+    input.scale = {target.scale.u, target.scale.v};
     input.jet = [&](double u, double v) -> std::optional<Jet<double>> {
         const Image<TexelHit>& hits = target.raster.hits;
         const int x = std::clamp(int(u * hits.width()), 0, hits.width() - 1);
@@ -72,7 +72,8 @@ BudgetInput mesh_budget(const HeightTexture& height, const HeightField& field, c
     return input;
 }
 
-BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth, double range) {
+BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth,
+                         const std::optional<SlopeCode>& code) {
     const int width = height.values.width(), rows = height.values.height();
     BumpTableOptions unit = options;
     unit.amplitude = 1;
@@ -81,7 +82,7 @@ BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& op
     const auto stored = [=](double slope, double per_uv) {
         const double value = slope * per_uv;
         if (depth == Depth::half) return as_half(float(value)) / per_uv;
-        if (depth == Depth::u16) return std::round(value / range * 32767) / 32767 * range / per_uv;
+        if (code) return code->decode(code->encode(float(value))) / per_uv;
         return float(value) / per_uv;
     };
     BudgetInput input{.values = &height.values, .step = height.step, .filter = resolve_filter(options.filter, height)};

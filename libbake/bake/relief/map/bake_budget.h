@@ -15,8 +15,8 @@ BudgetInput plane_budget(const HeightTexture& height, const HeightField& field, 
 /// Of a normal map on a mesh.
 BudgetInput mesh_budget(const HeightTexture& height, const HeightField& field, const NormalMapOptions& options,
                         const BakeTarget& target, Depth depth);
-/// Of a bump table used on a flat rectangle of the options' extent. `range` is the slope that the largest level of a
-/// 16-bit table stands for.
-BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth, double range);
+/// Of a bump table used on a flat rectangle of the options' extent. `code` is that of a 16-bit file, which needs one.
+BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& options, Depth depth,
+                         const std::optional<SlopeCode>& code = {});
 
 } // namespace bake

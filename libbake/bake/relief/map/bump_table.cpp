@@ -20,7 +20,7 @@ Vec2d resolve_extent(double extent_u, double extent_v, int width, int height) no
 Vec2d slope_scale(const BumpTableOptions& options, int width, int height) noexcept {
     const Vec2d texels(width, height);
     switch (options.units) {
-    case SlopeUnits::lecture: return Vec2d(2 * options.amplitude);
+    case SlopeUnits::difference: return Vec2d(2 * options.amplitude);
     case SlopeUnits::texel: return Vec2d(options.amplitude);
     case SlopeUnits::uv: return options.amplitude * texels;
     case SlopeUnits::world: break;
@@ -81,7 +81,7 @@ Image<float> bump_table(const HeightTexture& height, const BumpTableOptions& opt
     return out;
 }
 
-float largest(const BumpTable& table) {
+SlopeCode code_for(const BumpTable& table) {
     std::vector<float> of_row(table.height());
     for_rows(table.height(), 16, [&](std::int64_t begin, std::int64_t end) {
         SlopeFilter<float>::Scratch scratch;
@@ -93,7 +93,8 @@ float largest(const BumpTable& table) {
             of_row[y] = most;
         }
     });
-    return *std::max_element(of_row.begin(), of_row.end());
+    const float range = *std::max_element(of_row.begin(), of_row.end());
+    return {range > 0 ? range : 1};
 }
 
 namespace {

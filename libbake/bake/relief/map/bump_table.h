@@ -3,6 +3,7 @@
 #include "bake/base/vec.h"
 #include "bake/relief/height/height.h"
 #include "bake/relief/height/slope_filter.h"
+#include "bake/relief/map/slope_code.h"
 #include <functional>
 
 namespace bake {
@@ -10,10 +11,10 @@ namespace bake {
 class Progress;
 
 enum class SlopeUnits {
-    lecture, ///< the plain two-sided difference h[+1] - h[-1]: twice the slope per texel
-    texel,   ///< height per texel
-    uv,      ///< height per unit of u and of v
-    world,   ///< height per object unit, the picture being extent_u x extent_v
+    difference, ///< h[+1] - h[-1], the plain two-sided difference: twice the slope per texel
+    texel,      ///< height per texel
+    uv,         ///< height per unit of u and of v
+    world,      ///< height per object unit, the picture being extent_u x extent_v
 };
 
 struct BumpTableOptions {
@@ -71,8 +72,8 @@ void for_bands(const BumpTable& table, const std::function<void(const float*, in
 Image<float> bump_table(const HeightTexture& height, const BumpTableOptions& options,
                         TableLayout layout = TableLayout::slopes);
 
-/// Largest magnitude in the table.
-float largest(const BumpTable& table);
+/// The code whose range is the largest magnitude in the table; 1 for a table of zeros.
+SlopeCode code_for(const BumpTable& table);
 
 /// The next mip: half the size, rounded down, at least 1; each texel the mean by area of what it covers, so that first
 /// and second moments stay right (slopes and their squares filter linearly, normals do not).

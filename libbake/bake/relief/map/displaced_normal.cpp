@@ -7,7 +7,7 @@ std::string_view name(NormalMethod method) noexcept {
     case NormalMethod::exact: return "exact";
     case NormalMethod::blinn: return "blinn";
     case NormalMethod::surface_gradient: return "surface-gradient";
-    case NormalMethod::lecture: return "lecture";
+    case NormalMethod::constant_scale: return "constant-scale";
     }
     return "";
 }

@@ -17,21 +17,21 @@ enum class NormalMethod {
     exact,            ///< every term
     blinn,            ///< drops b n_u and b n_v: right while |b * curvature| stays under about 0.5 %
     surface_gradient, ///< n - grad b: blinn's normal, from the surface gradient
-    lecture,          ///< blinn with one constant length per unit of u and of v, and a square frame
+    constant_scale,   ///< blinn with one constant length per unit of u and of v, and a square frame
 };
 inline constexpr NormalMethod all_normal_methods[] = {NormalMethod::exact, NormalMethod::blinn,
-                                                      NormalMethod::surface_gradient, NormalMethod::lecture};
-/// "exact", "blinn", "surface-gradient", "lecture"
+                                                      NormalMethod::surface_gradient, NormalMethod::constant_scale};
+/// "exact", "blinn", "surface-gradient", "constant-scale"
 std::string_view name(NormalMethod method) noexcept;
 
-/// The lecture's constants: object units per unit of u and of v, the same all over the surface.
-template <class T> struct LectureScale { T u = 1, v = 1; };
+/// What constant_scale takes |p_u| and |p_v| to be: object units per unit of u and of v, equal all over the surface.
+template <class T> struct ConstantScale { T u = 1, v = 1; };
 
 /// N', outward, not normalised. For exact and blinn its length is the area of the displaced (du,dv) cell over that of
 /// the method's own terms; it is 0 where the surface folds or the chart has a pole. The caller decides what 0 means.
 template <class T>
 Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
-                         const LectureScale<T>& scale = {}) noexcept;
+                         const ConstantScale<T>& scale = {}) noexcept;
 
 /// Whether the surface displaced by b turns inside out there, along one principal direction or both: min(1 + b a_i) <= 0,
 /// a_i the principal curvatures. The sign of N' . n is not enough: it is positive again where both directions turned.
@@ -59,7 +59,7 @@ template <class T> inline Vec3<T> gradient_normal(const Jet<T>& s, const Height<
 
 // The frame is unit p_u and its perpendicular towards +v: right only where the chart is square and evenly scaled.
 template <class T>
-inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const LectureScale<T>& scale) noexcept {
+inline Vec3<T> constant_scale_normal(const Jet<T>& s, const Height<T>& h, const ConstantScale<T>& scale) noexcept {
     const Vec3<T> t = unit_or_zero(s.p_u);
     const Vec3<T> bitangent = s.sigma * glm::cross(s.n, t);
     return s.n - (h.b_u / scale.u) * t - (h.b_v / scale.v) * bitangent;
@@ -69,12 +69,12 @@ inline Vec3<T> lecture_normal(const Jet<T>& s, const Height<T>& h, const Lecture
 
 template <class T>
 inline Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
-                                const LectureScale<T>& scale) noexcept {
+                                const ConstantScale<T>& scale) noexcept {
     switch (method) {
     case NormalMethod::exact: return detail::cell_normal(s, h, h.b);
     case NormalMethod::blinn: return detail::cell_normal(s, h, T(0));
     case NormalMethod::surface_gradient: return detail::gradient_normal(s, h);
-    case NormalMethod::lecture: return detail::lecture_normal(s, h, scale);
+    case NormalMethod::constant_scale: return detail::constant_scale_normal(s, h, scale);
     }
     return Vec3<T>(T(0));
 }

@@ -31,7 +31,7 @@ struct Squares {
 Vec2d sensitivity(const BudgetInput& in, const Jet<double>& jet, const Height<double>& h) {
     const auto turned = [&](double du, double dv) {
         const Height<double> moved{h.b, h.b_u + du, h.b_v + dv};
-        return displaced_normal(jet, moved, in.method, in.lecture);
+        return displaced_normal(jet, moved, in.method, in.scale);
     };
     const double du = 1e-4 * (glm::length(jet.p_u) + std::abs(h.b_u)),
                  dv = 1e-4 * (glm::length(jet.p_v) + std::abs(h.b_v));
@@ -42,8 +42,8 @@ Vec2d sensitivity(const BudgetInput& in, const Jet<double>& jet, const Height<do
 
 void add_sample(const BudgetInput& in, const Jet<double>& jet, const Height<double>& h, const Height<double>& sharp,
                 const Vec2d& noise, const Vec2d& difference_noise, Squares& sum) {
-    const Vec3d n = displaced_normal(jet, h, in.method, in.lecture);
-    const Vec3d reference = displaced_normal(jet, sharp, in.method, in.lecture);
+    const Vec3d n = displaced_normal(jet, h, in.method, in.scale);
+    const Vec3d reference = displaced_normal(jet, sharp, in.method, in.scale);
     if (n == Vec3d(0) || reference == Vec3d(0)) return;
     const auto square = [](double a) { return a * a; };
     const Vec2d turn = sensitivity(in, jet, h);

@@ -27,7 +27,7 @@ struct BudgetInput {
     HeightOptions options;
     Filter filter = Filter::central; ///< not automatic
     NormalMethod method = NormalMethod::exact;
-    LectureScale<double> lecture;
+    ConstantScale<double> scale;
     int lattice = 96; ///< samples a side, at most
     /// The base surface at (u, v); nothing where the chart is empty.
     std::function<std::optional<Jet<double>>(double u, double v)> jet;

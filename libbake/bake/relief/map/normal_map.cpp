@@ -104,7 +104,7 @@ Image<float> normal_map(const HeightField& field, const Vec2d& extent, const Nor
     plane.p_u = Vec3f(float(extent.x), 0, 0);
     plane.p_v = Vec3f(0, float(extent.y), 0);
     plane.n = flat_normal;
-    const LectureScale<float> scale{float(extent.x), float(extent.y)};
+    const ConstantScale<float> scale{float(extent.x), float(extent.y)};
     Image<float> map(field.width(), field.height(), 3);
     for_rows(
         field.height(), 16,
@@ -127,8 +127,8 @@ Image<float> normal_map(const HeightField& field, const Vec2d& extent, const Nor
 
 namespace {
 
-/// Mean length of p_u and p_v over the charts, each triangle by its area in uv: the lecture's one constant per axis.
-LectureScale<float> mean_scale(const MeshSurface& s) {
+/// Mean length of p_u and p_v over the charts, weighted by the triangles' areas in uv: the lengths that constant_scale works with.
+ConstantScale<float> mean_scale(const MeshSurface& s) {
     double area_sum = 0, u_sum = 0, v_sum = 0;
     for (std::size_t i = 0; i < s.triangles.size(); ++i) {
         if (s.sigma[i] == 0) continue;
@@ -168,12 +168,12 @@ TriangleFrame triangle_frame(const BakeTarget& target, std::uint32_t triangle) n
 }
 
 Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h,
-                 const LectureScale<float>& lecture, const NormalMapOptions& options) noexcept {
+                 const ConstantScale<float>& scale, const NormalMapOptions& options) noexcept {
     const Jet<float> jet = jet_at(frame.patch, b1, b2);
     const bool folded = folds(jet, h.b);
     // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
     const NormalMethod method = folded && options.method == NormalMethod::exact ? NormalMethod::blinn : options.method;
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, lecture));
+    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, scale));
     if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
     const auto mix = [&, b0 = 1 - b1 - b2](const Vec3f(&a)[3]) { return b0 * a[0] + b1 * a[1] + b2 * a[2]; };
     return {to_tangent_space(normal, mix(frame.tangent), mix(frame.patch.n), frame.sign), folded};
@@ -187,7 +187,7 @@ BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width
     target.surface = make_mesh_surface(mesh);
     target.tangents = corner_tangents(mesh, target.surface.triangles, target.surface.n);
     target.raster = uv_raster(mesh, target.surface.triangles, width, height);
-    target.lecture = mean_scale(target.surface);
+    target.scale = mean_scale(target.surface);
     if (target.raster.covered + target.raster.border == 0)
         throw Error(Refusal::unsuitable,
                     path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
@@ -215,7 +215,7 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
                     Texel texel{flat_normal};
                     const bool hit = hits[x].triangle != no_index;
                     if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
-                    if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.lecture, options);
+                    if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.scale, options);
                     const bool own = hit && texel.t != Vec3f(0);
                     if (hit && !own) ++degenerate_here, texel.t = flat_normal;
                     folded_here += texel.folded;

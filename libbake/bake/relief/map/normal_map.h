@@ -82,7 +82,7 @@ struct BakeTarget {
     MeshSurface surface;
     std::vector<Vec4f> tangents; ///< corners
     UvRaster raster;
-    LectureScale<float> lecture; ///< mean |p_u| and |p_v| over the charts
+    ConstantScale<float> scale; ///< mean |p_u| and |p_v| over the charts
 };
 /// The mesh must outlive it. Throws Error{Refusal::unsuitable} for a mesh without uvs (`path` is named in it).
 BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height);
