@@ -149,6 +149,53 @@ TEST_SUITE("unit") {
             }
     }
 
+    TEST_CASE("slope_filter: a stencil with several taps and a side has one meaning in row, at, gain and noise") {
+        const Stencil wide{{8.0 / 12, -1.0 / 12}, 0.25, 4};
+        const int n = 24;
+        const double w = 2 * pi * 3 / n, w_cross = 2 * pi * 5 / n;
+        const auto wave = picture(n, n, [&](int x, int y) { return sin(w * x) * cos(w_cross * y); });
+        for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
+            const SlopeFilter<double> filter(wave, wide, wrap, wrap);
+            SlopeFilter<double>::Scratch scratch;
+            std::vector<Vec2d> row(n);
+            for (int y = 0; y < n; ++y) {
+                filter.row(y, 2, 3, &row[0].x, scratch);
+                for (int x = 0; x < n; ++x) {
+                    const auto [along_u, along_v] = filter.at(x, y, 2, 3);
+                    CHECK(std::abs(row[x].x - along_u) < 1e-12);
+                    CHECK(std::abs(row[x].y - along_v) < 1e-12);
+                }
+                if (wrap == Wrap::repeat && y == 0) CHECK(row[0].x / (2 * w) == doctest::Approx(wide.gain(w, w_cross)));
+            }
+        }
+        // The slopes of an impulse are the weights themselves.
+        const auto impulse = picture(n, n, [&](int x, int y) { return x == 12 && y == 12; });
+        const SlopeFilter<double> filter(impulse, wide, Wrap::repeat, Wrap::repeat);
+        SlopeFilter<double>::Scratch scratch;
+        std::vector<Vec2d> row(n);
+        Vec2d squares(0);
+        for (int y = 0; y < n; ++y) {
+            filter.row(y, 1, 1, &row[0].x, scratch);
+            for (const Vec2d& slope : row) squares += slope * slope;
+        }
+        CHECK(std::sqrt(squares.x) == doctest::Approx(wide.noise()));
+        CHECK(std::sqrt(squares.y) == doctest::Approx(wide.noise()));
+    }
+
+    TEST_CASE("slope_filter: a border degree beyond the largest is lowered alike along u and along v") {
+        const Stencil steep{{45.0 / 60, -9.0 / 60, 1.0 / 60}, 0, 11};
+        const auto value = [](int x, int y) { return sin(0.9 * x) + 0.3 * cos(1.7 * y + 0.2 * x); };
+        const int n = 16;
+        const auto upright = picture(n, n, value), turned = picture(n, n, [&](int x, int y) { return value(y, x); });
+        const SlopeFilter<double> a(upright, steep, Wrap::clamp, Wrap::clamp),
+            b(turned, steep, Wrap::clamp, Wrap::clamp);
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                CHECK(a.at(x, y, 1, 1).first == doctest::Approx(-b.at(y, x, 1, 1).second));
+                CHECK(a.at(x, y, 1, 1).second == doctest::Approx(-b.at(y, x, 1, 1).first));
+            }
+    }
+
     TEST_CASE("slope_filter: the sharp stencil is right to 1e-3 up to four fifths of the highest frequency") {
         for (double w = 0.05; w < 0.78 * pi; w += 0.05) CHECK(std::abs(sharp_stencil().gain(w) - 1) < 1e-3);
     }

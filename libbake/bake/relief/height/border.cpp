@@ -18,31 +18,30 @@ int wrap_index(int i, int n, Wrap wrap) noexcept {
 
 namespace {
 
-void lagrange_weights(int k, int degree, double* weights) noexcept {
-    for (int j = 0; j <= degree; ++j) {
-        weights[j] = 1;
-        for (int i = 0; i <= degree; ++i)
-            if (i != j) weights[j] *= double(-k - i) / double(j - i);
+/// Weights w of the samples 0 to degree, so that the sum of w[j] h[j] is the value at -k of the polynomial through them.
+struct Extrapolation {
+    int degree;
+    double w[largest_degree + 1];
+
+    /// For rows of n samples: the degree is lowered to largest_degree and to n - 1.
+    Extrapolation(int k, int wanted_degree, int n) noexcept : degree(std::min({wanted_degree, n - 1, largest_degree})) {
+        for (int j = 0; j <= degree; ++j) {
+            w[j] = 1;
+            for (int i = 0; i <= degree; ++i)
+                if (i != j) w[j] *= double(-k - i) / double(j - i);
+        }
     }
-}
+};
 
 } // namespace
 
-std::vector<double> extrapolation_weights(int k, int degree) {
-    std::vector<double> weights(degree + 1);
-    lagrange_weights(k, degree, weights.data());
-    return weights;
-}
-
 template <class T> std::pair<T, T> beyond_ends(const T* row, int n, Wrap wrap, int k, int degree) noexcept {
     if (wrap != Wrap::clamp) return {row[wrap_index(-k, n, wrap)], row[wrap_index(n - 1 + k, n, wrap)]};
-    degree = std::min({degree, n - 1, largest_degree});
-    double weights[largest_degree + 1];
-    lagrange_weights(k, degree, weights);
+    const Extrapolation polynomial(k, degree, n);
     double left = 0, right = 0;
-    for (int j = 0; j <= degree; ++j) {
-        left += weights[j] * row[j];
-        right += weights[j] * row[n - 1 - j];
+    for (int j = 0; j <= polynomial.degree; ++j) {
+        left += polynomial.w[j] * row[j];
+        right += polynomial.w[j] * row[n - 1 - j];
     }
     return {T(left), T(right)};
 }
@@ -58,7 +57,6 @@ ExtendedRows<T>::ExtendedRows(const Image<T>& image, Wrap wrap, int reach, int d
     : reach_(reach), outside_(image.width(), wrap == Wrap::clamp ? 2 * reach : 0, 1),
       rows_(image.height() + 2 * reach) {
     const int n = image.height(), width = image.width();
-    degree = std::min(degree, n - 1);
     for (int y = 0; y < n; ++y) rows_[y + reach] = image.row(y);
     for (int k = 1; k <= reach; ++k) {
         const T*& above = rows_[reach - k];
@@ -68,14 +66,14 @@ ExtendedRows<T>::ExtendedRows(const Image<T>& image, Wrap wrap, int reach, int d
             below = image.row(wrap_index(n - 1 + k, n, wrap));
             continue;
         }
-        const std::vector<double> weights = extrapolation_weights(k, degree);
+        const Extrapolation polynomial(k, degree, n);
         T* top = outside_.row(2 * k - 2);
         T* bottom = outside_.row(2 * k - 1);
         for (int x = 0; x < width; ++x) {
             double top_sum = 0, bottom_sum = 0;
-            for (int j = 0; j <= degree; ++j) {
-                top_sum += weights[j] * image.at(x, j);
-                bottom_sum += weights[j] * image.at(x, n - 1 - j);
+            for (int j = 0; j <= polynomial.degree; ++j) {
+                top_sum += polynomial.w[j] * image.at(x, j);
+                bottom_sum += polynomial.w[j] * image.at(x, n - 1 - j);
             }
             top[x] = T(top_sum);
             bottom[x] = T(bottom_sum);

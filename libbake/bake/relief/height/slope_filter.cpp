@@ -218,40 +218,78 @@ template <class T> void SlopeFilter<T>::spline_row(int y, T scale_u, T scale_v, 
     interleave(slope_u, scratch.b.data() + std::size_t(y % spline_block) * n, scale_u, scale_v, out, n);
 }
 
-template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
-    const int n = image_.width(), padded = n + 2 * reach_, taps = int(taps_.size()), degree = stencil_.border_degree;
-    if (taps == 1) {
-        const auto with_ends = [&](const T* row) {
-            return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, degree)};
-        };
-        const RowWithEnds<T> rows[3] = {with_ends(rows_(y - 1)), with_ends(rows_(y)), with_ends(rows_(y + 1))};
-        const T side = T(stencil_.side), tap_u = taps_[0] * scale_u, tap_v = taps_[0] * scale_v;
-        over_row(rows, n, [=](const T* above, const T* here, const T* below, int first, int count) {
-            T* const to = out + 2 * std::size_t(first);
-            if (side == 0) central(above, here, below, tap_u, tap_v, to, count);
-            else smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
-        });
-        return;
+template <class T> void SlopeFilter<T>::one_tap_row(int y, T scale_u, T scale_v, T* out) const {
+    const int n = image_.width();
+    const auto with_ends = [&](const T* row) {
+        return RowWithEnds<T>{row, beyond_ends(row, n, wrap_u_, 1, stencil_.border_degree)};
+    };
+    const RowWithEnds<T> rows[3] = {with_ends(rows_(y - 1)), with_ends(rows_(y)), with_ends(rows_(y + 1))};
+    const T side = T(stencil_.side), tap_u = taps_[0] * scale_u, tap_v = taps_[0] * scale_v;
+    over_row(rows, n, [=](const T* above, const T* here, const T* below, int first, int count) {
+        T* const to = out + 2 * std::size_t(first);
+        if (side == 0) central(above, here, below, tap_u, tap_v, to, count);
+        else smoothed_central(above, here, below, side, tap_u, tap_v, to, count);
+    });
+}
+
+namespace {
+
+/// Where the samples of every tap are: one pointer per tap, `first` being the sample of the first texel.
+template <class T> struct TapSamples {
+    const T *ahead[largest_reach], *behind[largest_reach];
+
+    void along_row(const T* first, int taps) noexcept {
+        for (int k = 1; k <= taps; ++k) ahead[k - 1] = first + k, behind[k - 1] = first - k;
     }
-    if (stencil_.spline) return spline_row(y, scale_u, scale_v, out, scratch);
-    scratch.a.resize(padded);
+    void across_rows(const ExtendedRows<T>& rows, int y, int x, int taps) noexcept {
+        for (int k = 1; k <= taps; ++k) ahead[k - 1] = rows(y - k) + x, behind[k - 1] = rows(y + k) + x;
+    }
+};
+
+} // namespace
+
+template <class T> void SlopeFilter<T>::plain_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
+    const int n = image_.width(), taps = int(taps_.size());
+    scratch.a.resize(n + 2 * std::size_t(reach_));
     scratch.b.resize(2 * block);
-    scratch.filter = 0;
-    T* const row = scratch.a.data();
-    T* const slope_u = scratch.b.data();
-    T* const slope_v = slope_u + block;
-    extend_row(rows_(y), n, wrap_u_, reach_, degree, row);
-    const T *right[largest_reach], *left[largest_reach], *above[largest_reach], *below[largest_reach];
+    T *const row = scratch.a.data(), *const slope_u = scratch.b.data(), *const slope_v = slope_u + block;
+    extend_row(rows_(y), n, wrap_u_, reach_, stencil_.border_degree, row);
+    TapSamples<T> samples;
     for (int x = 0; x < n; x += block) {
         const int count = std::min(block, n - x);
-        for (int k = 1; k <= taps; ++k) {
-            right[k - 1] = row + reach_ + k + x, left[k - 1] = row + reach_ - k + x;
-            above[k - 1] = rows_(y - k) + x, below[k - 1] = rows_(y + k) + x;
-        }
-        differentiate(right, left, taps_.data(), taps, slope_u, count);
-        differentiate(above, below, taps_.data(), taps, slope_v, count);
+        samples.along_row(row + reach_ + x, taps);
+        differentiate(samples.ahead, samples.behind, taps_.data(), taps, slope_u, count);
+        samples.across_rows(rows_, y, x, taps);
+        differentiate(samples.ahead, samples.behind, taps_.data(), taps, slope_v, count);
         interleave(slope_u, slope_v, scale_u, scale_v, out + 2 * std::size_t(x), count);
     }
+}
+
+template <class T> void SlopeFilter<T>::smoothed_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
+    const int n = image_.width(), taps = int(taps_.size()), degree = stencil_.border_degree;
+    scratch.a.resize(n + 2 * std::size_t(reach_));
+    scratch.b.resize(2 * std::size_t(n) + 2);
+    T *const row = scratch.a.data(), *const slope_u = scratch.b.data(), *const across = slope_u + n;
+    const T side = T(stencil_.side), centre = 1 - 2 * side;
+    const T *above = rows_(y - 1), *here = rows_(y), *below = rows_(y + 1);
+    for (int x = 0; x < n; ++x) row[reach_ + x] = centre * here[x] + side * (above[x] + below[x]);
+    extend_row(row + reach_, n, wrap_u_, reach_, degree, row);
+    TapSamples<T> samples;
+    samples.along_row(row + reach_, taps);
+    differentiate(samples.ahead, samples.behind, taps_.data(), taps, slope_u, n);
+    samples.across_rows(rows_, y, 0, taps);
+    differentiate(samples.ahead, samples.behind, taps_.data(), taps, across + 1, n);
+    extend_row(across + 1, n, wrap_u_, 1, degree, across);
+    for (int x = 0; x < n; ++x) row[x] = centre * across[x + 1] + side * (across[x] + across[x + 2]);
+    interleave(slope_u, row, scale_u, scale_v, out, n);
+}
+
+template <class T> void SlopeFilter<T>::row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const {
+    if (taps_.size() == 1) return one_tap_row(y, scale_u, scale_v, out);
+    if (stencil_.spline) return spline_row(y, scale_u, scale_v, out, scratch);
+    scratch.filter = 0; // the block of spline slopes is overwritten
+    if (stencil_.side == 0) plain_row(y, scale_u, scale_v, out, scratch);
+    else smoothed_row(y, scale_u, scale_v, out, scratch);
 }
 
 template <class T> std::pair<T, T> SlopeFilter<T>::at(int x, int y, T scale_u, T scale_v) const noexcept {

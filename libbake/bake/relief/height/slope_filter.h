@@ -13,7 +13,7 @@ namespace bake {
 
 enum class Filter {
     automatic, ///< sobel for sources of 256 levels or fewer, c2 otherwise
-    central,   ///< (h[+1] - h[-1]) / 2, the lecture's
+    central,   ///< (h[+1] - h[-1]) / 2
     sobel,
     scharr,
     order4,
@@ -67,7 +67,10 @@ public:
     std::pair<T, T> at(int x, int y, T scale_u, T scale_v) const noexcept;
 
 private:
+    void one_tap_row(int y, T scale_u, T scale_v, T* out) const;
     void spline_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
+    void smoothed_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
+    void plain_row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
 
     const Image<T>& image_;
     Stencil stencil_;
