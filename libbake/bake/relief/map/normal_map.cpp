@@ -1,6 +1,7 @@
 #include "bake/relief/map/normal_map.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/relief/map/texel_row.h"
 #include "bake/surface/chart/tangent_space.h"
 #include <algorithm>
 #include <atomic>
@@ -145,40 +146,6 @@ ConstantScale<float> mean_scale(const MeshSurface& s) {
     return {float(u_sum / area_sum), float(v_sum / area_sum)};
 }
 
-/// One texel: the frame of the triangle under it, and N' in it.
-struct Texel {
-    Vec3f t{0};
-    bool folded = false;
-};
-
-/// What the texels of one triangle share.
-struct TriangleFrame {
-    std::uint32_t triangle = no_index;
-    TrianglePatch<float> patch{};
-    Vec3f tangent[3];
-    float sign = 1;
-};
-
-TriangleFrame triangle_frame(const BakeTarget& target, std::uint32_t triangle) noexcept {
-    TriangleFrame frame{.triangle = triangle, .patch = triangle_patch<float>(target.surface, triangle)};
-    const auto& corner = target.surface.triangles[triangle].corner;
-    for (int k = 0; k < 3; ++k) frame.tangent[k] = Vec3f(target.tangents[corner[k]]);
-    frame.sign = target.tangents[corner[0]].w;
-    return frame;
-}
-
-Texel bake_texel(const TriangleFrame& frame, float b1, float b2, const Height<float>& h,
-                 const ConstantScale<float>& scale, const NormalMapOptions& options) noexcept {
-    const Jet<float> jet = jet_at(frame.patch, b1, b2);
-    const bool folded = folds(jet, h.b);
-    // Inside out, the exact normal points into the surface; blinn's keeps the relief's shading.
-    const NormalMethod method = folded && options.method == NormalMethod::exact ? NormalMethod::blinn : options.method;
-    const Vec3f normal = unit_or_zero(displaced_normal(jet, h, method, scale));
-    if (options.space == Space::object || normal == Vec3f(0)) return {normal, folded};
-    const auto mix = [&, b0 = 1 - b1 - b2](const Vec3f(&a)[3]) { return b0 * a[0] + b1 * a[1] + b2 * a[2]; };
-    return {to_tangent_space(normal, mix(frame.tangent), mix(frame.patch.n), frame.sign), folded};
-}
-
 } // namespace
 
 BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height) {
@@ -205,27 +172,13 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
         [&](std::int64_t begin, std::int64_t end) {
             SlopeFilter<float>::Scratch scratch;
             std::vector<Height<float>> heights(width);
-            TriangleFrame frame;
-            std::int64_t degenerate_here = 0, folded_here = 0;
+            TexelRow texels(target, options);
             for (auto y = int(begin); y < int(end); ++y) {
                 field.row(y, heights.data(), scratch);
-                const TexelHit* hits = target.raster.hits.row(y);
-                float* to = map.row(y);
-                for (int x = 0; x < width; ++x, to += 3) {
-                    Texel texel{flat_normal};
-                    const bool hit = hits[x].triangle != no_index;
-                    if (hit && hits[x].triangle != frame.triangle) frame = triangle_frame(target, hits[x].triangle);
-                    if (hit) texel = bake_texel(frame, hits[x].b1, hits[x].b2, heights[x], target.scale, options);
-                    const bool own = hit && texel.t != Vec3f(0);
-                    if (hit && !own) ++degenerate_here, texel.t = flat_normal;
-                    folded_here += texel.folded;
-                    owned.at(x, y) = own;
-                    const Vec3f rgb = encode_normal(texel.t, options.directx);
-                    to[0] = rgb.x, to[1] = rgb.y, to[2] = rgb.z;
-                }
+                texels.bake(y, heights.data(), map.row(y), owned.row(y));
             }
-            degenerate += degenerate_here;
-            folded += folded_here;
+            degenerate += texels.counts().degenerate;
+            folded += texels.counts().folded;
         },
         progress);
     const UvRaster& raster = target.raster;
@@ -239,8 +192,10 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
             }
     report.degenerate = degenerate;
     report.folded = folded;
-    report.padded = pad_texels(map, owned, options.padding);
-    report.empty = std::int64_t(width) * height - report.covered - report.border + report.degenerate - report.padded;
+    const std::int64_t texels = std::int64_t(width) * height;
+    const bool full = report.covered + report.border - report.degenerate == texels;
+    report.padded = full ? 0 : pad_texels(map, owned, options.padding);
+    report.empty = texels - report.covered - report.border + report.degenerate - report.padded;
     return map;
 }
 
