@@ -138,14 +138,15 @@ TEST_SUITE("unit") {
         CHECK(two.at(1, 0) == doctest::Approx((0.5 * 4 + 8 + 16) / 2.5));
     }
 
-    TEST_CASE("bump_table: largest is that of the whole table, of either sign") {
+    TEST_CASE("bump_table: the range of its 16-bit code is the largest slope of the whole table, of either sign; 1 if "
+              "all are 0") {
         HeightTexture texture = noise(50, 300);
         const Image<float> slopes = bump_table(texture, {});
         float most = 0;
         for (std::size_t i = 0; i < slopes.size(); ++i) most = std::max(most, std::abs(slopes.data()[i]));
-        CHECK(largest(BumpTable(texture, {})) == most);
+        CHECK(code_for(BumpTable(texture, {})).range == most);
         std::fill_n(texture.values.data(), texture.values.size(), 0.25f);
-        CHECK(largest(BumpTable(texture, {})) == 0);
+        CHECK(code_for(BumpTable(texture, {})).range == 1);
     }
 
 } // TEST_SUITE
