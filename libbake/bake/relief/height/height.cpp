@@ -13,7 +13,7 @@
 namespace bake {
 namespace {
 
-/// Weight of every channel of the file in the grey value.
+/// Weight of each channel of the file in the grey value.
 std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, Grey grey) {
     const int count = int(info.channels.size());
     const auto colour = [&](int c) { return c != info.alpha_channel; };
@@ -21,7 +21,7 @@ std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, 
     for (int c = 0; c < count; ++c)
         if (colour(c)) colours.push_back(c);
     const auto missing = [&](const char* what) {
-        return Error(Refusal::unsuitable, path + ": has no " + what + " channel; choose another --channel");
+        return Error(Refusal::unsuitable, path + ": has no " + what + " channel; choose another channel");
     };
     std::vector<float> weights(count, 0.0f);
     switch (grey) {
@@ -55,7 +55,7 @@ std::vector<float> used_levels(const Image<float>& picture, int channel) {
     std::vector<float> levels;
     std::atomic<bool> many{false};
     for_rows(picture.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-        // Neighbours are often equal, and a short table of recent values answers for most others.
+        // Neighbours are often equal, and a short table of recent values contains most other values.
         constexpr std::uint32_t slots = 1024;
         std::vector<float> recent(slots, std::nanf("")), seen;
         for (auto y = int(begin); y < int(end) && !many; ++y) {
@@ -89,7 +89,7 @@ double smallest_step(const std::vector<float>& levels) {
 }
 
 void count_levels(HeightTexture& height, const Image<float>& picture, const std::vector<float>& weights) {
-    // One channel is counted, not the grey: a tint must not make 8 bits look like more.
+    // One channel is counted, not the grey mean: the mean of a slightly tinted 8-bit picture has more than 256 levels.
     const int channel = int(std::max_element(weights.begin(), weights.end()) - weights.begin());
     const std::vector<float> levels = used_levels(picture, channel);
     const bool many = levels.size() > most_levels;
@@ -97,12 +97,12 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
     const int bits = height.info.bits;
     const double stored =
         height.info.type == SampleType::u8 || height.info.type == SampleType::u16 ? 1.0 / (std::exp2(bits) - 1) : 0.0;
-    // A file of 16 bits that uses 256 levels is an 8-bit height; a smaller step than the type's cannot be.
+    // A 16-bit file with at most 256 levels is an 8-bit height. No step is smaller than that of the type.
     height.step = many ? stored : std::max(stored, smallest_step(levels));
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
-    // Slopes of what is beyond this would leave the range of float.
+    // Slopes of larger values could leave the range of float.
     constexpr float largest = 1e12f;
     std::vector<std::int64_t> bad_in_row(values.height());
     for_rows(values.height(), 64, [&](std::int64_t begin, std::int64_t end) {
@@ -236,8 +236,8 @@ template <class T> Image<T> padded_along_u(const Image<T>& values, Wrap wrap, in
     return out;
 }
 
-// Coefficients beyond the border are those of the texture that continues there: its repeats, or, clamped, the border's
-// polynomial, which must be in place before the coefficients are found.
+/// Coefficients beyond the border are those of the continued texture. With clamp this is the border's polynomial, which
+/// must be evaluated before the coefficients.
 template <class T> Image<T> padded_spline(const Image<T>& values, Wrap wrap_u, Wrap wrap_v) {
     Image<T> along_v = wrap_v == Wrap::clamp ? spline_along_v(padded_along_v(values, wrap_v, 3), wrap_v)
                                              : padded_along_v(spline_along_v(values, wrap_v), wrap_v, 3);
@@ -246,9 +246,9 @@ template <class T> Image<T> padded_spline(const Image<T>& values, Wrap wrap_u, W
 }
 
 /// Four weights of the taps at -1, 0, 1, 2 and their derivatives, for a position t in [0,1] between taps 0 and 1.
-template <class T> struct Weights { T w[4], d[4]; };
+template <class T> struct TapWeights { T w[4], d[4]; };
 
-template <Interpolation interpolation, class T> Weights<T> tap_weights(T t) noexcept {
+template <Interpolation interpolation, class T> TapWeights<T> tap_weights(T t) noexcept {
     const T t2 = t * t, t3 = t2 * t;
     if constexpr (interpolation == Interpolation::bilinear) return {{0, 1 - t, t, 0}, {0, -1, 1, 0}};
     if constexpr (interpolation == Interpolation::catmull_rom)
@@ -301,9 +301,9 @@ template <Interpolation interpolation, class U>
 inline Height<U> HeightSampler<T>::sample_by(U u, U v) const noexcept {
     const auto [x, side_u] = texel_position(u, width_, options_.wrap_u);
     const auto [y, side_v] = texel_position(U(1) - v, height_, options_.wrap_v);
-    // Down to a whole number; x and y are -1/2 and more, and conversion is quicker than std::floor.
+    // Rounded down: x and y are at least -1/2, and conversion to int is faster than std::floor.
     const int ix = std::clamp(int(x + 1) - 1, -1, width_ - 1), iy = std::clamp(int(y + 1) - 1, -1, height_ - 1);
-    const Weights<U> wx = tap_weights<interpolation>(x - ix), wy = tap_weights<interpolation>(y - iy);
+    const TapWeights<U> wx = tap_weights<interpolation>(x - ix), wy = tap_weights<interpolation>(y - iy);
     U value = 0, along_x = 0, along_y = 0;
     for (int j = 0; j < 4; ++j) {
         const T* row = padded_.row(iy - 1 + j + pad) + ix - 1 + pad;

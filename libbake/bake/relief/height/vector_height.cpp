@@ -12,9 +12,10 @@ Image<float> read_vector_height(const std::string& path, ImageInfo* info) {
     for (int c = 0; c < picture.channels(); ++c)
         if (c != own.alpha_channel) colours.push_back(c);
     if (colours.size() < 3)
-        throw Error(Refusal::unsuitable, path + ": has " + std::to_string(colours.size()) + " colour channel" +
-                                             (colours.size() == 1 ? "" : "s") +
-                                             ", a vector needs three; leave out --vector, or give a picture of three");
+        throw Error(Refusal::unsuitable,
+                    path + ": has " + std::to_string(colours.size()) + " colour channel" +
+                        (colours.size() == 1 ? "" : "s") +
+                        ", a vector needs three; give a picture with three, or read it as a height");
     Image<float> vectors(picture.width(), picture.height(), 3);
     std::int64_t bad = 0;
     int bad_x = 0, bad_y = 0;

@@ -66,7 +66,7 @@ void set_frame(TriangleFrame& frame, const BakeTarget& target, std::uint32_t tri
 }
 
 /// The values of a block's texels, an array per value.
-struct Block {
+struct TexelBlock {
     float b1[block + together], b2[block + together];
     float value[values][block + together];
     float b[block], b_u[block], b_v[block];
@@ -75,7 +75,7 @@ struct Block {
 };
 
 /// Evaluates a run of texels in one triangle.
-void set_run(Block& to, const TriangleFrame& frame, int first, int count) noexcept {
+void set_run(TexelBlock& to, const TriangleFrame& frame, int first, int count) noexcept {
     for (int x = first; x < first + count; x += together) {
         float b1[together], b2[together];
         for (int i = 0; i < together; ++i) b1[i] = to.b1[x + i], b2[i] = to.b2[x + i];
@@ -95,8 +95,9 @@ struct Encoding {
 constexpr float zero_below = 1e-6f; ///< as to_tangent_space
 
 /// The loop: see the header for the names.
-template <NormalMethod method, Space space> void normals(Block& block_, int count, const Encoding& encoding) noexcept {
-    Block& t = block_;
+template <NormalMethod method, Space space>
+void normals(TexelBlock& block_, int count, const Encoding& encoding) noexcept {
+    TexelBlock& t = block_;
     for (int i = 0; i < count; ++i) {
         const auto vector = [&](int value) {
             return Vec3f(t.value[value][i], t.value[value + 1][i], t.value[value + 2][i]);
@@ -150,7 +151,7 @@ template <NormalMethod method, Space space> void normals(Block& block_, int coun
     }
 }
 
-using Normals = void (*)(Block&, int, const Encoding&) noexcept;
+using Normals = void (*)(TexelBlock&, int, const Encoding&) noexcept;
 
 template <Space space> Normals normals_by(NormalMethod method) noexcept {
     switch (method) {
@@ -189,7 +190,7 @@ Texel bake_texel(const BakeTarget& target, const TexelHit& hit, const Height<flo
 struct TexelRow::Room {
     Normals normals;
     Encoding encoding;
-    Block block;
+    TexelBlock block;
     TriangleFrame none = empty_frame(no_index);
     std::unique_ptr<TriangleFrame[]> ring{new TriangleFrame[frames]}; ///< only the triangles are initialised
     std::uint32_t oldest = 0;                                         ///< place in the ring of the next new triangle
@@ -222,7 +223,7 @@ TexelRow::TexelRow(const BakeTarget& target, const NormalMapOptions& options)
 TexelRow::~TexelRow() = default;
 
 void TexelRow::bake(int y, const Height<float>* heights, float* rgb, unsigned char* owned) {
-    Block& texels = room_->block;
+    TexelBlock& texels = room_->block;
     const TexelHit* hits = target_.raster.hits.row(y);
     const int width = target_.raster.hits.width();
     for (int from = 0; from < width; from += block, hits += block, heights += block, rgb += 3 * block, owned += block) {

@@ -6,22 +6,23 @@
 namespace bake {
 namespace {
 
-struct Weighted {
-    double value, weight;
+struct AreaSample {
+    double value, area;
 };
 
-// The value below which `share` of the weight lies; samples sorted by value.
-double percentile(const std::vector<Weighted>& sorted, double total, double share) {
+/// The value below which `share` of the total area lies. The samples are sorted by value.
+double percentile(const std::vector<AreaSample>& sorted, double total, double share) {
     double sum = 0;
-    for (const Weighted& s : sorted)
-        if ((sum += s.weight) >= share * total) return s.value;
+    for (const AreaSample& s : sorted)
+        if ((sum += s.area) >= share * total) return s.value;
     return sorted.empty() ? 0 : sorted.back().value;
 }
 
-Spread spread(std::vector<Weighted>& samples) {
-    std::sort(samples.begin(), samples.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+Spread spread(std::vector<AreaSample>& samples) {
+    std::sort(samples.begin(), samples.end(),
+              [](const AreaSample& a, const AreaSample& b) { return a.value < b.value; });
     double total = 0;
-    for (const Weighted& s : samples) total += s.weight;
+    for (const AreaSample& s : samples) total += s.area;
     return {percentile(samples, total, 0.05), percentile(samples, total, 0.5), percentile(samples, total, 0.95)};
 }
 
@@ -30,18 +31,19 @@ bool has_uv(const Mesh& mesh, const Triangle& t) noexcept {
                        [&](std::uint32_t c) { return mesh.corner_uv[c] != no_index; });
 }
 
-// Larger over smaller singular value of the linear map that takes the uv triangle to the triangle in space.
+/// Larger over smaller singular value of the linear map from the uv triangle to the triangle in space.
 double stretch(Vec2d a, Vec2d b, double uv_cross, Vec3d p, Vec3d q) noexcept {
     const Vec3d p_u = (b.y * p - a.y * q) / uv_cross, p_v = (a.x * q - b.x * p) / uv_cross;
     const double e = glm::dot(p_u, p_u), f = glm::dot(p_u, p_v), g = glm::dot(p_v, p_v);
     const double mean = 0.5 * (e + g), root = std::hypot(0.5 * (e - g), f), larger = mean + root;
-    const double smaller = (e * g - f * f) / larger; // product of both over the larger: no cancellation
+    const double smaller =
+        (e * g - f * f) / larger; // the product of both eigenvalues over the larger one: no cancellation
     return smaller > 0 ? std::sqrt(larger / smaller) : 0;
 }
 
 void measure_triangles(const Mesh& mesh, const std::vector<Triangle>& triangles, double zero_area, UvCheck& check) {
     const double diagonal2 = glm::dot(check.max - check.min, check.max - check.min);
-    std::vector<Weighted> density, stretches;
+    std::vector<AreaSample> density, stretches;
     for (const Triangle& t : triangles) {
         if (!has_uv(mesh, t)) continue;
         ++check.triangles;
@@ -84,8 +86,8 @@ void find_tiles(const Mesh& mesh, UvCheck& check) {
             high = {std::max(high.x, uv.x), std::max(high.y, uv.y)};
         }
         if (!(low.x < high.x && low.y < high.y))
-            continue; // without area: on a border it is in no tile rather than in both
-        // A border on a tile's edge, or off it by rounding, belongs to the tile inside.
+            continue; // a face without area on the border of two tiles is in neither
+        // A face that ends at the border of a tile, up to rounding, is not in the next tile.
         constexpr double slack = 1e-5;
         const auto first = [](double a, double b) { return std::floor(std::min(a + slack, 0.5 * (a + b))); };
         const auto last = [](double a, double b) {
@@ -104,7 +106,7 @@ void find_tiles(const Mesh& mesh, UvCheck& check) {
         if (used[tile]) check.udim_tiles.push_back(1001 + tile);
 }
 
-// The charts are scaled so that all of them fit the unit square once, with as many samples per tile as memory allows.
+/// The charts are scaled to the unit square together and sampled there.
 void measure_overlap(const Mesh& mesh, const std::vector<Triangle>& triangles, int size, UvCheck& check) {
     const Vec2d extent = check.max - check.min;
     if (size <= 0 || !(extent.x > 0) || !(extent.y > 0)) return;
