@@ -1,34 +1,11 @@
 #include "bake/relief/map/normal_map.h"
-#include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/relief/map/texel_row.h"
-#include "bake/surface/chart/tangent_space.h"
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 namespace bake {
-
-Vec3f encode_normal(const Vec3f& t, bool directx) noexcept {
-    return Vec3f(0.5f * t.x, directx ? -0.5f * t.y : 0.5f * t.y, 0.5f * t.z) + 0.5f;
-}
-
-Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept {
-    const Vec3f t = 2.0f * rgb - 1.0f;
-    return directx ? Vec3f(t.x, -t.y, t.z) : t;
-}
-
-Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept {
-    // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
-    // determinant has the sign of `sign`.
-    const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
-    const Vec3f unit =
-        unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
-                           along_n * glm::dot(tangent, tangent) - along_t * skew));
-    // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
-    constexpr float rounding = 1e-6f;
-    return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
-}
 
 namespace {
 
@@ -124,41 +101,6 @@ Image<float> normal_map(const HeightField& field, const Vec2d& extent, const Nor
         },
         progress);
     return map;
-}
-
-namespace {
-
-/// Mean length of p_u and p_v over the charts, weighted by the triangles' areas in uv: the lengths that constant_scale works with.
-ConstantScale<float> mean_scale(const MeshSurface& s) {
-    double area_sum = 0, u_sum = 0, v_sum = 0;
-    for (std::size_t i = 0; i < s.triangles.size(); ++i) {
-        if (s.sigma[i] == 0) continue;
-        const auto uv = [&](int k) { return Vec2d(s.mesh->uvs[s.mesh->corner_uv[s.triangles[i].corner[k]]]); };
-        const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
-        const double area = std::abs(d1.x * d2.y - d2.x * d1.y);
-        area_sum += area;
-        for (const std::uint32_t corner : s.triangles[i].corner) {
-            u_sum += area / 3 * glm::length(Vec3d(s.p_u[corner]));
-            v_sum += area / 3 * glm::length(Vec3d(s.p_v[corner]));
-        }
-    }
-    if (!(u_sum > 0) || !(v_sum > 0)) return {};
-    return {float(u_sum / area_sum), float(v_sum / area_sum)};
-}
-
-} // namespace
-
-BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height) {
-    if (mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs; unwrap the mesh first");
-    BakeTarget target;
-    target.surface = make_mesh_surface(mesh);
-    target.tangents = corner_tangents(mesh, target.surface.triangles, target.surface.n);
-    target.raster = uv_raster(mesh, target.surface.triangles, width, height);
-    target.scale = mean_scale(target.surface);
-    if (target.raster.covered + target.raster.border == 0)
-        throw Error(Refusal::unsuitable,
-                    path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
-    return target;
 }
 
 Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,

@@ -1,30 +1,13 @@
 // Normal maps from a height: on a plane, or on a UV-mapped mesh with the mesh's own metric and curvature.
 #pragma once
 #include "bake/picture/pad_texels.h"
-#include "bake/relief/map/bump_table.h"
-#include "bake/relief/map/displaced_normal.h"
-#include "bake/surface/chart/mesh_surface.h"
-#include "bake/surface/chart/uv_raster.h"
+#include "bake/relief/map/bake_target.h"
+#include "bake/relief/map/normal_code.h"
 #include <optional>
 
 namespace bake {
 
 class Progress;
-
-enum class Space {
-    tangent, ///< MikkTSpace
-    object,
-};
-
-struct NormalMapOptions {
-    int width = 0, height = 0; ///< texels of the map; 0: as the height
-    NormalMethod method = NormalMethod::exact;
-    HeightOptions height_options;
-    Filter filter = Filter::automatic;
-    Space space = Space::tangent;
-    bool directx = false; ///< green points down
-    int padding = 16;     ///< texels filled beyond the charts' borders
-};
 
 /// What became of the texels of a map on a mesh.
 struct NormalMapReport {
@@ -38,16 +21,6 @@ struct NormalMapReport {
     std::int64_t folded =
         0; ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
 };
-
-/// rgb = (t + 1) / 2, each in [0,1]; green is turned where `directx`.
-Vec3f encode_normal(const Vec3f& t, bool directx) noexcept;
-/// The reverse, not renormalised.
-Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept;
-
-/// The coordinates t of a normal in the frame that shaders build: n = t.x T + t.y B + t.z N with B = sign (N x T), T and
-/// N as interpolated, neither unit nor perpendicular. Unit; zero where the frame is singular. x and y within 1e-6 of 0
-/// are 0.
-Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept;
 
 /// Height and slopes at the texel centres of a map.
 class HeightField {
@@ -76,16 +49,6 @@ private:
 /// The normal map of a height on a flat rectangle of extent (object units): three channels, encoded.
 Image<float> normal_map(const HeightField& field, const Vec2d& extent, const NormalMapOptions& options,
                         Progress* progress = nullptr);
-
-/// The mesh side of a bake, made once: the jets, the tangent space, and which triangle lies under each texel.
-struct BakeTarget {
-    MeshSurface surface;
-    std::vector<Vec4f> tangents; ///< corners
-    UvRaster raster;
-    ConstantScale<float> scale; ///< mean |p_u| and |p_v| over the charts
-};
-/// The mesh must outlive it. Throws Error{Refusal::unsuitable} for a mesh without uvs (`path` is named in it).
-BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height);
 
 /// The normal map of a height on a mesh: three channels, encoded.
 Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,

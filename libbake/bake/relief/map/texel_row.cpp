@@ -1,4 +1,5 @@
 #include "bake/relief/map/texel_row.h"
+#include "bake/relief/map/normal_code.h"
 #include <algorithm>
 #include <cmath>
 

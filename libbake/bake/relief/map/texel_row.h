@@ -15,7 +15,7 @@
 // constant_scale fits the same form with A = L and another D. Texels that fold, that are degenerate or that leave the
 // range of float are left to the functions of displaced_normal.h, one texel at a time.
 #pragma once
-#include "bake/relief/map/normal_map.h"
+#include "bake/relief/map/bake_target.h"
 #include <memory>
 
 namespace bake {
