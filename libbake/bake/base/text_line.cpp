@@ -1,6 +1,7 @@
 #include "bake/base/text_line.h"
-#include "bake/base/text_number.h"
 #include <algorithm>
+#include <charconv>
+#include <limits>
 
 namespace bake {
 namespace {
@@ -16,6 +17,22 @@ const char* find_newline(const char* from, const char* end) noexcept {
     return static_cast<const char*>(std::memchr(from, '\n', std::size_t(end - from)));
 }
 
+/// What a decimal number outside the range of float rounds to: infinity or 0, with its sign.
+float round_extreme(std::string_view number) noexcept {
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const auto point = std::int64_t(std::min(number.find('.'), e));
+    const auto first = std::int64_t(number.find_first_of("123456789"));
+    std::int64_t power = 0;
+    if (e < number.size()) {
+        const char* digits = number.data() + e + 1;
+        parse_integer(digits, power);
+    }
+    // The number is 10^magnitude times something between 0.1 and 1.
+    const std::int64_t magnitude = point - first + (first > point) + power;
+    const float value = magnitude > 0 ? std::numeric_limits<float>::infinity() : 0.0f;
+    return number.front() == '-' ? -value : value;
+}
+
 } // namespace
 
 std::string shown(std::string_view text) {
@@ -23,6 +40,18 @@ std::string shown(std::string_view text) {
     std::string out = "'";
     for (const char c : text.substr(0, most)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     return out + (text.size() > most ? "...'" : "'");
+}
+
+bool detail::parse_float_slowly(const char*& p, float& value) noexcept {
+    const bool plus = *p == '+'; // std::from_chars takes no plus
+    if (plus && p[1] == '-') return false;
+    const char* end = p;
+    while (!ends_word(*end)) ++end;
+    const auto read = std::from_chars(p + plus, end, value);
+    if (read.ec == std::errc::invalid_argument) return false;
+    if (read.ec != std::errc()) value = round_extreme({p + plus, read.ptr});
+    p = read.ptr;
+    return true;
 }
 
 std::size_t line_number(const char* begin, const char* at) noexcept {

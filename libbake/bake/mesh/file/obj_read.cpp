@@ -4,7 +4,6 @@
 #include "bake/base/file_bytes.h"
 #include "bake/base/parallel.h"
 #include "bake/base/text_line.h"
-#include "bake/base/text_number.h"
 #include "bake/mesh/file/obj.h"
 #include <algorithm>
 #include <cmath>
@@ -44,7 +43,7 @@ Keyword read_keyword(const char*& p) noexcept {
     const auto is = [&p](const char* word) {
         const char* s = p;
         while (*word && *s == *word) ++s, ++word;
-        if (*word || !ends_number(*s)) return false;
+        if (*word || !ends_word(*s)) return false;
         p = s;
         return true;
     };
@@ -71,7 +70,7 @@ std::size_t count_words(const char* p, const char* end) noexcept {
     while (p < end) { // in blocks that one byte can count, so that the compiler counts sixteen at a time
         const auto length = std::min<std::ptrdiff_t>(end - p, 256);
         std::uint8_t starts = 0;
-        for (std::ptrdiff_t i = 0; i < length; ++i) starts += std::uint8_t(is_blank(p[i]) & !ends_number(p[i + 1]));
+        for (std::ptrdiff_t i = 0; i < length; ++i) starts += std::uint8_t(is_blank(p[i]) & !ends_word(p[i + 1]));
         words += starts;
         p += length;
     }
@@ -83,7 +82,7 @@ bool at_end(const char* p) noexcept { return *p == '\n' || *p == '#'; }
 
 std::string_view word_at(const char* p) noexcept {
     const char* end = p;
-    while (!ends_number(*end)) ++end;
+    while (!ends_word(*end)) ++end;
     return {p, std::size_t(end - p)};
 }
 
@@ -93,7 +92,7 @@ bool read_numbers(const char* p, int least, int most, float* out) noexcept {
     for (int i = 0; i < most; ++i) {
         skip_blanks(p);
         if (i >= least && at_end(p)) return true;
-        if (!parse_float(p, out[i]) || !ends_number(*p) || !std::isfinite(out[i])) return false;
+        if (!parse_float(p, out[i]) || !ends_word(*p) || !std::isfinite(out[i])) return false;
     }
     return true;
 }
@@ -107,7 +106,7 @@ std::string number_fault(const char* p, int least, const std::string& what) {
                    "; complete the line";
         const std::string_view word = word_at(p);
         float value = 0;
-        if (!parse_float(p, value) || !ends_number(*p))
+        if (!parse_float(p, value) || !ends_word(*p))
             return shown(word) + " is not a number; write numbers with a point, separated by blanks";
         if (!std::isfinite(value))
             return shown(word) + " is not a finite 32-bit number; mend the program that wrote it";
@@ -132,19 +131,19 @@ bool read_corner(const char*& p, const Counts& before, const Counts& total, Corn
     corner.position = resolve(index, before.positions, total.positions);
     if (corner.position == no_index) return false;
     corner.uv = corner.normal = no_index;
-    if (*p != '/') return ends_number(*p);
+    if (*p != '/') return ends_word(*p);
     ++p;
     if (parse_integer(p, index)) {
         corner.uv = resolve(index, before.uvs, total.uvs);
         if (corner.uv == no_index) return false;
     }
-    if (*p != '/') return ends_number(*p);
+    if (*p != '/') return ends_word(*p);
     ++p;
     if (parse_integer(p, index)) {
         corner.normal = resolve(index, before.normals, total.normals);
         if (corner.normal == no_index) return false;
     }
-    return ends_number(*p);
+    return ends_word(*p);
 }
 
 /// Why read_corner failed.
@@ -180,7 +179,7 @@ std::string read_name(const char* p, const char* end) {
 /// One number, 0 or more, that ends the line.
 bool read_sharpness(const char* p, float& sharpness) noexcept {
     skip_blanks(p);
-    if (!parse_float(p, sharpness) || !ends_number(*p) || !std::isfinite(sharpness)) return false;
+    if (!parse_float(p, sharpness) || !ends_word(*p) || !std::isfinite(sharpness)) return false;
     skip_blanks(p);
     return at_end(p) && sharpness >= 0;
 }
@@ -201,7 +200,7 @@ std::string read_tag(const char* p, std::size_t positions, Piece& piece) {
     };
     const auto read_position = [&p](std::int64_t& position) {
         skip_blanks(p);
-        return parse_integer(p, position) && ends_number(*p);
+        return parse_integer(p, position) && ends_word(*p);
     };
     const auto in_range = [positions](std::int64_t i) { return i >= 0 && std::size_t(i) < positions; };
     float sharpness = 0;

@@ -1,5 +1,5 @@
 #include "bake/base/block_writer.h"
-#include "bake/base/text_number.h"
+#include "bake/base/text_line.h"
 #include "bake/mesh/file/obj.h"
 #include <algorithm>
 #include <charconv>

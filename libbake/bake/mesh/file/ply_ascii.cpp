@@ -1,6 +1,5 @@
 #include "bake/base/error.h"
 #include "bake/base/text_line.h"
-#include "bake/base/text_number.h"
 #include "bake/mesh/file/ply_body.h"
 #include <cmath>
 
@@ -33,7 +32,7 @@ struct Rows {
     }
     std::string word() const {
         const char* end = p;
-        while (!ends_number(*end)) ++end;
+        while (!ends_word(*end)) ++end;
         return shown({p, std::size_t(end - p)});
     }
     void need_word(const PlyProperty& property) {
@@ -44,7 +43,7 @@ struct Rows {
         need_word(property);
         const char* s = p;
         float value = 0;
-        if (!parse_float(s, value) || !ends_number(*s)) refuse(word() + " is not a number");
+        if (!parse_float(s, value) || !ends_word(*s)) refuse(word() + " is not a number");
         if (!std::isfinite(value)) refuse(word() + " is not a finite 32-bit number");
         p = s;
         return value;
@@ -53,7 +52,7 @@ struct Rows {
         need_word(property);
         const char* s = p;
         std::int64_t value = 0;
-        if (!parse_integer(s, value) || !ends_number(*s)) refuse(word() + " is not an integer");
+        if (!parse_integer(s, value) || !ends_word(*s)) refuse(word() + " is not an integer");
         p = s;
         return value;
     }
@@ -65,7 +64,7 @@ struct Rows {
     void skip(const PlyProperty& property, std::int64_t values) {
         for (; values > 0; --values) {
             need_word(property);
-            while (!ends_number(*p)) ++p;
+            while (!ends_word(*p)) ++p;
         }
     }
     void skip(const PlyProperty& property) { skip(property, property.is_list ? count(property) : 1); }

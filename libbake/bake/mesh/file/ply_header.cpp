@@ -1,7 +1,6 @@
 #include "bake/mesh/file/ply_header.h"
 #include "bake/base/error.h"
 #include "bake/base/text_line.h"
-#include "bake/base/text_number.h"
 #include <algorithm>
 #include <optional>
 
@@ -31,7 +30,7 @@ std::vector<std::string_view> words_of(const char* p) {
     std::vector<std::string_view> words;
     for (skip_blanks(p); *p != '\n'; skip_blanks(p)) {
         const char* const word = p;
-        while (!ends_number(*p)) ++p;
+        while (!ends_word(*p)) ++p;
         words.emplace_back(word, std::size_t(p - word));
     }
     return words;
@@ -53,7 +52,7 @@ std::string read_declaration(const std::vector<std::string_view>& words, PlyHead
         std::int64_t rows = -1;
         if (words.size() == 3) {
             const char* p = words[2].data();
-            if (!parse_integer(p, rows) || !ends_number(*p)) rows = -1;
+            if (!parse_integer(p, rows) || !ends_word(*p)) rows = -1;
         }
         if (rows < 0) return "an element needs a name and a count of 0 or more";
         if (header.elements.size() == most_declarations) return "more elements than any mesh has";

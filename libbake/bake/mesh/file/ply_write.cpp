@@ -1,5 +1,5 @@
 #include "bake/base/block_writer.h"
-#include "bake/base/text_number.h"
+#include "bake/base/text_line.h"
 #include "bake/mesh/file/ply.h"
 #include "bake/mesh/mesh_corner.h"
 

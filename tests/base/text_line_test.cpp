@@ -1,11 +1,13 @@
-#include "bake/base/text_number.h"
+#include "bake/base/text_line.h"
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -27,11 +29,9 @@ bool refused(const std::string& text) {
     return !bake::parse_float(p, value) && p == line.data();
 }
 
-/// The standard library's correctly rounded float of the same text.
+/// The C library's correctly rounded float of the same text, infinite or 0 where the text is beyond floats.
 void check_nearest(const std::string& text) {
-    float expected = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), expected);
-    if (read.ec != std::errc()) return;
+    const float expected = std::strtof(text.c_str(), nullptr);
     const float value = parsed(text);
     CHECK_MESSAGE(std::memcmp(&value, &expected, sizeof value) == 0, text);
 }
@@ -62,13 +62,33 @@ TEST_SUITE("unit") {
         CHECK(parsed("0." + std::string(400, '0') + "1") == 0);
         CHECK(parsed("0." + std::string(400, '0') + "1e401") == 1);
         CHECK(std::signbit(parsed("-1e-999")));
+        CHECK(parsed("1e99999999999999999999") == std::numeric_limits<float>::infinity());
+        CHECK(parsed("1e-99999999999999999999") == 0);
+        CHECK(parsed("123." + std::string(500, '4') + "e37") == std::numeric_limits<float>::infinity());
+        CHECK(parsed("0." + std::string(80, '0') + "9e33") == 0);
         CHECK(parsed("1e-45") == std::numeric_limits<float>::denorm_min());
         CHECK(std::isnan(parsed("nan")));
         CHECK(std::isinf(parsed("-inf")));
     }
 
+    TEST_CASE("parse_float: stops at what no number goes on with, hexadecimal digits and a bare e included") {
+        const struct {
+            const char* text;
+            float value;
+            int length;
+        } cases[] = {{"0x10", 0, 1}, {"1e", 1, 1}, {"1e+", 1, 1}, {"1.5.5", 1.5f, 3}, {"2/3", 2, 1}};
+        for (const auto& [text, value, length] : cases) {
+            const std::string line = std::string(text) + "\n";
+            const char* p = line.data();
+            float read = -1;
+            CHECK(bake::parse_float(p, read));
+            CHECK(read == value);
+            CHECK(p == line.data() + length);
+        }
+    }
+
     TEST_CASE("parse_float: words, lone signs and points are no numbers") {
-        for (const char* text : {"", "-", "+", ".", "e5", "-.", "--1", "+-1", "x", "/1", "#"})
+        for (const char* text : {"", "-", "+", ".", "e5", "-.", "--1", "+-1", "-+1", "++1", "x", "/1", "#", " 1"})
             CHECK_MESSAGE(refused(text), text);
     }
 
@@ -85,6 +105,51 @@ TEST_SUITE("unit") {
         CHECK(integer("000000000000000000000000042") == 42);
         CHECK(integer("18446744073709551617") == 1000000000000000000); // 2^64 + 1 must not become 1
         CHECK(integer("x") == -7);
+    }
+
+    TEST_CASE("next_line: lines end at '\\n', join after a backslash, and a comment's backslash joins nothing") {
+        const std::string text = "a b\n\nc \\\nd\\\r\ne\n# f \\\ng\r\nlast \\\n";
+        std::vector<std::string> lines;
+        std::vector<std::ptrdiff_t> starts;
+        for (bake::LineCursor cursor{.next = text.data(), .stop = text.data() + text.size()}; next_line(cursor);) {
+            CHECK(*cursor.end == '\n');
+            lines.emplace_back(cursor.begin, cursor.end);
+            starts.push_back(cursor.at - text.data());
+        }
+        CHECK(lines == std::vector<std::string>{"a b", "", "c  d e", "# f \\", "g\r", "last "});
+        CHECK(starts == std::vector<std::ptrdiff_t>{0, 4, 5, 15, 21, 24});
+    }
+
+    TEST_CASE("split_lines: the pieces' lines are the text's lines, whatever the size of the pieces") {
+        std::mt19937 random(3);
+        std::string text;
+        for (int i = 0; i < 400; ++i) text += std::string(random() % 9, 'x') + (random() % 4 ? "\n" : "\\\n");
+        text += "end\n";
+        const auto lines_of = [](const char* begin, const char* end) {
+            std::vector<std::string> lines;
+            for (bake::LineCursor cursor{.next = begin, .stop = end}; next_line(cursor);)
+                lines.emplace_back(cursor.begin, cursor.end);
+            return lines;
+        };
+        const auto whole = lines_of(text.data(), text.data() + text.size());
+        for (const std::size_t grain : {1, 2, 7, 64, 1000, 100000}) {
+            const auto bounds = bake::split_lines(text.data(), text.data() + text.size(), grain);
+            CHECK(bounds.size() == (text.size() + grain - 1) / grain + 1);
+            std::vector<std::string> pieces;
+            for (std::size_t i = 0; i + 1 < bounds.size(); ++i)
+                for (const std::string& line : lines_of(bounds[i], bounds[i + 1])) pieces.push_back(line);
+            CHECK(pieces == whole);
+        }
+    }
+
+    TEST_CASE("line_number and shown: what an error message says of a place and of a word") {
+        const std::string text = "a\nb\n\nc";
+        CHECK(bake::line_number(text.data(), text.data()) == 1);
+        CHECK(bake::line_number(text.data(), text.data() + 2) == 2);
+        CHECK(bake::line_number(text.data(), text.data() + 5) == 4);
+        CHECK(bake::shown("word") == "'word'");
+        CHECK(bake::shown("tab\there\x7f") == "'tab?here?'");
+        CHECK(bake::shown(std::string(41, 'x')) == "'" + std::string(40, 'x') + "...'");
     }
 } // unit
 
