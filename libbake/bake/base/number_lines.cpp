@@ -13,7 +13,7 @@ std::vector<NumberLine> read_number_lines(const std::string& path) {
     std::size_t number = 0;
     for (const char *next = file.begin(), *at = next; at < file.end(); at = next) {
         const char* end = at;
-        while (*end != '\n') ++end; // read_file puts one behind the last line
+        while (*end != '\n') ++end; // read_file puts a '\n' behind the last line
         next = end + 1;
         NumberLine line{.line = ++number};
         while (at < end && *at != '#') {
@@ -22,7 +22,8 @@ std::vector<NumberLine> read_number_lines(const std::string& path) {
                 continue;
             }
             double value = 0;
-            const auto read = std::from_chars(at + (*at == '+'), end, value);
+            const bool plus = *at == '+' && at[1] != '-'; // std::from_chars takes no plus
+            const auto read = std::from_chars(at + plus, end, value);
             const bool ends = read.ptr == end || std::string_view(" \t\r,#").find(*read.ptr) != std::string_view::npos;
             if (read.ec != std::errc() || !ends || !std::isfinite(value)) {
                 const char* stop = at;
