@@ -3,6 +3,7 @@
 #include "cli/command.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 using namespace bake;
@@ -29,6 +30,50 @@ bool same_word(const std::string& a, const std::string& b) {
     return std::abs(x - y) <= 1e-4 * std::abs(y) + 2e-5;
 }
 
+/// Line by line and word by word.
+void check_same_text(const std::string& text, const std::string& wanted_text) {
+    std::istringstream lines(text), golden(wanted_text);
+    std::string line, expected;
+    while (std::getline(golden, expected)) {
+        REQUIRE(std::getline(lines, line));
+        std::istringstream words(line), wanted(expected);
+        for (std::string word, other; wanted >> other;) {
+            REQUIRE_MESSAGE((words >> word), line << " instead of " << expected);
+            CHECK_MESSAGE(same_word(word, other), line << " instead of " << expected);
+        }
+    }
+    CHECK_FALSE(std::getline(lines, line));
+}
+
+/// docs/route.md: its command, what it quotes of the command's output, and the rest.
+struct RoutePage {
+    std::string command, quoted, prose;
+};
+
+RoutePage read_route_page() {
+    std::istringstream lines(contents((source_folder() / "docs/route.md").string()));
+    RoutePage page;
+    std::string block;
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("```")) {
+            const std::string first = block.substr(0, block.find('\n'));
+            if (first.starts_with("bake explain ")) page.command = first;
+            else if (first.substr(0, first.find(' ')).ends_with(":")) page.quoted += block; // a step's heading
+            block.clear();
+            inside = !inside;
+        } else {
+            (inside ? block : page.prose) += line + "\n";
+        }
+    }
+    return page;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
 } // namespace
 
 TEST_SUITE("cli") {
@@ -40,18 +85,23 @@ TEST_SUITE("cli") {
         const Run run = run_bake(folder, explain("0.3,0.6"));
         REQUIRE_MESSAGE(run.code == 0, run.err);
         CHECK(run.err == "");
-        std::istringstream lines(run.out),
-            golden(contents((own_meshes() / "../tests/cli/explain_golden.txt").string()));
-        std::string line, expected;
-        while (std::getline(golden, expected)) {
-            REQUIRE(std::getline(lines, line));
-            std::istringstream words(line), wanted(expected);
-            for (std::string word, other; wanted >> other;) {
-                REQUIRE_MESSAGE((words >> word), line << " instead of " << expected);
-                CHECK_MESSAGE(same_word(word, other), line << " instead of " << expected);
-            }
-        }
-        CHECK_FALSE(std::getline(lines, line));
+        check_same_text(run.out, contents((source_folder() / "tests/cli/explain_golden.txt").string()));
+    }
+
+    TEST_CASE("explain: the numbers of docs/route.md are what its command prints") {
+        const Project folder;
+        const RoutePage page = read_route_page();
+        const std::vector<std::string> words = words_of(page.command);
+        REQUIRE(words.size() > 2);
+        const Run run = run_bake(folder, {words.begin() + 1, words.end()});
+        REQUIRE_MESSAGE(run.code == 0, run.err);
+        check_same_text(run.out, page.quoted);
+        // Numbers of five decimals and more that the text around the quotes repeats.
+        int repeated = 0;
+        const std::regex number("-?[0-9]+\\.[0-9]{5,}");
+        for (std::sregex_iterator at(page.prose.begin(), page.prose.end(), number), end; at != end; ++at, ++repeated)
+            CHECK_MESSAGE(page.quoted.find(" " + at->str()) != std::string::npos, at->str());
+        CHECK(repeated > 4);
     }
 
     TEST_CASE("explain: --json holds the same steps in the order of the route") {
