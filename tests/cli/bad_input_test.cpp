@@ -38,35 +38,6 @@ int answered(const Folder& folder, std::vector<std::string> arguments, const fs:
 
 TEST_SUITE("cli") {
 
-    TEST_CASE("bad input: every damaged image is refused by normal-map and bump-table") {
-        const fs::path bad = shared_data() / "bad";
-        if (!fs::exists(bad)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
-        const Folder folder;
-        for (const char* kind : {"png", "exr", "other_images"})
-            for (const auto& entry : fs::directory_iterator(bad / kind)) {
-                if (entry.path().extension() == ".LICENSE") continue;
-                const std::string file = entry.path().string();
-                CHECK(answered(folder, {"normal-map", "--height", file}, file, "a.png") == 3);
-                CHECK(answered(folder, {"bump-table", file}, file, "a.exr") == 3);
-            }
-    }
-
-    TEST_CASE("bad input: every mesh in trouble is baked whole or refused") {
-        const fs::path bad = shared_data() / "bad/meshes";
-        if (!fs::exists(bad)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
-        const Folder folder;
-        for (const auto& entry : fs::directory_iterator(bad))
-            answered(folder,
-                     {"normal-map", entry.path().string(), "--height", dots, "--amplitude", "1%", "--size", "128"},
-                     entry.path(), "a.png");
-    }
-
     TEST_CASE("bad input: heights that hold NaN or Inf, vast values, or no such channel are unsuitable") {
         const Folder folder;
         Image<float> image(4, 4, 1);
@@ -115,6 +86,31 @@ TEST_SUITE("cli") {
         const Image<float> moments = read_image(folder / "b.exr");
         CHECK(moments.at(0, 0, 0) == doctest::Approx(0.7).epsilon(1e-4));
         for (int c = 1; c < 6; ++c) CHECK(moments.at(0, 0, c) == 0);
+    }
+
+} // TEST_SUITE
+
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
+
+    TEST_CASE("bad input: every damaged image is refused by normal-map and bump-table") {
+        const fs::path bad = shared_data() / "bad";
+        const Folder folder;
+        for (const char* kind : {"png", "exr", "other_images"})
+            for (const auto& entry : fs::directory_iterator(bad / kind)) {
+                if (entry.path().extension() == ".LICENSE") continue;
+                const std::string file = entry.path().string();
+                CHECK(answered(folder, {"normal-map", "--height", file}, file, "a.png") == 3);
+                CHECK(answered(folder, {"bump-table", file}, file, "a.exr") == 3);
+            }
+    }
+
+    TEST_CASE("bad input: every mesh in trouble is baked whole or refused") {
+        const fs::path bad = shared_data() / "bad/meshes";
+        const Folder folder;
+        for (const auto& entry : fs::directory_iterator(bad))
+            answered(folder,
+                     {"normal-map", entry.path().string(), "--height", dots, "--amplitude", "1%", "--size", "128"},
+                     entry.path(), "a.png");
     }
 
 } // TEST_SUITE

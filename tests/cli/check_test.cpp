@@ -1,3 +1,4 @@
+#include "folders.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -146,14 +147,11 @@ TEST_SUITE("cli") {
         CHECK(r.out.find("first in faces 0 and 1 near (1 1.5 0)") != std::string::npos);
         CHECK(folder.check("--audit --strict " + cross).code == 1);
     }
+}
 
+TEST_SUITE("real" * doctest::skip(bake::test::no_shared_data())) {
     TEST_CASE("bake check: the same bytes for 1, 2 and 7 threads") {
-        const fs::path data =
-            fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
-        if (!fs::exists(data)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const fs::path data = bake::test::shared_data();
         const Folder folder;
         const std::string files = (data / "meshes/spot/spot_control_mesh.obj").string() + " " +
                                   (data / "textures/heights/plain_heightmap.png").string() + " --pair " +
@@ -167,12 +165,7 @@ TEST_SUITE("cli") {
     }
 
     TEST_CASE("bake check: every damaged file is answered at once, refused in one line or looked at whole") {
-        const fs::path bad =
-            fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data/bad";
-        if (!fs::exists(bad)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const fs::path bad = bake::test::shared_data() / "bad";
         const Folder folder;
         for (const auto& entry : fs::recursive_directory_iterator(bad)) {
             if (!entry.is_regular_file()) continue;

@@ -13,8 +13,6 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-fs::path source() { return std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : "."; }
-
 } // namespace
 
 Folder::Folder() {
@@ -105,12 +103,5 @@ void check_refused(const Folder& folder, const std::vector<std::string>& argumen
     CHECK(run.err.find(named) != std::string::npos);
     CHECK(folder.names() == before);
 }
-
-fs::path shared_data() {
-    const fs::path data = source() / "../shared/data";
-    return fs::exists(data) ? fs::canonical(data) : fs::path();
-}
-
-fs::path own_meshes() { return fs::absolute(source() / "meshes"); }
 
 } // namespace bake::test

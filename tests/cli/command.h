@@ -1,5 +1,6 @@
 // Runs the command from outside, within limits, and looks at everything it leaves behind.
 #pragma once
+#include "folders.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -50,10 +51,5 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
 /// but those that were there.
 void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named,
                    const RunLimits& limits = {});
-
-/// ../shared/data beside the sources, empty when absent.
-fs::path shared_data();
-/// The project's own meshes/.
-fs::path own_meshes();
 
 } // namespace bake::test

@@ -9,18 +9,20 @@ namespace {
 using namespace bake;
 using namespace bake_tests;
 
+/// Whether tests of the Khronos validator are skipped: it is not installed, and $BAKE_NEEDS_VALIDATOR does not ask for it.
+bool no_validator() {
+    return !std::getenv("BAKE_NEEDS_VALIDATOR") &&
+           !std::filesystem::exists(source_folder() / "build/gltf_validator/node_modules/gltf-validator");
+}
+
 /// What the Khronos validator finds wrong with all .glb and .gltf of the folder: "" for nothing.
 std::string validator_says(const std::filesystem::path& folder) {
     const std::string out = (folder / "validator.txt").string();
     const std::string command = "cd '" + folder.string() + "' && '" +
-                                (std::filesystem::absolute(source_folder()) / "scripts/gltf_validator").string() +
+                                (source_folder() / "scripts/gltf_validator").string() +
                                 "' $(ls | grep -E '[.](glb|gltf)$') > '" + out + "' 2>&1";
     const int status = std::system(command.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
-    if (code == 3 && !std::getenv("BAKE_NEEDS_VALIDATOR")) {
-        MESSAGE("not validated: " << bytes_of(out));
-        return "";
-    }
     const std::string text = bytes_of(out);
     return code == 0 ? text : "code " + std::to_string(code) + ": " + text;
 }
@@ -33,13 +35,16 @@ std::vector<std::uint8_t> one_pixel() {
             0x77, 0xcd, 0x72, 0xb6, 0,    0,    0,    0,    'I',  'E',  'N',  'D', 0xae, 0x42, 0x60, 0x82};
 }
 
+const char* const samples[] = {"gltf/NormalTangentTest.glb", "gltf/armor.gltf", "leeperrysmith/LeePerrySmith.glb",
+                               "materialx/boombox.glb", "materialx/shaderball.glb"};
+
 void write_both(const TemporaryFolder& folder, const std::string& name, const Gltf& gltf) {
     for (const char* ending : {".glb", ".gltf"}) write_gltf(folder.file(name + ending), gltf);
 }
 } // namespace
 
 TEST_SUITE("cli") {
-    TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write") {
+    TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write" * doctest::skip(no_validator())) {
         const TemporaryFolder folder;
         Gltf rich{rich_triangles(6, 3), {}, {}, {}};
         rich.images = {
@@ -139,25 +144,19 @@ TEST_SUITE("cli") {
     }
 } // cli
 
-TEST_SUITE("real") {
-    TEST_CASE(
-        "gltf: the samples come back bit for bit from what we write of them, and the validator finds nothing wrong") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
+    TEST_CASE("gltf: the samples come back bit for bit from what we write of them") {
         const std::filesystem::path data = test::shared_data();
-        if (data.empty()) {
-            MESSAGE("left out: no ../shared/data");
-            return;
-        }
         const TemporaryFolder folder;
-        for (const char* sample : {"gltf/NormalTangentTest.glb", "gltf/armor.gltf", "leeperrysmith/LeePerrySmith.glb",
-                                   "materialx/boombox.glb", "materialx/shaderball.glb"}) {
+        for (const char* sample : samples) {
             CAPTURE(sample);
-            Gltf first = read_gltf((data / "meshes" / sample).string());
+            const Gltf first = read_gltf((data / "meshes" / sample).string());
             const std::string stem = std::filesystem::path(sample).stem().string();
             for (const char* ending : {".glb", ".gltf"}) {
                 const GltfWritten done = write_gltf(folder.file(stem + ending), first);
                 CHECK(done.dropped_images + done.moved_nodes == 0);
                 const Gltf back = read_gltf(folder.file(stem + ending));
-                Mesh expected = first.mesh;
+                const Mesh& expected = first.mesh;
                 if (done.mended_normals + done.mended_tangents > 0)
                     MESSAGE(sample << ": " << done.mended_normals << " normals and " << done.mended_tangents
                                    << " tangents mended");
@@ -174,9 +173,18 @@ TEST_SUITE("real") {
                 for (std::size_t i = 0; i < back.images.size(); ++i)
                     CHECK(back.images[i].bytes == first.images[i].bytes);
             }
-            if (first.materials.size() != 1 || !first.materials[0].normal) continue;
-            add_tangents(first.mesh); // what the format asks of a mesh with a normal texture
-            for (const char* ending : {".glb", ".gltf"}) write_gltf(folder.file(stem + ending), first);
+        }
+    }
+
+    TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write of the samples" *
+              doctest::skip(test::no_shared_data() || no_validator())) {
+        const TemporaryFolder folder;
+        for (const char* sample : samples) {
+            const std::filesystem::path file = test::shared_data() / "meshes" / sample;
+            Gltf gltf = read_gltf(file.string());
+            // The format asks for tangents on a mesh with a normal texture.
+            if (gltf.materials.size() == 1 && gltf.materials[0].normal) add_tangents(gltf.mesh);
+            write_both(folder, file.stem().string(), gltf);
         }
         CHECK(validator_says(folder.path) == "");
     }

@@ -153,14 +153,10 @@ TEST_SUITE("cli") {
 
 } // TEST_SUITE
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("normal-map and bump-table: real heights on a plane and on Spot give unit normals and a budget") {
         const fs::path data = shared_data();
-        if (data.empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
         std::vector<std::string> heights;
         for (const auto& entry : fs::directory_iterator(data / "textures/heights"))
             heights.push_back(entry.path().string());

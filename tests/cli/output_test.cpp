@@ -2,7 +2,9 @@
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <cmath>
+#include <linux/capability.h>
 #include <sys/mount.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 using namespace bake;
@@ -38,6 +40,8 @@ std::string large_height(const Folder& folder) {
     write_image(folder / "large.tif", image, {.depth = Depth::u16});
     return "large.tif";
 }
+
+bool may_mount() { return geteuid() == 0 && prctl(PR_CAPBSET_READ, CAP_SYS_ADMIN) == 1; }
 
 /// 128 KiB in memory, as long as it lives.
 struct SmallDisk {
@@ -88,14 +92,11 @@ TEST_SUITE("cli") {
         }
     }
 
-    TEST_CASE("output: a small disk that fills up") {
+    TEST_CASE("output: a small disk that fills up" * doctest::skip(!may_mount())) {
         const Folder folder;
         fs::create_directory(folder.path / "disk");
         const SmallDisk disk(folder / "disk");
-        if (!disk.mounted) {
-            MESSAGE("may not mount: skipped");
-            return;
-        }
+        REQUIRE(disk.mounted);
         for (const Job& job : jobs()) {
             std::vector<std::string> arguments = job.arguments;
             for (std::string& argument : arguments)

@@ -265,14 +265,10 @@ TEST_SUITE("cli") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("surface: meshes and cages of the shared collection") {
         const auto data = shared_data();
-        if (data.empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
         const Folder folder;
         const std::string meshes = (data / "meshes").string() + "/";
         const auto spot =

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace test {
+namespace bake::test {
 
 using bake::Cube;
 using bake::Image;
@@ -120,4 +120,4 @@ inline Vec3d quarter_about_y(const Vec3d& d) { return {d.z, d.y, -d.x}; }
 inline Vec3d third_about_diagonal(const Vec3d& d) { return {d.y, d.z, d.x}; }
 inline Vec3d mirror_x(const Vec3d& d) { return {-d.x, d.y, d.z}; }
 
-} // namespace test
+} // namespace bake::test

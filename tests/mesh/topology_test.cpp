@@ -230,12 +230,8 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(no_shared_data())) {
     TEST_CASE("topology: edges, mates and fans of real meshes are OpenMesh's") {
-        if (shared_data().empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
         for (const char* name : {"materialx/teapot.obj", "opensubdiv/catmark_car.obj", "materialx/boombox.obj",
                                  "gltf/NormalTangentTest.obj", "opensubdiv/catmark_nonquads.obj",
                                  "spot/spot_control_mesh.obj", "leeperrysmith/LeePerrySmith.obj"}) {

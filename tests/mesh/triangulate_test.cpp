@@ -164,24 +164,16 @@ TEST_SUITE("unit") {
     }
 } // unit
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("triangulate: the concave 66-gon with a bridge is covered once") {
-        const auto path = source_folder() / "../shared/data/bad/meshes/assimp_concave_polygon.obj";
-        if (!std::filesystem::exists(path)) {
-            MESSAGE("skipped: " << path.string() << " is not there");
-            return;
-        }
+        const auto path = test::shared_data() / "bad/meshes/assimp_concave_polygon.obj";
         const Mesh mesh = read_mesh(path.string());
         REQUIRE(mesh.corners() == 66);
         CHECK(cover(mesh) == doctest::Approx(1).epsilon(1e-9));
     }
 
     TEST_CASE("triangulate: cages of larger polygons keep the area vector of every face") {
-        const auto folder = source_folder() / "../shared/data/meshes";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("skipped: " << folder.string() << " is not there");
-            return;
-        }
+        const auto folder = test::shared_data() / "meshes";
         for (const char* name :
              {"spot/spot_control_mesh.obj", "opensubdiv/catmark_nonquads.obj", "opensubdiv/catmark_car.obj"}) {
             const Mesh mesh = read_mesh((folder / name).string());

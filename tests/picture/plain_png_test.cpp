@@ -115,12 +115,8 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("plain_png: real files are read as OpenImageIO reads them") {
-        if (shared_data().empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
         const Folder folder;
         int plain_files = 0;
         for (const auto& entry : fs::recursive_directory_iterator(shared_data())) {

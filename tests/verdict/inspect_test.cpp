@@ -1,5 +1,6 @@
 #include "bake/base/error.h"
 #include "bake/verdict/inspect.h"
+#include "folders.h"
 #include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -23,10 +24,6 @@ struct Folder {
         return (path / name).string();
     }
 };
-
-fs::path shared_data() {
-    return fs::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
-}
 
 bool says(const std::vector<std::string>& lines, const std::string& words) {
     return std::any_of(lines.begin(), lines.end(),
@@ -117,13 +114,9 @@ TEST_SUITE("unit") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("inspect_pair: every real pair, at least as well as its manifest says") {
-        const fs::path pairs = shared_data() / "textures/pairs";
-        if (!fs::exists(pairs)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const fs::path pairs = test::shared_data() / "textures/pairs";
         struct Known {
             const char *height, *normals;
             double corr_x, corr_y; ///< at least; the manifest's digits, less half of the last
@@ -162,7 +155,7 @@ TEST_SUITE("real") {
         }
         InspectOptions alpha;
         alpha.height_channel = Grey::a;
-        const fs::path packed = shared_data() / "textures/packed";
+        const fs::path packed = test::shared_data() / "textures/packed";
         const PairCheck rock =
             inspect_pair((packed / "rock023_alb_ht.png").string(), (packed / "rock023_nrm_rgh.png").string(), alpha)
                 .check;
@@ -173,11 +166,7 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("inspect_image: what is known of real heights") {
-        const fs::path textures = shared_data() / "textures";
-        if (!fs::exists(textures)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const fs::path textures = test::shared_data() / "textures";
         const auto look = [&](const char* name) { return inspect_image((textures / name).string()); };
         const ImageReport plate = look("pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png");
         CHECK(plate.check.looks == Looks::grey);

@@ -5,6 +5,7 @@
 #include "bake/environment/filter/prefilter.h"
 #include "bake/picture/image_io.h"
 #include "environment/skies.h"
+#include "folders.h"
 #include "oracle/zonal.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -201,17 +202,12 @@ TEST_SUITE("stability") {
 
 } // TEST_SUITE
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE(
         "prefilter: real skies keep their light at every roughness, and a studio's lamps leave no hole in irradiance") {
         namespace fs = std::filesystem;
-        const char* source = std::getenv("BAKE_SOURCE");
-        const fs::path folder = fs::path(source ? source : ".") / "../shared/data/environments/latlong";
-        if (!fs::exists(folder)) {
-            MESSAGE("no " << folder.string() << ": skipped");
-            return;
-        }
+        const fs::path folder = test::shared_data() / "environments/latlong";
         for (const char* name : {"blender_sunset.exr", "studio_small_03_1k.hdr"}) {
             const Image<float> picture = read_image((folder / name).string());
             const Cube sky = test::sky_of(96, 3, [&](const Vec3d& d, int c) {

@@ -12,11 +12,7 @@ namespace {
 
 MeshAudit audited(const Mesh& mesh) { return audit(mesh, triangulate(mesh)); }
 
-bool without_cgal() {
-    if (audited(cube()).available) return false;
-    MESSAGE("built without CGAL");
-    return true;
-}
+bool without_cgal() { return !audit({}, {}).available; }
 
 // The torus R = 1, r = 0.4 with the tube's radius moved by b(u, v).
 template <class Height> Mesh displaced_torus(int columns, int rows, const Height& b) {
@@ -31,9 +27,8 @@ template <class Height> Mesh displaced_torus(int columns, int rows, const Height
 
 } // namespace
 
-TEST_SUITE("unit") {
+TEST_SUITE("unit" * doctest::skip(without_cgal())) {
     TEST_CASE("audit: a cube bounds its volume, a turned one is inverted, and a needle through it is found") {
-        if (without_cgal()) return;
         const MeshAudit good = audited(cube());
         CHECK(good.closed);
         CHECK(good.outward);
@@ -64,7 +59,6 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("audit: walls of hollows look inwards, shells in them outwards again") {
-        if (without_cgal()) return;
         const Mesh outer = cube();
         const Mesh wall = turned(moved(cube(), 0.5f, Vec3f(0.25f))), kernel = moved(cube(), 0.25f, Vec3f(0.375f));
         const MeshAudit hollow = audited(together(outer, wall));
@@ -85,7 +79,6 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("audit: meeting in shared points and edges is no intersection, meeting elsewhere is") {
-        if (without_cgal()) return;
         const auto count = [](std::vector<Vec3f> p, const std::vector<std::vector<std::uint32_t>>& f) {
             return audited(mesh_of(std::move(p), f)).self_intersections;
         };
@@ -106,7 +99,6 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("audit: the same for 1, 2 and 7 threads") {
-        if (without_cgal()) return;
         const Mesh mesh = random_soup(3000, 5);
         const auto run = [&](int threads) {
             const ThreadLimit limit(threads);
@@ -123,9 +115,8 @@ TEST_SUITE("unit") {
     }
 }
 
-TEST_SUITE("oracle") {
+TEST_SUITE("oracle" * doctest::skip(without_cgal())) {
     TEST_CASE("audit: an everted sphere cuts itself nowhere, cutting spheres look outwards everywhere") {
-        if (without_cgal()) return;
         // Displaced by -1.5 R: every point through the centre, so the inside is out.
         const MeshAudit everted = audited(moved(unit_sphere(32, 16), -0.5f, Vec3f(0)));
         CHECK(everted.self_intersections == 0);
@@ -149,7 +140,6 @@ TEST_SUITE("oracle") {
     }
 
     TEST_CASE("audit: n strips across m strips cut each other n m times") {
-        if (without_cgal()) return;
         Mesh mesh;
         const auto strip = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
             for (const Vec3f& p : {a, b, c}) {
@@ -170,7 +160,6 @@ TEST_SUITE("oracle") {
     }
 
     TEST_CASE("audit: the volume of a torus of n segments tends to 2 pi^2 R r^2 by order 2") {
-        if (without_cgal()) return;
         const double exact = 2 * pi * pi * 0.4 * 0.4;
         const double coarse = exact - audited(oracle::torus_mesh(32, 16)).volume;
         const double fine = exact - audited(oracle::torus_mesh(64, 32)).volume;
@@ -179,9 +168,8 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("stability") {
+TEST_SUITE("stability" * doctest::skip(without_cgal())) {
     TEST_CASE("audit: non-manifold, flat and repeated faces are audited, not refused") {
-        if (without_cgal()) return;
         const MeshAudit book = audited(mesh_of({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
                                                {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}})); // three pages
         CHECK(book.self_intersections == 0);
@@ -206,14 +194,9 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(without_cgal() || test::no_shared_data())) {
     TEST_CASE("audit: what is known of real meshes") {
-        if (without_cgal()) return;
-        const auto data = shared_data();
-        if (data.empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         const auto load = [&](const char* name) { return audited(read_mesh((data / "meshes" / name).string())); };
         // Counts as by CGAL's own box sweep over all pairs.
         CHECK(load("leeperrysmith/LeePerrySmith.obj").self_intersections == 260);

@@ -1,5 +1,6 @@
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "folders.h"
 #include "mesh/by_openmesh.h"
 #include "mesh/check/triangle_soups.h"
 #include <algorithm>
@@ -29,10 +30,6 @@ template <class Keep> Mesh sheet(int n, const Keep& keep) {
             if (keep(x, y)) faces.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
         }
     return mesh_of(positions, faces);
-}
-
-std::filesystem::path shared_data() {
-    return std::filesystem::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
 }
 
 // Boundary loops and components of OpenMesh's half-edges; the mesh must be manifold.
@@ -242,13 +239,9 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("check_mesh: the facts known of real meshes") {
-        const auto data = shared_data();
-        if (!std::filesystem::exists(data)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         const auto load = [&](const char* name) { return check(read_mesh((data / name).string())); };
         const MeshCheck head = load("meshes/leeperrysmith/LeePerrySmith.obj");
         CHECK(head.triangles == 17684);
@@ -268,11 +261,7 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("check_mesh: loops and components of real meshes are OpenMesh's") {
-        const auto data = shared_data();
-        if (!std::filesystem::exists(data)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         for (const char* name :
              {"meshes/materialx/teapot.obj", "meshes/opensubdiv/catmark_car.obj", "meshes/materialx/boombox.obj",
               "meshes/gltf/NormalTangentTest.obj", "meshes/opensubdiv/catmark_nonquads.obj"}) {

@@ -226,13 +226,9 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("mesh_distance: Spot as quads and as triangles are one figure in two triangulations") {
-        const auto data = shared_data();
-        if (data.empty()) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         const auto load = [&](const char* name) { return read_mesh((data / "meshes/spot" / name).string()); };
         const MeshDistance d = distance(load("spot_quadrangulated.obj"), load("spot_triangulated.obj"));
         // They share their vertices; quads split along the other diagonal differ by up to 0.4 % of the size.

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/error.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "folders.h"
 #include <algorithm>
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -13,10 +14,7 @@
 
 namespace bake_tests {
 
-inline std::filesystem::path source_folder() {
-    const char* folder = std::getenv("BAKE_SOURCE");
-    return folder ? folder : ".";
-}
+using bake::test::source_folder;
 
 /// A folder of this test alone, gone with it.
 struct TemporaryFolder {

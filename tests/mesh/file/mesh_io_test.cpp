@@ -267,13 +267,9 @@ TEST_SUITE("stability") {
     }
 } // stability
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("read_mesh: every mesh of the collection is read, with all its faces") {
-        const auto folder = source_folder() / "../shared/data/meshes";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("skipped: " << folder.string() << " is not there");
-            return;
-        }
+        const auto folder = test::shared_data() / "meshes";
         const TemporaryFolder out;
         int files = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -297,11 +293,7 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("read_mesh: every bad mesh is read whole or refused with the line, within 2 s and 1 GiB") {
-        const auto folder = source_folder() / "../shared/data/bad/meshes";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("skipped: " << folder.string() << " is not there");
-            return;
-        }
+        const auto folder = test::shared_data() / "bad/meshes";
         struct Expected {
             const char* name;
             int code;

@@ -86,13 +86,9 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("read_mesh: the tags of OpenSubdiv's shapes") {
-        const auto folder = source_folder() / "../shared/data/meshes/opensubdiv";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("no ../shared/data");
-            return;
-        }
+        const auto folder = test::shared_data() / "meshes/opensubdiv";
         const SubdivisionTags car = read_mesh((folder / "catmark_car.obj").string()).tags;
         CHECK(car.creases.size() == 314); // as MANIFEST.md counts them
         CHECK(car.creases[0].a == 9);

@@ -94,15 +94,11 @@ TEST_SUITE("oracle") {
 
 } // TEST_SUITE
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE(
         "displace: rates by error keep it on real heights, with two thirds of a uniform rate's triangles and fewer") {
         const auto pairs = shared_data() / "textures" / "pairs";
-        if (shared_data().empty()) {
-            MESSAGE("no shared data: skipped");
-            return;
-        }
         for (const std::string file :
              {"ambientcg_Rock020/Rock020_1K_Displacement.jpg", "ambientcg_Tiles036/Tiles036_1K_Displacement.jpg",
               "cube2_metal_tech_01/metal_tech_01_hm.png", "bevy_parallax_cube/cube_depth.png"}) {
@@ -122,10 +118,6 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("displace: rates by error do not cut a cell without end whose sides are coarser than what they bound") {
-        if (shared_data().empty()) {
-            MESSAGE("no shared data: skipped");
-            return;
-        }
         // Tiles at 1K over a cage: cliffs inside cells whose sides are straight. No lattice makes up for such sides.
         const auto tiles = shared_data() / "textures/pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg";
         const auto cage = shared_data() / "meshes/opensubdiv/catmark_cubes_semisharp.obj";

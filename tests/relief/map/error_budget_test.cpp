@@ -1,4 +1,5 @@
 #include "bake/relief/map/bake_budget.h"
+#include "folders.h"
 #include "relief/map/torus_relief.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -207,15 +208,10 @@ TEST_SUITE("unit") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("error_budget: holds on three real heights resampled from finer ones") {
-        const char* source = std::getenv("BAKE_SOURCE");
-        const auto data = std::filesystem::path(source ? source : ".") / "../shared/data";
-        if (!std::filesystem::exists(data)) {
-            MESSAGE("no shared data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         for (const char* name : {"meshes/leeperrysmith/Infinite-Level_02_Disp_NoSmoothUV-4096.jpg",
                                  "textures/pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg",
                                  "textures/heights/terrain3d_stones.exr"}) {

@@ -1,6 +1,7 @@
 // Our normal maps against those that authors made from the same heights. The manifest's figures are of central
 // differences, so that filter is compared; sobel, the default for 8 bits, is .0006 and .016 below on two of the six.
 #include "bake/relief/map/normal_map.h"
+#include "folders.h"
 #include <cmath>
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -43,15 +44,10 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 } // namespace
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("normal_map: from each real height, at least as close to the author's map as the manifest's figure") {
-        const char* source = std::getenv("BAKE_SOURCE");
-        const auto pairs = std::filesystem::path(source ? source : ".") / "../shared/data/textures/pairs";
-        if (!std::filesystem::exists(pairs)) {
-            MESSAGE("no shared data: skipped");
-            return;
-        }
+        const auto pairs = test::shared_data() / "textures/pairs";
         // Those of a stated correlation of .95 or more; least: its digits, less half of the last. scale: slope per unit of
         // height per texel in the author's map.
         const struct {

@@ -1,5 +1,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/surface/chart/uv_check.h"
+#include "folders.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -96,14 +97,9 @@ TEST_SUITE("unit") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("check_uvs: the facts known of real meshes") {
-        const auto data =
-            std::filesystem::path(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") / "../shared/data";
-        if (!std::filesystem::exists(data)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         const auto load = [&](const char* name) { return check(read_mesh((data / name).string())); };
         const UvCheck head = load("meshes/leeperrysmith/LeePerrySmith.obj");
         CHECK(head.mirrored_triangles == 662);

@@ -479,13 +479,9 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("base_surface: Spot is a closed complex of genus 0, cage and triangles; its edges agree") {
-        if (test::shared_data().empty()) {
-            MESSAGE("no shared data");
-            return;
-        }
         for (const char* name : {"spot_control_mesh.obj", "spot_quadrangulated.obj", "spot_triangulated.obj"}) {
             const BaseSurface base(read_mesh(test::shared_data() / "meshes/spot" / name));
             check_consistent(base.complex());
@@ -498,10 +494,6 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("base_surface: Spot's cage and mixed cages have closed limits whose patches agree at their edges") {
-        if (test::shared_data().empty()) {
-            MESSAGE("no shared data");
-            return;
-        }
         const BaseSurface spot(read_mesh(test::shared_data() / "meshes/spot/spot_control_mesh.obj"), {});
         check_consistent(spot.complex());
         CHECK(euler(spot.complex()) == 2);
@@ -516,10 +508,6 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("base_surface: the teapot is a consistent complex") {
-        if (test::shared_data().empty()) {
-            MESSAGE("no shared data");
-            return;
-        }
         const BaseSurface base(read_mesh(test::shared_data() / "meshes/materialx/teapot.obj"));
         check_consistent(base.complex());
         CHECK(edge_disagreement(base, {0.5}).p < 1e-14);

@@ -161,13 +161,9 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("check_cage: the collection's cages are taken, its broken ones refused") {
-        const auto data = source_folder() / "../shared/data";
-        if (!std::filesystem::exists(data)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto data = test::shared_data();
         for (const char* name : {"catmark_car", "catmark_cubes_semisharp", "catmark_fvar_bound1", "catmark_nonquads",
                                  "catmark_righthanded", "catmark_torus", "reference/catmark_dart_edgecorner_level1"})
             CHECK_MESSAGE(refusal(read_mesh((data / "meshes/opensubdiv" / name).string() + ".obj")) == "", name);

@@ -155,14 +155,10 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("SubdivisionSurface: every real cage is within 1e-6 of the diagonal and 0.01 degrees of its "
               "masks") {
-        const auto meshes = source_folder() / "../shared/data/meshes";
-        if (!std::filesystem::exists(meshes)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto meshes = test::shared_data() / "meshes";
         const auto read = [&](const std::string& name) { return read_mesh((meshes / name).string()); };
         for (const char* name : {"catmark_torus", "catmark_nonquads", "catmark_fvar_bound1", "catmark_cubes_semisharp",
                                  "reference/catmark_dart_edgecorner_level0"}) {

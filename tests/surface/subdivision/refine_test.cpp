@@ -170,13 +170,9 @@ TEST_SUITE("oracle") {
     }
 }
 
-TEST_SUITE("real") {
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("refine: Spot's quad mesh is two levels of its cage") {
-        const auto folder = source_folder() / "../shared/data/meshes/spot";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto folder = test::shared_data() / "meshes/spot";
         const Mesh fine = refine(read_mesh((folder / "spot_control_mesh.obj").string()), {}, 2);
         const Mesh expected = read_mesh((folder / "spot_quadrangulated.obj").string());
         CHECK(fine.faces() == expected.faces());
@@ -186,11 +182,7 @@ TEST_SUITE("real") {
     }
 
     TEST_CASE("refine: eight levels agree with files written by OpenSubdiv's Hbr") {
-        const auto folder = source_folder() / "../shared/data/meshes/opensubdiv/reference";
-        if (!std::filesystem::exists(folder)) {
-            MESSAGE("no ../shared/data: skipped");
-            return;
-        }
+        const auto folder = test::shared_data() / "meshes/opensubdiv/reference";
         const auto level = [&](const std::string& name, int i) {
             return read_mesh((folder / (name + "_level" + std::to_string(i) + ".obj")).string());
         };
