@@ -1,8 +1,8 @@
-// subdivision_bench MESHES: the limit evaluator beside OpenSubdiv's own two, Bfr (at its defaults, and at the level whose
-// error comes nearest to ours) and Far (patch table, patch map and basis weights). All in double, on one thread, over the
-// same lattice of each patch; surfaces, tables and control points are made before, and are not counted but noted.
-// The error is the angle of the normal from exact limit masks at all points of the lattice, from the very output that
-// was timed; the note has that of the position. MESHES is the folder with opensubdiv/ and spot/ in it.
+// subdivision_bench MESHES: compares the limit evaluator with the two evaluators of OpenSubdiv, Bfr (with its defaults, and at
+// the level whose error is closest to that of bake) and Far (patch table, patch map and basis weights). All are in double, on
+// one thread, over the same lattice of each patch. The construction of surfaces, tables and control points is not timed; its
+// time is in the note. The error is the angle between the normal of the timed output and that of exact limit masks at all
+// points of the lattice; the position error is in the note. MESHES is the folder that contains opensubdiv/ and spot/.
 // Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts points; ratio is the time over that of Bfr at its defaults for the same derivatives.
 #include "bake/mesh/file/mesh_io.h"
@@ -22,10 +22,10 @@ using namespace OpenSubdiv;
 
 namespace {
 
-constexpr int rate = 16, levels = 4; // of the lattice, and of the oracle that has its points
+constexpr int rate = 16, levels = 4; // the lattice, and the refinement levels of the oracle with the same points
 
-// Points and first derivatives of the patches that are looked at, (rate + 1)^2 each, row after row. 32 patches, evenly
-// spread over the cage: a round takes about a millisecond, so that neighbours on a shared machine seldom fall into it.
+// Points and first derivatives of the measured patches, (rate + 1)^2 each, in rows. There are 32 patches, distributed evenly
+// over the cage: a round takes about a millisecond, which is seldom interrupted on a shared machine.
 using Samples = std::vector<LimitPoint>;
 constexpr std::size_t per_patch = (rate + 1) * (rate + 1);
 
@@ -40,7 +40,7 @@ Vec2d lattice_point(std::size_t i) { return Vec2d(double(i % (rate + 1)) / rate,
 
 struct Errors {
     bench::Errors normal_deg;
-    double position = 0; ///< largest, of the diagonal
+    double position = 0; ///< largest error, relative to the diagonal
 };
 
 Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patches, const oracle::Cage& fine,
@@ -96,7 +96,7 @@ std::unique_ptr<Far::TopologyRefiner> refiner_of(const Mesh& cage) {
     return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(of, Factory::Options(Sdc::SCHEME_CATMARK, rules)));
 }
 
-// Bfr: a surface per face, its patch points ready.
+// Bfr: one surface per face, with its patch points.
 class BfrSurfaces {
 public:
     BfrSurfaces(const Mesh& cage, const Far::TopologyRefiner& refiner, int level) : faces_(cage.faces()) {
@@ -113,7 +113,7 @@ public:
             face.surface.PreparePatchPoints(positions.data(), {3, 3}, face.points.data(), {3, 3});
         }
     }
-    /// Where the lattice lies in each patch.
+    /// The lattice in each patch.
     void place(const SubdivisionSurface& surface, const std::vector<std::uint32_t>& patches) {
         for (const std::uint32_t patch : patches) {
             const Face& face = faces_[surface.face(patch)];
@@ -152,7 +152,7 @@ private:
     std::vector<Place> places_;
 };
 
-// Far: the patch by its map, the weights of its points, their sum.
+// Far: finds the patch by the patch map, computes the weights of its points, and sums them.
 class FarTable {
 public:
     FarTable(const Mesh& cage, Far::TopologyRefiner& refiner, int level) {
@@ -204,7 +204,7 @@ private:
 double case_of(const std::string& name, const std::string& file) {
     Mesh cage = read_mesh(file);
     check_cage(cage, Scheme::catmark, file);
-    cage.corner_uv.clear(); // Bfr and Far are given none either
+    cage.corner_uv.clear(); // Bfr and Far have no uvs either
     const double size = diagonal(bounds(cage));
     oracle::Cage fine = oracle::cage_of(cage, Scheme::catmark);
     for (int i = 0; i < levels; ++i) fine = oracle::subdivide(fine);

@@ -1,4 +1,4 @@
-// What a mesh is as a surface: its edges by how many faces they have, and its volume.
+// Counts edges of a mesh by the number of their faces, and computes its volume.
 #pragma once
 #include "bake/mesh/mesh.h"
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace bake::test {
 struct Manifold {
     std::size_t vertices = 0, edges = 0, faces = 0;
     std::size_t boundary = 0; ///< edges of one face
-    std::size_t crowded = 0;  ///< of more than two
-    std::size_t against = 0;  ///< that two faces use in the same direction
+    std::size_t crowded = 0;  ///< edges of more than two faces
+    std::size_t against = 0;  ///< edges that two faces use in the same direction
     long euler() const { return long(vertices) - long(edges) + long(faces); }
 };
 inline Manifold manifold(const Mesh& mesh) {

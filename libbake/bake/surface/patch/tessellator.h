@@ -1,5 +1,5 @@
-// Tessellates a base surface: a layout becomes a mesh. The caller decides, through callbacks, which position and normal
-// each vertex gets, so that a relief can be added that this room knows nothing of.
+// Tessellates a base surface: converts a layout to a mesh. The caller sets the position and normal of each vertex through
+// callbacks, so that this module does not depend on relief.
 #pragma once
 #include "bake/surface/patch/layout.h"
 #include <functional>
@@ -8,8 +8,8 @@ namespace bake {
 
 class Progress;
 
-/// Vertices at which no sides differ, all of one patch: parameters in the patch, the surface there, and the index of
-/// position, normal and uv in the mesh.
+/// Vertices of one patch that have a single normal and uv: their parameters in the patch, their surface points, and the index
+/// of position, normal and uv in the mesh.
 struct PatchVertices {
     std::uint32_t patch;
     std::span<const Vec2d> st;
@@ -17,8 +17,8 @@ struct PatchVertices {
     std::span<const std::uint32_t> index;
 };
 
-/// The vertices of one junction: one at a vertex of the complex, those inside an edge of it. Vertex j of side k has the
-/// parameters st[k count + j] in the patch of that side.
+/// The vertices of one junction: one vertex at a vertex of the complex, or the inner vertices of an edge. Vertex j of side k
+/// has the parameters st[k * count + j] in the patch of that side.
 struct JunctionVertices {
     const Junction& junction;
     const PatchCells& cells;
@@ -35,7 +35,7 @@ struct JunctionVertices {
     }
 };
 
-/// Each vertex is given to one callback once. Callbacks run on several threads; `job` numbers portions of work that do not
+/// Each vertex is passed to one callback once. Callbacks run on several threads; `job` numbers portions of work that do not
 /// depend on the number of threads, so that per-job results can be combined in a fixed order.
 struct VertexWriter {
     std::function<void(std::size_t jobs)> begin; ///< called first, with the number of jobs; may be empty
