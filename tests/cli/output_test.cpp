@@ -156,4 +156,24 @@ TEST_SUITE("cli") {
         }
     }
 
+    TEST_CASE("output: an ending in capitals gives every verb the file that it gives in lower case") {
+        const Folder folder;
+        const auto same = [&](std::vector<std::string> arguments, const std::string& lower, const std::string& upper) {
+            CAPTURE(upper);
+            arguments.insert(arguments.end(), {"-o", lower});
+            REQUIRE(run_bake(folder, arguments).code == 0);
+            arguments.back() = upper;
+            CHECK(run_bake(folder, arguments).code == 0);
+            CHECK((contents(folder / lower) == contents(folder / upper)));
+        };
+        same({"surface", "--shape", "torus", "--resolution", "8x4"}, "surface.ply", "surface.PLY");
+        same({"surface", "--shape", "torus", "--resolution", "8x4"}, "surface.glb", "surface.GLB");
+        same({"displace", torus, "--height", dots}, "displaced.ply", "displaced.PLY");
+        same({"displace", torus, "--height", dots, "--margin"}, "displaced.glb", "displaced.GLB");
+        same({"normal-map", "--height", dots}, "map.tif", "map.TIF");
+        same({"bump-table", dots}, "table.png", "table.PNG");
+        same({"cubemap", "labels", "--size", "16"}, "cube.exr", "cube.EXR");
+        CHECK(read_image_info(folder / "cube.EXR").environment == EnvironmentTag::cube);
+    }
+
 } // TEST_SUITE

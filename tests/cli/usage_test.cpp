@@ -1,7 +1,10 @@
 // The command line itself: what is refused before anything is read.
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using namespace bake;
 using namespace bake::test;
@@ -9,6 +12,19 @@ using namespace bake::test;
 namespace {
 
 const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_meshes() / "torus.obj").string();
+
+/// The verbs, as bake --help lists them.
+std::vector<std::string> verbs() {
+    const Folder folder;
+    std::istringstream help(run_bake(folder, {"--help"}).out);
+    std::vector<std::string> names;
+    std::string line;
+    while (std::getline(help, line) && line != "Subcommands:") {
+    }
+    while (std::getline(help, line) && line.starts_with("  "))
+        if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    return names;
+}
 
 } // namespace
 
@@ -21,13 +37,10 @@ TEST_SUITE("cli") {
         CHECK(version.code == 0);
         CHECK(version.out.starts_with("bake "));
         CHECK(lines(version.out) == 1);
-        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
-                                                          {"bump-table", "--help"},
-                                                          {"normal-map", "--help"},
-                                                          {"surface", "--help"},
-                                                          {"check", "--help"},
-                                                          {"render", "--help"},
-                                                          {"explain", "-h"}}) {
+        std::vector<std::vector<std::string>> calls = {{"--help"}, {"explain", "-h"}};
+        for (const std::string& verb : verbs()) calls.push_back({verb, "--help"});
+        REQUIRE(calls.size() >= 10); // eight verbs
+        for (const std::vector<std::string>& arguments : calls) {
             const Run help = run_bake(folder, arguments);
             CHECK(help.code == 0);
             CHECK(help.err == "");
@@ -39,6 +52,28 @@ TEST_SUITE("cli") {
                                    "--channel", "--invert", "--layout", "--depth", "--dequantise", "--threads",
                                    "--quiet", "--json", "auto|central|sobel|scharr|order4|order6|c2"})
             CHECK_MESSAGE(help.out.find(option) != std::string::npos, std::string(option));
+    }
+
+    TEST_CASE("usage: messages of the library name fields of its options, and the command turns them into flags") {
+        const fs::path sources = own_meshes() / "../libbake";
+        for (const auto& entry : fs::recursive_directory_iterator(sources)) {
+            std::istringstream text(entry.is_regular_file() ? contents(entry.path().string()) : "");
+            for (std::string line; std::getline(text, line);)
+                for (std::size_t at = line.find("--"); at != std::string::npos; at = line.find("--", at + 2)) {
+                    const bool quoted = std::count(line.begin(), line.begin() + std::ptrdiff_t(at), '"') % 2 == 1;
+                    CHECK_MESSAGE(!(quoted && std::isalpha(static_cast<unsigned char>(line[at + 2]))),
+                                  entry.path().string() << ": " << line);
+                }
+        }
+        const Folder folder;
+        fs::copy_file(dots, folder / "square.png");
+        check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4, "--from ball");
+        check_refused(folder, {"bump-table", "square.png", "--channel", "a", "-o", "a.exr"}, 4, "another --channel");
+        check_refused(folder,
+                      {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "100M", "-o", "a.ply"}, 4,
+                      "more memory by --max-memory or take --levels 4");
+        const Run check = run_bake(folder, {"check", (own_meshes() / "trouble/mirrored_uvs.obj").string(), "--json"});
+        CHECK(check.out.find('`') == std::string::npos);
     }
 
     TEST_CASE("usage: wrong options are exit 2, one line that names them, and nothing is written") {

@@ -68,13 +68,11 @@ private:
     std::vector<float> room_;
 };
 
-bool is_png(const std::string& path) { return CLI::detail::to_lower(path).ends_with(".png"); }
-
 constexpr float largest_half = 65504;
 
 void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const Code& code,
                   Progress& progress) {
-    const bool png = code && is_png(args.out);
+    const bool png = code && picture_format(args.out) == PictureFormat::png;
     ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png, code));
     TableSink sink(writer, table.width(), code, png, depth == Depth::half ? largest_half : 0, args.out);
     for_bands(table, std::ref(sink), &progress);

@@ -19,7 +19,7 @@ NamedCamera scene_camera(const std::string& path) {
 } // namespace
 
 NamedCamera parse_camera(const std::string& flag, const std::string& text) {
-    if (text.ends_with(".toml")) return scene_camera(text);
+    if (ending(text) == ".toml") return scene_camera(text);
     const auto refuse = [&](const std::string& why) {
         return Error(Refusal::usage,
                      flag + " " + text + ": " + why +

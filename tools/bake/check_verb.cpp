@@ -1,9 +1,7 @@
-// bake check: what is in each file given, and what is wrong with it.
+// bake check: what is in each file, and what is wrong with it.
 #include "bake/verdict/inspect.h"
 #include "options.h"
-#include "verb.h"
 #include <cstdio>
-#include <map>
 #include <new>
 
 namespace bake {
@@ -17,13 +15,13 @@ struct CheckArgs {
     bool strict = false;
 };
 
-// Files are independent: a bad one is reported, and the others are still looked at.
+// Files are independent: a bad one is reported, and the others are still inspected.
 struct Results {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     int code = 0;         ///< of the first bad file
     bool wrong = false;   ///< some file has a warning
     bool over = false;    ///< some distance is over --limit
-    bool printed = false; ///< text: something stands above
+    bool printed = false; ///< a report has been printed as text
 };
 
 bool over_limit(const DistanceReport& report) { return report.over_limit(); }
@@ -36,7 +34,9 @@ template <class Inspect> void add_result(Results& results, const std::string& fi
         results.files.push_back({{"file", file}, {"error", message}, {"code", int(why)}});
     };
     try {
-        const auto report = inspect();
+        auto report = inspect();
+        for (auto* lines : {&report.findings.warnings, &report.findings.notes})
+            for (std::string& line : *lines) line = with_flags(line);
         results.wrong = results.wrong || !report.findings.warnings.empty();
         results.over = results.over || over_limit(report);
         if (json) {
@@ -77,29 +77,24 @@ int run(const CheckArgs& args, const CommonArgs& common) {
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
-    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to look at");
+    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to inspect");
     const auto pair = sub.add_option("--pair", args->pairs,
                                      "A height texture and the normal map said to be of it; may be given again")
                           ->allow_extra_args(false) // a file may follow
                           ->type_name("HEIGHT NORMAL");
-    const std::map<std::string, Grey> greys = {{"mean", Grey::mean}, {"r", Grey::r}, {"g", Grey::g},
-                                               {"b", Grey::b},       {"a", Grey::a}, {"luma", Grey::luma}};
-    sub.add_option("--height-channel", args->options.height_channel,
-                   "Grey of the pair's height: mean, r, g, b, a or luma; mean unless given")
-        ->transform(CLI::CheckedTransformer(greys, CLI::ignore_case).description(""))
-        ->type_name("CHANNEL");
+    add_channel_option(sub, "--height-channel", args->options.height_channel, "Grey of the pair's height");
     add_mesh_options(sub, args->options.read);
     sub.add_option("--overlap-size", args->options.uv.overlap_size,
-                   "Samples along a UV tile that overlaps are measured with; 0: not measured")
+                   "Samples along a UV tile for measuring overlaps; 0: not measured")
         ->check(CLI::Range(0, 8192))
         ->capture_default_str();
     sub.add_flag("--audit", args->options.audit,
-                 "Meshes: self intersections, orientation and volume too, exactly (slow)");
+                 "Meshes: report self-intersections, orientation and volume too, computed exactly (slow)");
     const auto against = sub.add_option("--against", args->against,
-                                        "A mesh: how far those given lie from it, in place of the reports on them")
+                                        "Report the distance of the meshes from this mesh instead of what is in them")
                              ->type_name("MESH");
     sub.add_option("--limit", args->options.limit,
-                   "With --against: exit with 1 if they may lie farther apart, object units")
+                   "With --against: exit with 1 if the distance may be larger, object units")
         ->needs(against)
         ->check(CLI::PositiveNumber);
     sub.add_option("--samples", args->options.distance.samples,
@@ -108,18 +103,17 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
         ->check(CLI::Range(1, 1000000000))
         ->capture_default_str();
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
-    add_examples(sub, "  bake check head.obj head_height.png\n"
-                      "  bake check --strict --json *.obj\n"
-                      "  bake check --audit head.ply\n"
-                      "  bake check displaced.ply --against reference.ply --limit 0.001\n"
-                      "  bake check --pair brick_height.png brick_normal.png\n"
-                      "  bake check --pair rock_albedo_height.png rock_normal.png --height-channel a");
+    add_examples(sub, "  bake check meshes/torus.obj meshes/bricks.png\n"
+                      "  bake check --strict --json meshes/*.obj\n"
+                      "  bake check --audit meshes/torus.obj\n"
+                      "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
+                      "  bake normal-map --height meshes/bricks.png -o bricks_normal.png\n"
+                      "  bake check --pair meshes/bricks.png bricks_normal.png --height-channel r\n");
     return [args, &common, files, pair] {
         if (files->empty() && pair->empty())
             throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
         if (!args->against.empty() && (files->empty() || !pair->empty() || args->options.audit))
-            throw Error(Refusal::usage,
-                        "check: --against takes meshes alone; give --audit and --pair in a run of their own");
+            throw Error(Refusal::usage, "check: --against takes meshes alone; run --audit and --pair separately");
         return run(*args, common);
     };
 }

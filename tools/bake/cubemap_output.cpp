@@ -3,6 +3,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/environment/filter/mips.h"
+#include "bake/picture/picture_name.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,7 +63,7 @@ void fit(Image<float>& image, const CubemapTarget& target, const std::string& fi
 
 WriteOptions write_options(const CubemapTarget& target, bool mips) {
     WriteOptions options{.depth = target.depth, .srgb = target.encode_srgb, .mips = mips};
-    const bool exr = target.out.size() > 4 && target.out.compare(target.out.size() - 4, 4, ".exr") == 0;
+    const bool exr = picture_format(target.out) == PictureFormat::exr;
     if (exr && target.to == SkyFormat::openexr_cube) options.environment = EnvironmentTag::cube;
     if (exr && target.to == SkyFormat::openexr_latlong) options.environment = EnvironmentTag::latlong;
     return options;

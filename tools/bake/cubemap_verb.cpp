@@ -131,18 +131,14 @@ Loaded load_sky(const CubemapArgs& args, const CommonArgs& common, Progress& pro
     return loaded;
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 CubemapTarget target_for(const CubemapArgs& args, const Loaded& loaded) {
     CubemapTarget target;
     target.out = args.out;
     target.to = args.to;
     if (target.to == SkyFormat::automatic)
-        target.to = args.out.find("%s") != std::string::npos ? SkyFormat::faces
-                    : ends_with(args.out, ".exr")            ? SkyFormat::openexr_cube
-                                                             : SkyFormat::strip;
+        target.to = args.out.find("%s") != std::string::npos         ? SkyFormat::faces
+                    : picture_format(args.out) == PictureFormat::exr ? SkyFormat::openexr_cube
+                                                                     : SkyFormat::strip;
     target.order = args.order;
     target.size = args.size;
     if (target.size == 0) {

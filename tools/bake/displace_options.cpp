@@ -2,18 +2,11 @@
 #include "bake/relief/height/vector_height.h"
 #include "camera_options.h"
 #include <cctype>
-#include <filesystem>
 
 namespace bake {
 namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
-
-std::string ending(const std::string& path) {
-    std::string text = std::filesystem::path(path).extension().string();
-    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 /// The input with the scheme that --subdivide names.
 SurfaceInput surface_input(const DisplaceArgs& args) {
@@ -105,10 +98,10 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
 
 void check_usage(const DisplaceArgs& args) {
     check_usage(surface_input(args), "displace");
-    const std::string format = ending(args.out);
-    if (format != ".obj" && format != ".ply" && format != ".glb" && format != ".gltf")
+    if (mesh_format(args.out) == MeshFormat::unknown)
         throw usage("--out " + args.out + ": is not a mesh format known here; use .obj, .ply, .glb or .gltf");
-    if (args.margin && format == ".obj") throw usage("--margin: .obj has no place for attributes; write .ply or .glb");
+    if (args.margin && mesh_format(args.out) == MeshFormat::obj)
+        throw usage("--margin: .obj has no place for attributes; write .ply or .glb");
     if (!args.surface.shape.empty() && args.kind != BaseKind::automatic)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
     if (args.levels.has_value() + !args.edge_px.empty() + !args.max_error.empty() > 1)

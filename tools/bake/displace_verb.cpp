@@ -88,7 +88,6 @@ std::function<int()> displace_verb(CLI::App& sub, const CommonArgs& common) {
     add_displace_options(sub, *args);
     add_examples(
         sub,
-        "The mesh as it is, and its faces cut into 2^4 x 2^4:\n"
         "  bake displace scan.ply --height scan_height.exr -o out.ply\n"
         "  bake displace torus.obj --height bricks.png --amplitude 1% --levels 4 -o out.glb\n"
         "  bake displace torus.obj --height vectors.exr --vector tangent --levels 4 -o out.glb\n"

@@ -1,4 +1,4 @@
-#include "bake/mesh/file/mesh_io.h"
+// bake explain: what happens to one texel, from the height file to the shaded pixel.
 #include "bake/verdict/explain.h"
 #include "normal_map_options.h"
 #include <cstdio>
@@ -15,8 +15,7 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
     check_usage(args.map);
     ExplainInput input{.mesh_path = args.map.mesh, .height_path = args.map.height.path};
     input.uv = parse_pair("--uv", args.uv, false);
-    const auto inside = [](double c) { return c >= 0 && c <= 1; };
-    if (!inside(input.uv.x) || !inside(input.uv.y))
+    if (input.uv != glm::clamp(input.uv, 0.0, 1.0))
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
     const HeightTexture height = load_height(args.map.height);
     const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
@@ -33,9 +32,9 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
 std::function<int()> explain_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<ExplainArgs>();
     sub.add_option("mesh", args->map.mesh, "UV-mapped mesh (.obj, .ply, .gltf, .glb)")->required();
-    sub.add_option("--uv", args->uv, "Where, in the unit square, v up")->required()->type_name("U,V");
+    sub.add_option("--uv", args->uv, "The point, in the unit square, v up")->required()->type_name("U,V");
     add_normal_map_options(sub, args->map);
-    add_examples(sub, "  bake explain torus.obj --height bricks.png --amplitude 1% --uv 0.25,0.5\n");
+    add_examples(sub, "  bake explain meshes/torus.obj --height meshes/bricks.png --amplitude 1% --uv 0.25,0.5\n");
     return [args, &common] { return run(*args, common); };
 }
 

@@ -1,4 +1,4 @@
-// bake <verb>: parses the command line, runs one verb, turns every refusal into one line and its exit code.
+// bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
 #include "bake/base/parallel.h"
 #include "bake/base/version.h"
 #include "verb.h"
@@ -12,7 +12,7 @@ namespace bake {
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", line.c_str());
+    if (!common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", with_flags(line).c_str());
 }
 
 namespace {
@@ -25,18 +25,18 @@ struct VerbEntry {
 
 constexpr VerbEntry verbs[] = {
     {"bump-table", "Bump lookup table (slopes along u and v) from a grayscale height texture", bump_table_verb},
-    {"displace", "A mesh really displaced by a height: welded, crack-free, with exact normals", displace_verb},
+    {"displace", "Displace a mesh by a height: welded, without cracks, with exact normals", displace_verb},
     {"normal-map", "Normal map from a height texture, on a plane or on a mesh", normal_map_verb},
     {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface",
      surface_verb},
-    {"check", "What is in a mesh or an image, and what will go wrong with it", check_verb},
-    {"cubemap", "Environment from six faces or one picture: assembled, converted, filtered, captured", cubemap_verb},
-    {"render", "Preview render of a scene", render_verb},
-    {"explain", "One texel's journey from height file to shaded pixel, every number printed", explain_verb},
+    {"check", "Report what is in meshes and images, and what is wrong with them", check_verb},
+    {"cubemap", "Assemble, convert, filter and capture environments: six faces or one picture", cubemap_verb},
+    {"render", "Render a preview of a scene", render_verb},
+    {"explain", "Print every step from the height file to the shaded pixel for one texel", explain_verb},
 };
 
 int fail(const std::string& message, Refusal why) {
-    std::fprintf(stderr, "bake: %s\n", message.c_str());
+    std::fprintf(stderr, "bake: %s\n", with_flags(message).c_str());
     return int(why);
 }
 
@@ -48,12 +48,12 @@ std::string one_line(std::string text) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app{"bake: normal, bump and environment maps, and a preview of them", "bake"};
+    CLI::App app{"bake: normal maps, bump tables, displaced meshes, environment maps, and previews of them", "bake"};
     app.set_version_flag("--version", std::string("bake ") + version());
     app.require_subcommand(1);
     app.set_help_flag("-h,--help", "Print this help");
-    add_examples(app, "  bake check model.obj height.png\n"
-                      "  bake normal-map model.obj --height height.png --amplitude 1% -o normal.png\n"
+    add_examples(app, "  bake check meshes/torus.obj meshes/bricks.png\n"
+                      "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o normal.png\n"
                       "  bake <verb> --help\n");
 
     CommonArgs common;
@@ -79,7 +79,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const auto used = app.get_subcommands();
         const std::string verb = used.empty() ? "bake" : "bake " + used.front()->get_name();
-        if (argc == 1) return fail("which verb? See bake --help", Refusal::usage);
+        if (argc == 1) return fail("no verb; see bake --help", Refusal::usage);
         return fail(one_line(error.what()) + "; see " + verb + " --help", Refusal::usage);
     }
     const ThreadLimit limit(common.threads);

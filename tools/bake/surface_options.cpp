@@ -1,6 +1,5 @@
 #include "surface_options.h"
 #include "surface_map_files.h"
-#include <filesystem>
 
 namespace bake {
 namespace {
@@ -80,12 +79,10 @@ void check_usage(const SurfaceArgs& args) {
     parse_size(args.size);
     if (!args.resolution.empty()) check_resolution(args);
     if (args.out.empty()) return;
-    const std::string ending = std::filesystem::path(args.out).extension().string();
-    if (ending != ".ply" && ending != ".glb" && ending != ".gltf")
+    const MeshFormat format = mesh_format(args.out);
+    if (format != MeshFormat::ply && format != MeshFormat::gltf)
         throw usage("--out " + args.out + ": cannot hold curvatures; choose a name that ends in .ply or .glb");
-    std::error_code absent;
-    if (std::filesystem::equivalent(args.out, args.surface.mesh, absent))
-        throw usage("--out " + args.out + ": would replace the mesh it is made from; choose another name");
+    check_not_input(args.out, args.surface.mesh);
 }
 
 } // namespace bake

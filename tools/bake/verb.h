@@ -31,6 +31,8 @@ Verb cubemap_verb;
 
 /// Adds what a verb's --help ends with.
 void add_examples(CLI::App& sub, const std::string& examples);
+/// The message with `field`, as the library names a field of its options, replaced by the flag that sets the field.
+std::string with_flags(const std::string& message);
 /// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
 

@@ -1,10 +1,13 @@
-// printf into a string, for messages and reports.
+// Text for messages and reports, and the endings of file names.
 #pragma once
 #include <string>
 
 namespace bake {
 
-/// At most 1023 characters.
+/// printf into a string of at most 1023 characters.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+/// The ending of a file's name in lower case, with its dot: ".png" for "a/B.PNG". Empty if the name has none.
+std::string ending(const std::string& path);
 
 } // namespace bake

@@ -4,6 +4,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/picture_formats.h"
+#include "bake/picture/picture_name.h"
 #include "bake/picture/plain_png.h"
 #include "bake/picture/plain_tiff.h"
 #include <algorithm>
@@ -114,23 +115,21 @@ float linear_to_srgb(float linear) noexcept {
 }
 
 Depth resolve_depth(const std::string& path, Depth depth) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     const auto refuse = [&](const char* why) -> Error { return Error(Refusal::usage, path + ": " + why); };
-    if (ending == ".png") {
+    switch (picture_format(path)) {
+    case PictureFormat::png:
         if (depth == Depth::half || depth == Depth::float32)
             throw refuse("PNG holds 8 or 16 bits; write .exr or .tif for half and float");
         return depth == Depth::automatic ? Depth::u16 : depth;
-    }
-    if (ending == ".exr") {
+    case PictureFormat::exr:
         if (depth == Depth::u8 || depth == Depth::u16)
             throw refuse("EXR holds half or float; write .png or .tif for 8 and 16 bits");
         return depth == Depth::automatic ? Depth::half : depth;
-    }
-    if (ending == ".tif" || ending == ".tiff") {
+    case PictureFormat::tiff:
         if (depth == Depth::half)
             throw refuse("half floats in TIFF are read by few programs; use float, or write .exr");
         return depth == Depth::automatic ? Depth::float32 : depth;
+    case PictureFormat::unknown: break;
     }
     throw refuse("unknown ending; write .png, .exr or .tif");
 }

@@ -1,6 +1,7 @@
 #include "bake/picture/plain_tiff.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/picture/picture_name.h"
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -222,10 +223,8 @@ bool describe(TIFF* tiff, const PictureSize& size, const WriteOptions& options) 
 } // namespace
 
 bool fits_plain_tiff(const std::string& path, const PictureSize& size, const WriteOptions& options) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     const std::int64_t header_room = 1 << 20;
-    return std::endian::native == std::endian::little && (ending == ".tif" || ending == ".tiff") && !options.mips &&
+    return std::endian::native == std::endian::little && picture_format(path) == PictureFormat::tiff && !options.mips &&
            options.compression != Compression::zip && size.width > 0 && size.height > 0 && size.channels > 0 &&
            size.height * row_bytes_of(size, options.depth) < (std::int64_t(1) << 32) - header_room;
 }

@@ -13,9 +13,9 @@ bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinit
 } // namespace
 
 Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats, Progress* progress) {
-    if (!finite(position)) throw Error(Refusal::usage, "--at: is not a point; give three numbers, such as 0,1,0");
+    if (!finite(position)) throw Error(Refusal::usage, "`position`: is not a point; give three numbers, such as 0,1,0");
     if (size < 1 || size > 32768)
-        throw Error(Refusal::usage, "--size " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
+        throw Error(Refusal::usage, "`size` " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
     Cube cube = make_cube(size, 3);
     const int spp = std::max(1, scene.settings.spp);
     std::vector<RenderStats> per_row(std::size_t(6) * size);

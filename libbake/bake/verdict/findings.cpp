@@ -85,7 +85,7 @@ void judge_uvs(const MeshReport& report, Findings& out) {
            "relief and tangents are correct (sigma = -1), text is mirrored");
     if (2 * uv.mirrored_triangles > report.check.triangles)
         out.notes.push_back(
-            "most triangles are mirrored: perhaps v does not follow the rule of the format; see --flip-v");
+            "most triangles are mirrored: perhaps v does not follow the rule of the format; see `flip_v`");
     if (uv.density.p5 > 0 && uv.density.p95 / uv.density.p5 > 4)
         out.notes.push_back("texel density varies " + number(uv.density.p95 / uv.density.p5) +
                             " times between its 5th and 95th percentile");
@@ -126,14 +126,14 @@ void add_image_notes(const ImageCheck& c, Findings& out) {
     if (c.looks == Looks::grey && (c.tiling.x > tiles_up_to || c.tiling.y > tiles_up_to))
         out.notes.push_back(std::string("does not tile in ") +
                             (c.tiling.x > tiles_up_to ? (c.tiling.y > tiles_up_to ? "x and y" : "x") : "y") +
-                            ": as a height use --wrap" +
-                            (c.tiling.x > tiles_up_to ? (c.tiling.y > tiles_up_to ? "" : "-u") : "-v") + " clamp");
+                            ": as a height use `wrap" +
+                            (c.tiling.x > tiles_up_to ? (c.tiling.y > tiles_up_to ? "" : "_u") : "_v") + "` clamp");
     if (c.info.alpha_channel >= 0 && std::size_t(c.info.alpha_channel) < c.channels.size()) {
         const ChannelCheck& alpha = c.channels[c.info.alpha_channel];
         if (alpha.min == alpha.max && alpha.min == 1) out.notes.push_back("alpha is 1 everywhere");
         else if (alpha.levels > 16 && c.channels.size() > 2)
             out.notes.push_back("alpha has " + (alpha.levels > most_levels ? "many" : std::to_string(alpha.levels)) +
-                                " levels: perhaps packed data, such as a height (--channel a)");
+                                " levels: perhaps packed data, such as a height (`grey` a)");
     }
 }
 
@@ -175,7 +175,7 @@ Findings judge(const ImageReport& report) {
         out.warnings.push_back(
             "only " + std::to_string(c.grey.levels) + " levels in use, in [" + number(c.grey.min) + ", " +
             number(c.grey.max) +
-            "]: slopes are quantised; export the height normalised, with 16 bits, or use --dequantise");
+            "]: slopes are quantised; export the height normalised, with 16 bits, or use `dequantise`");
     if (c.looks == Looks::normal_map) {
         if (c.not_unit > 0.1)
             out.warnings.push_back(percent(c.not_unit) + " of the normals are more than 2 % off unit length (mean " +
@@ -201,10 +201,10 @@ Findings judge(const PairReport& report) {
     else if (corr < pair_agrees)
         out.warnings.push_back("the two agree only roughly (correlation " + number(corr) + ")");
     if (c.inverted)
-        out.warnings.push_back("inverted height: the normal map is that of the negative height; bake with --invert");
+        out.warnings.push_back("inverted height: the normal map is that of the negative height; bake with `invert`");
     if (c.directx)
         out.warnings.push_back(
-            "DirectX green: y points down in the normal map; bake with --directx to match, or flip its green");
+            "DirectX green: y points down in the normal map; bake with `directx` to match, or flip its green");
     if (c.not_unit > 0.1)
         out.warnings.push_back(percent(c.not_unit) + " of the normals are more than 2 % off unit length (mean " +
                                number(c.normal_length) + "): normalised before use");

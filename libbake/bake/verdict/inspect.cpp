@@ -1,17 +1,17 @@
 #include "bake/verdict/inspect.h"
 #include "bake/base/error.h"
+#include "bake/base/text.h"
 #include "bake/mesh/gltf/io.h"
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 
 namespace bake {
 namespace {
 
 /// read_mesh() and, for glTF files, the content besides the mesh.
 Mesh read_parts(const std::string& path, const InspectOptions& options, std::optional<GltfParts>& parts) {
-    if (!is_gltf(path)) return read_mesh(path, options.read);
+    if (mesh_format(path) != MeshFormat::gltf) return read_mesh(path, options.read);
     Gltf gltf = read_gltf(path, {.flip_v = !options.read.flip_v});
     parts.emplace();
     parts->nodes = gltf.nodes.size();
@@ -25,11 +25,9 @@ Mesh read_parts(const std::string& path, const InspectOptions& options, std::opt
 } // namespace
 
 bool named_like_a_mesh(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     constexpr std::array<const char*, 9> endings = {".obj",  ".ply", ".off", ".stl", ".fbx",
                                                     ".gltf", ".glb", ".usd", ".abc"};
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    return std::find(endings.begin(), endings.end(), ending(path)) != endings.end();
 }
 
 MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) {

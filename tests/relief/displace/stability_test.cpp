@@ -300,7 +300,7 @@ TEST_SUITE("stability") {
             FAIL("not refused");
         } catch (const Error& error) {
             CHECK(error.refusal == Refusal::unsuitable);
-            CHECK(std::string(error.what()).find("smaller amplitude") != std::string::npos);
+            CHECK(std::string(error.what()).find("smaller `amplitude`") != std::string::npos);
         }
     }
 
@@ -328,7 +328,7 @@ TEST_SUITE("stability") {
         } catch (const Error& error) {
             CHECK(error.refusal == Refusal::unsuitable);
             const std::string what = error.what();
-            CHECK(what.find("level 5") != std::string::npos);
+            CHECK(what.find("`rates.levels` 5") != std::string::npos);
             CHECK(what.find("1572864 faces") != std::string::npos);
             CHECK(what.find('\n') == std::string::npos);
         }

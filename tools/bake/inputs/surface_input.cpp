@@ -1,19 +1,10 @@
 #include "inputs/surface_input.h"
 #include "bake/mesh/weld.h"
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 namespace bake {
 namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
-
-bool is_obj(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return ending == ".obj";
-}
 
 } // namespace
 
@@ -49,7 +40,7 @@ BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
     }
     Mesh mesh = read_mesh(input.mesh, input.reading);
     if (!input.scheme) return BaseSurface(std::move(mesh));
-    if (!is_obj(input.mesh)) weld_positions(mesh);
+    if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);
     return BaseSurface(std::move(mesh), SubdivisionOptions{.scheme = *input.scheme, .uv = input.uv_smoothing});
 }

@@ -25,11 +25,11 @@ SkyFormat format_of(const std::string& file, const Image<float>& image, const Im
     }
     if (image.width() == image.height())
         throw unsuitable(file, "is square, as mirror balls, angular maps and octahedral maps are; say which with "
-                               "--from ball, probe or octahedral");
+                               "`from` ball, probe or octahedral");
     throw unsuitable(
         file,
         "is " + size_of(image) +
-            ", which is no shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop it, or say --from");
+            ", which is no shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop it, or say `from`");
 }
 
 /// Mean of the colour channels of the texels inside and outside the disc.
@@ -72,7 +72,7 @@ void check_shape(const std::string& file, const Image<float>& image, SkyFormat k
                 file,
                 format(
                     "is not black outside the disc (mean %.3g there, %.3g inside), so it is no angular map; perhaps a "
-                    "photograph of a ball (--from ball) or octahedral",
+                    "photograph of a ball (`from` ball) or octahedral",
                     means.outside, means.inside));
     }
 }
@@ -138,9 +138,9 @@ Environment read_environment(const std::vector<std::string>& inputs, const ReadE
     if (inputs.size() != 1 || pattern) {
         if (options.from != SkyFormat::automatic && options.from != SkyFormat::faces)
             throw Error(Refusal::usage,
-                        std::string("--from ") + name(options.from) + ": is one image, but " + inputs[0] +
+                        std::string("`from` ") + name(options.from) + ": is one image, but " + inputs[0] +
                             (pattern ? " stands for six" : " is one of " + std::to_string(inputs.size())) +
-                            "; leave --from out");
+                            "; leave `from` out");
         const FaceFiles found = pattern ? find_faces(inputs[0]) : name_faces(inputs);
         FacesReport faces;
         sky.cube = read_faces(found.files, options.radiance, &faces);

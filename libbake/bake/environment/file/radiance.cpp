@@ -107,7 +107,7 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     case BadPolicy::refuse:
         throw Error(Refusal::unsuitable,
                     file + ": holds texels that are no radiance: " + to_text(bad, largest) +
-                        "; mend the picture, or let bake cubemap do it with --bad zero or --bad clamp");
+                        "; mend the picture, or let bake cubemap do it with `bad` zero or `bad` clamp");
     case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
     case BadPolicy::clamp:
         each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); });

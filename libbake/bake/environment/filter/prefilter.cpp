@@ -12,7 +12,7 @@ namespace {
 void check(const PrefilterOptions& options) {
     const auto refuse = [](const std::string& message) { throw Error(Refusal::usage, message); };
     if (options.roughness.empty())
-        refuse("specular: no roughness; give one for each level, as in --roughness 0,0.1,0.3,1");
+        refuse("specular: no roughness; give one for each level, as in `roughness` 0,0.1,0.3,1");
     if (options.size < 0)
         refuse("specular: size " + std::to_string(options.size) + " is negative; give 0 for the sky's own");
     for (const double value : options.roughness) {

@@ -194,8 +194,8 @@ double density_of(const FaceGrid& grid) noexcept { return std::sqrt(6.0 * grid.t
 Samples resolve(const Environment& source, double density, bool same, const ResampleOptions& options) {
     const bool disc = !source.is_cube() && has_disc(source.projection);
     if (options.samples == Samples::exact && disc)
-        throw Error(Refusal::usage, std::string("--samples exact: texels at the rim of a ") + name(source.projection) +
-                                        " have no shape to share out; take --samples 4x4");
+        throw Error(Refusal::usage, std::string("`samples` exact: texels at the rim of a ") + name(source.projection) +
+                                        " have no shape to share out; take `samples` 4x4");
     if (options.samples != Samples::automatic) return options.samples;
     if (disc) return Samples::grid4;
     glm::dmat3 turn = options.turn;

@@ -87,7 +87,7 @@ Cube cut_faces(const Image<float>& picture, CubeLayout layout, FaceOrder order, 
         throw Error(Refusal::unsuitable, file + ": is " + std::to_string(picture.width()) + "x" +
                                              std::to_string(picture.height()) + "; this layout has " +
                                              std::to_string(cells.columns) + "x" + std::to_string(cells.rows) +
-                                             " square faces; give another with --from");
+                                             " square faces; give another with `from`");
     Cube cube = make_cube(n, picture.channels());
     for (const Cell& cell : cells.cells) {
         Image<float>& face = cube[cell.face.face];

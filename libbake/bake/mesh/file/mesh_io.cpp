@@ -1,28 +1,14 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/base/text.h"
 #include "bake/mesh/file/obj.h"
 #include "bake/mesh/file/ply.h"
 #include "bake/mesh/gltf/io.h"
 #include "bake/mesh/mesh_corner.h"
-#include <filesystem>
 #include <new>
 
 namespace bake {
 namespace {
-
-enum class Format { obj, ply, gltf, unknown };
-
-std::string ending(const std::string& path) { return std::filesystem::path(path).extension().string(); }
-
-Format format_of(const std::string& path) {
-    std::string lower = ending(path);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return lower == ".obj"                       ? Format::obj
-           : lower == ".ply"                     ? Format::ply
-           : lower == ".glb" || lower == ".gltf" ? Format::gltf
-                                                 : Format::unknown;
-}
 
 Error unknown_format(Refusal refusal, const std::string& path) {
     const std::string found = ending(path);
@@ -30,10 +16,10 @@ Error unknown_format(Refusal refusal, const std::string& path) {
                               " is not a mesh format known here; use .obj, .ply, .gltf or .glb");
 }
 
-Mesh read_format(Format format, const std::string& path, const MeshOptions& options) {
+Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& options) {
     try {
-        if (format == Format::gltf) return flatten(read_gltf(path, {.flip_v = !options.flip_v}));
-        Mesh mesh = format == Format::obj ? read_obj(path) : read_ply(path);
+        if (format == MeshFormat::gltf) return flatten(read_gltf(path, {.flip_v = !options.flip_v}));
+        Mesh mesh = format == MeshFormat::obj ? read_obj(path) : read_ply(path);
         for (Vec2f& uv : mesh.uvs)
             if (options.flip_v) uv.y = 1 - uv.y;
         return mesh;
@@ -44,11 +30,17 @@ Mesh read_format(Format format, const std::string& path, const MeshOptions& opti
 
 } // namespace
 
-bool is_gltf(const std::string& path) { return format_of(path) == Format::gltf; }
+MeshFormat mesh_format(const std::string& path) {
+    const std::string end = ending(path);
+    return end == ".obj"                     ? MeshFormat::obj
+           : end == ".ply"                   ? MeshFormat::ply
+           : end == ".glb" || end == ".gltf" ? MeshFormat::gltf
+                                             : MeshFormat::unknown;
+}
 
 Mesh read_mesh(const std::string& path, const MeshOptions& options) {
-    const Format format = format_of(path);
-    if (format == Format::unknown) throw unknown_format(Refusal::unreadable, path);
+    const MeshFormat format = mesh_format(path);
+    if (format == MeshFormat::unknown) throw unknown_format(Refusal::unreadable, path);
     Mesh mesh = read_format(format, path, options);
     if (mesh.faces() == 0)
         throw Error(Refusal::unsuitable, path + ": has no faces (" + std::to_string(mesh.positions.size()) +
@@ -57,14 +49,14 @@ Mesh read_mesh(const std::string& path, const MeshOptions& options) {
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-    const Format format = format_of(path);
-    if (format == Format::unknown) throw unknown_format(Refusal::usage, path);
-    if (format == Format::gltf) {
+    const MeshFormat format = mesh_format(path);
+    if (format == MeshFormat::unknown) throw unknown_format(Refusal::usage, path);
+    if (format == MeshFormat::gltf) {
         write_gltf(path, mesh);
         return;
     }
     refuse_unless_finite(mesh, path);
-    if (format == Format::obj) write_obj(path, mesh);
+    if (format == MeshFormat::obj) write_obj(path, mesh);
     else write_ply(path, mesh);
 }
 

@@ -25,8 +25,11 @@ struct MeshOptions {
 /// Memory: the file and the mesh. Any number of threads gives the same mesh and the same refusal.
 Mesh read_mesh(const std::string& path, const MeshOptions& options = {});
 
-/// True for .gltf and .glb, whose materials and nodes read_gltf gives too.
-bool is_gltf(const std::string& path);
+/// Formats of mesh files. gltf: .gltf and .glb, whose materials and nodes read_gltf() gives too.
+enum class MeshFormat { obj, ply, gltf, unknown };
+
+/// By the ending of the file's name, upper or lower case.
+MeshFormat mesh_format(const std::string& path);
 
 /// Writes .obj (all of the mesh but tangents and attributes; numbers that read back to the same floats), .ply (binary
 /// little endian; one vertex per distinct corner, with zeros where a corner has no uv or normal, tangents as tx ty tz tw,

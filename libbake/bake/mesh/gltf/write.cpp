@@ -1,4 +1,5 @@
 #include "bake/base/error.h"
+#include "bake/base/text.h"
 #include "bake/base/version.h"
 #include "bake/mesh/gltf/geometry.h"
 #include <cstring>
@@ -306,9 +307,7 @@ bool is_identity(const GltfNode& node) { return std::equal(node.to_world, node.t
 
 GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& mesh) {
     refuse_unless_finite(mesh, path);
-    std::string ending = fs::path(path).extension().string();
-    for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-    const bool binary = ending == ".glb";
+    const bool binary = ending(path) == ".glb";
     std::vector<GltfNode> nodes = gltf.nodes;
     if (nodes.empty())
         nodes.push_back(

@@ -56,16 +56,17 @@ void refuse_too_large(const BaseSurface& base, const DisplaceOptions& options, c
         return c.bytes <= limit && std::max(c.points, c.corners) < no_index;
     };
     if (fits(count)) return;
-    std::string mend = "allow more memory";
+    std::string mend = "allow more memory by `max_bytes`";
     if (options.rates.rule == Rates::Rule::uniform) {
         int level = options.rates.levels;
         while (--level >= 0) {
             const Plan coarser(base, uniform_rates(base, level), options.margin);
             if (fits(coarser.count)) break;
         }
-        mend += level >= 0 ? " or take level " + std::to_string(level)
+        mend += level >= 0 ? " or take `rates.levels` " + std::to_string(level)
                            : std::string(" or a coarser mesh: not even level 0 fits");
-    } else mend += options.rates.rule == Rates::Rule::error ? " or a larger error" : " or longer edges";
+    } else
+        mend += options.rates.rule == Rates::Rule::error ? " or a larger `rates.error`" : " or a larger `rates.size`";
     throw Error(Refusal::unsuitable,
                 "displacement: needs " + in_megabytes(count.bytes) + " for " + std::to_string(count.points) +
                     " points and " + std::to_string(count.faces) + " faces, more than " +
@@ -148,7 +149,7 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
     if (tally.not_finite)
         throw Error(Refusal::unsuitable,
                     "displacement: " + std::to_string(tally.not_finite) +
-                        " points lie beyond what a mesh can hold (3.4e38); take a smaller amplitude");
+                        " points lie beyond what a mesh can hold (3.4e38); take a smaller `amplitude`");
     normals_from_faces(out.mesh, tally.without_normal);
     out.report = report_of(plan, tally);
     if (options.measure_error) {

@@ -14,7 +14,7 @@ void cut_poles_as_cells(const PatchComplex& complex, CellRates& rates) {
 
 RatePlan uniform_rates(const BaseSurface& base, int levels) {
     if (levels < 0 || levels > 14)
-        throw Error(Refusal::usage, "levels: " + std::to_string(levels) + " is out of range; take 0 to 14");
+        throw Error(Refusal::usage, "`rates.levels`: " + std::to_string(levels) + " is out of range; take 0 to 14");
     return {PatchCells(base, 1), {.uniform = 1u << levels}};
 }
 
@@ -60,7 +60,7 @@ std::uint32_t split_by_size(const ReliefSurface& surface, const SeamBlend& blend
 } // namespace
 
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
-    if (!(rates.size > 0)) throw Error(Refusal::usage, "edge size: must be above 0; take a positive length");
+    if (!(rates.size > 0)) throw Error(Refusal::usage, "`rates.size`: must be above 0; take a positive length");
     constexpr std::int64_t edges_per_job = 64, cells_per_job = 16;
     RatePlan plan{PatchCells(surface.base(), split_by_size(surface, blend, rates)), {}};
     const PatchCells& cells = plan.cells;

@@ -186,7 +186,8 @@ private:
 } // namespace
 
 RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
-    if (!(rates.error > 0)) throw Error(Refusal::usage, "error: must be above 0; take a length in object units");
+    if (!(rates.error > 0))
+        throw Error(Refusal::usage, "`rates.error`: must be above 0; take a length in object units");
     // Smaller cells follow the relief better, but each costs at least one face: halve them while the total falls.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
     std::uint32_t split =

@@ -21,7 +21,7 @@ std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, 
     for (int c = 0; c < count; ++c)
         if (colour(c)) colours.push_back(c);
     const auto missing = [&](const char* what) {
-        return Error(Refusal::unsuitable, path + ": has no " + what + " channel; choose another channel");
+        return Error(Refusal::unsuitable, path + ": has no " + what + " channel; choose another `grey`");
     };
     std::vector<float> weights(count, 0.0f);
     switch (grey) {

@@ -200,7 +200,7 @@ void tessellate_limit(const BaseSurface& surface, int rate, SurfaceMesh& out, Pr
     if (std::max(layout.corners, layout.points + 4 * std::uint64_t(rate) * cells.count()) >= no_index)
         throw Error{Refusal::unsuitable, "the limit surface: " + std::to_string(cells.count()) + " patches of " +
                                              std::to_string(rate) + " x " + std::to_string(rate) +
-                                             " cells are more than a mesh can have; take a lower resolution"};
+                                             " cells are more than a mesh can have; take a lower `rate`"};
     const VertexWriter writer{.at_patch =
                                   [](const PatchVertices& v, Mesh& mesh, std::size_t) {
                                       for (std::size_t k = 0; k < v.index.size(); ++k) {

@@ -1,0 +1,14 @@
+// The error budget of a bake as text for people and as JSON for programs.
+#pragma once
+#include "bake/relief/map/error_budget.h"
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace bake {
+
+std::string to_text(const ErrorBudget& budget);
+nlohmann::json to_json(const ErrorBudget& budget);
+std::string to_text(const FilterAdvice& advice);
+nlohmann::json to_json(const FilterAdvice& advice);
+
+} // namespace bake

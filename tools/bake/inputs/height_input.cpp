@@ -1,0 +1,75 @@
+#include "inputs/height_input.h"
+#include "bake/base/text.h"
+#include "bake/relief/height/dequantise.h"
+#include "inputs/choice.h"
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace bake {
+
+void add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
+    sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
+        ->required()
+        ->check(not_empty());
+}
+
+CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& grey, const std::string& help) {
+    return add_choice<Grey>(sub, flag, grey,
+                            {{"mean", Grey::mean},
+                             {"r", Grey::r},
+                             {"g", Grey::g},
+                             {"b", Grey::b},
+                             {"a", Grey::a},
+                             {"luma", Grey::luma}},
+                            help)
+        ->transform(CLI::Validator(
+            [](std::string& text) {
+                text = CLI::detail::to_lower(text);
+                return std::string();
+            },
+            ""));
+}
+
+void add_height_reading_options(CLI::App& sub, HeightInput& input) {
+    add_choice<Wrap>(sub, "--wrap", input.wrap,
+                     {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}},
+                     "What lies beyond the picture's border");
+    const auto along = [&](const char* flag, std::optional<Wrap>& wrap, const char* help) {
+        add_choice<std::optional<Wrap>>(
+            sub, flag, wrap, {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}}, help);
+    };
+    along("--wrap-u", input.along_u, "The same along u alone");
+    along("--wrap-v", input.along_v, "The same along v alone");
+    add_channel_option(sub, "--channel", input.grey,
+                       "Which grey of the picture is the height; mean: of the colour channels");
+    sub.add_flag("--invert", input.invert, "Black is high");
+    sub.add_flag(
+        "--dequantise", input.dequantise,
+        "Smooth the steps of heights of 256 levels or fewer by less than a level; for smooth heights without grain");
+}
+
+void add_height_options(CLI::App& sub, HeightInput& input) {
+    std::vector<std::pair<std::string, Filter>> filters = {{"auto", Filter::automatic}};
+    for (const Filter filter : all_filters) filters.emplace_back(name(filter), filter);
+    add_choice(sub, "--filter", input.filter, filters,
+               "Derivative filter; auto: sobel for 256 levels or fewer, else c2");
+    add_height_reading_options(sub, input);
+}
+
+HeightTexture load_height(const HeightInput& input) {
+    HeightTexture height = read_height(input.path, input.grey);
+    if (input.invert) invert(height);
+    if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
+    return height;
+}
+
+std::string describe_levels(const HeightTexture& height) {
+    const std::string stored = std::string(name(height.info.type)) + " height";
+    return stored + (height.levels <= 256 ? format(", %d levels", height.levels) : ", more than 256 levels");
+}
+
+double step_tilt_deg(double step, double amplitude, double extent, int texels) noexcept {
+    return glm::degrees(std::atan(std::abs(amplitude) * step * texels / (2 * extent)));
+}
+
+} // namespace bake

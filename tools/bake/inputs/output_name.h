@@ -1,0 +1,15 @@
+// The name of the file that a verb writes: -o, --out. What its ending means is asked of picture_format() and
+// mesh_format() alone.
+#pragma once
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/picture/picture_name.h"
+#include "verb.h"
+
+namespace bake {
+
+/// Adds -o, --out, which refuses an empty name.
+CLI::Option* add_output_option(CLI::App& sub, std::string& out, const std::string& help);
+/// Throws Error{Refusal::usage} if the output would replace the input that it is made from.
+void check_not_input(const std::string& out, const std::string& input);
+
+} // namespace bake
