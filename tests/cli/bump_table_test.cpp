@@ -31,21 +31,6 @@ Image<float> table(const Folder& folder, std::vector<std::string> options, const
     return read_image(folder / "t.tif");
 }
 
-/// A level of a file with mips, as OpenImageIO reads it; empty when there is none.
-Image<float> level(const std::string& file, int mip) {
-    const fs::path reader = fs::path(std::getenv("BAKE")).parent_path() / "read_mip";
-    FILE* const pipe = popen(("'" + reader.string() + "' '" + file + "' " + std::to_string(mip)).c_str(), "r");
-    REQUIRE(pipe);
-    int size[3];
-    Image<float> image;
-    if (std::fread(size, sizeof size, 1, pipe) == 1) {
-        image = Image<float>(size[0], size[1], size[2]);
-        CHECK(std::fread(image.data(), sizeof(float), image.size(), pipe) == image.size());
-    }
-    CHECK(pclose(pipe) == 0);
-    return image;
-}
-
 } // namespace
 
 TEST_SUITE("cli") {
@@ -235,7 +220,7 @@ TEST_SUITE("cli") {
                         .code == 0);
             const double expected = std::pow(amplitude * std::sin(w), 2) / 2;
             int levels = 0;
-            for (Image<float> image; !(image = level(folder / file, levels)).empty(); ++levels) {
+            for (Image<float> image; !(image = read_level(folder / file, levels)).empty(); ++levels) {
                 CHECK(image.width() == std::max(1, 128 >> levels));
                 CHECK(image.height() == std::max(1, 32 >> levels));
                 double mean[6] = {};

@@ -104,4 +104,18 @@ void check_refused(const Folder& folder, const std::vector<std::string>& argumen
     CHECK(folder.names() == before);
 }
 
+Image<float> read_level(const std::string& file, int mip) {
+    const fs::path reader = fs::path(std::getenv("BAKE")).parent_path() / "read_mip";
+    FILE* const pipe = popen(("'" + reader.string() + "' '" + file + "' " + std::to_string(mip)).c_str(), "r");
+    REQUIRE(pipe);
+    int size[3];
+    Image<float> image;
+    if (std::fread(size, sizeof size, 1, pipe) == 1) {
+        image = Image<float>(size[0], size[1], size[2]);
+        CHECK(std::fread(image.data(), sizeof(float), image.size(), pipe) == image.size());
+    }
+    CHECK(pclose(pipe) == 0);
+    return image;
+}
+
 } // namespace bake::test

@@ -1,5 +1,6 @@
 // Runs the command from outside, within limits, and looks at everything it leaves behind.
 #pragma once
+#include "bake/picture/image.h"
 #include "folders.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -51,5 +52,8 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
 /// but those that were there.
 void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named,
                    const RunLimits& limits = {});
+
+/// A mip level of a file, read by OpenImageIO; empty when there is none.
+Image<float> read_level(const std::string& file, int mip);
 
 } // namespace bake::test

@@ -1,4 +1,5 @@
 #include "bake/environment/file/environment_io.h"
+#include "bake/environment/sky/solid_angle.h"
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include <cmath>
@@ -173,6 +174,74 @@ TEST_SUITE("cli") {
                   .get<int>() >= 3);
         CHECK(cubemap_json(folder, "sky_%s.tif --specular phong --roughness 50 --size 16 -o phong_%s.tif")["levels"] ==
               1);
+    }
+
+    TEST_CASE("cubemap: levels beyond the roughnesses are the mean over the solid angle, at any size") {
+        // A bright lower right corner of every face: a mean that loses the last row and column would be far too dark.
+        const Folder folder;
+        for (const int n : {192, 64}) {
+            for (const std::string& file : cube_files(folder / "s_%s.tif")) {
+                Image<float> face(n, n, 1);
+                for (int y = 0; y < n; ++y)
+                    for (int x = 0; x < n; ++x) face.at(x, y) = x > n / 2 && y > n / 2 ? 5.0f : 1.0f;
+                write_image(file, face, {.depth = Depth::float32});
+            }
+            const int levels = int(std::log2(n)) + 1;
+            const nlohmann::json result =
+                cubemap_json(folder, "s_%s.tif --specular ggx --roughness 0,0.1 -o ggx_%s.tif --depth float");
+            CHECK(result["levels"] == levels);
+            double finest = 0, coarsest = 0;
+            const std::vector<double> omega = texel_solid_angles(n / 2);
+            for (const std::string& file : cube_files(folder / "ggx_%s.tif")) {
+                const Image<float> blurred = read_level(file, 1), last = read_level(file, levels - 1);
+                REQUIRE(blurred.width() == n / 2);
+                REQUIRE(last.width() == 1);
+                CHECK(read_level(file, levels).empty());
+                for (std::size_t i = 0; i < omega.size(); ++i) finest += omega[i] * blurred.data()[i] / (4 * pi);
+                coarsest += last.at(0, 0) / 6;
+            }
+            CHECK(coarsest == doctest::Approx(finest).epsilon(1e-5)); // floats
+        }
+    }
+
+    TEST_CASE("cubemap: in every format with levels, those below one texel per face keep the sky's mean") {
+        const Folder folder;
+        for (int k = 0; k < 6; ++k) {
+            Image<float> face(8, 8, 1);
+            for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = float(k + 1);
+            write_image(cube_files(folder / "s_%s.tif")[k], face, {.depth = Depth::float32});
+        }
+        for (const SkyFormatEntry& format : sky_formats) {
+            if (!format.mips || format.format == SkyFormat::faces) continue;
+            CAPTURE(std::string(format.name));
+            const int levels =
+                cubemap_json(folder, std::string("s_%s.tif --mips -o m.tif --to ") + format.name)["levels"];
+            const Image<float> last = read_level(folder / "m.tif", levels - 1);
+            REQUIRE(last.size() == 1);
+            CHECK(last.at(0, 0) == doctest::Approx(3.5).epsilon(0.01));
+        }
+        // A strip of three texels has two faces in each.
+        REQUIRE(cubemap(folder, "s_%s.tif --mips -o m.tif --to strip").code == 0);
+        const Image<float> pairs = read_level(folder / "m.tif", 4);
+        REQUIRE(pairs.height() == 3);
+        for (int y = 0; y < 3; ++y) CHECK(pairs.at(0, y) == doctest::Approx(1.5 + 2 * y).epsilon(0.01));
+    }
+
+    TEST_CASE("cubemap: an ending in capitals is the same ending") {
+        const Folder folder;
+        CHECK(cubemap_json(folder, "labels --size 32 -o L.EXR")["to"] == "openexr-cube");
+        CHECK(read_image_info(folder / "L.EXR").environment == EnvironmentTag::cube);
+    }
+
+    TEST_CASE("cubemap: the help and the documentation name every format") {
+        const Folder folder;
+        const std::string help = cubemap(folder, "--help").out;
+        const std::string page = contents((own_meshes().parent_path() / "docs/cubemap.md").string());
+        for (const SkyFormatEntry& format : sky_formats) {
+            CAPTURE(std::string(format.name));
+            CHECK(help.find(format.name) != std::string::npos);
+            CHECK(page.find(format.name) != std::string::npos);
+        }
     }
 
     TEST_CASE("cubemap: a scene is captured from a point, and what is captured is what is seen") {

@@ -1,25 +1,12 @@
 #include "camera_options.h"
 #include "bake/base/error.h"
-#include "bake/preview/scene_entries.h"
-#include "bake/preview/scene_io.h"
+#include "bake/base/text.h"
 #include "options.h"
 #include <sstream>
 
 namespace bake {
-namespace {
-
-NamedCamera scene_camera(const std::string& path) {
-    const SceneEntries entries = read_scene(path);
-    if (!entries.camera_position || !entries.camera_target)
-        return {camera_frame(load(entries).camera), entries.settings.height};
-    const Camera camera{*entries.camera_position, *entries.camera_target, entries.camera_up, entries.fov_deg};
-    return {camera_frame(camera), entries.settings.height};
-}
-
-} // namespace
-
-NamedCamera parse_camera(const std::string& flag, const std::string& text) {
-    if (ending(text) == ".toml") return scene_camera(text);
+SceneCamera parse_camera(const std::string& flag, const std::string& text) {
+    if (ending(text) == ".toml") return read_camera(text);
     const auto refuse = [&](const std::string& why) {
         return Error(Refusal::usage,
                      flag + " " + text + ": " + why +
@@ -50,7 +37,7 @@ NamedCamera parse_camera(const std::string& flag, const std::string& text) {
         if (key == "height") height = values[0];
     }
     if (!placed) throw refuse("has no position");
-    if (camera.position == camera.target) throw refuse("looks at where it stands");
+    if (camera.position == camera.target) throw refuse("has its target at its position");
     if (!(camera.fov_deg >= 0.001f && camera.fov_deg <= 179)) throw refuse("fov-deg is 0.001 to 179");
     if (!(height >= 1 && height <= 65536 && height == int(height))) throw refuse("height is 1 to 65536 pixels");
     return {camera_frame(camera), int(height)};

@@ -13,7 +13,7 @@ bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinit
 } // namespace
 
 Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats, Progress* progress) {
-    if (!finite(position)) throw Error(Refusal::usage, "`position`: is not a point; give three numbers, such as 0,1,0");
+    if (!finite(position)) throw Error(Refusal::usage, "`position`: is not finite; give three numbers, such as 0,1,0");
     if (size < 1 || size > 32768)
         throw Error(Refusal::usage, "`size` " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
     Cube cube = make_cube(size, 3);

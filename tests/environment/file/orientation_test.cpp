@@ -62,8 +62,8 @@ TEST_SUITE("unit") {
             CHECK(check.given > 2);
             CHECK(check.best < 1.2);
             const Cube mended = reorient(wrong, check.closes);
-            CHECK(seam_ratio(mended) == doctest::Approx(check.best));
-            CHECK(check.best == doctest::Approx(seam_ratio(sky)).epsilon(0.01));
+            CHECK(check_orientation(mended).given == doctest::Approx(check.best));
+            CHECK(check.best == doctest::Approx(check_orientation(sky).given).epsilon(0.01));
         }
         // Where few faces are wrong, the least change is the answer, not a turn of the whole cube.
         for (const int i : {0, 1, 2, 3})

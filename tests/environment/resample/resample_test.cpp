@@ -2,6 +2,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/vec.h"
 #include "bake/environment/resample/resample.h"
+#include "bake/environment/sky/sky_format.h"
 #include "bake/environment/sky/solid_angle.h"
 #include "environment/smooth_skies.h"
 #include <cstring>

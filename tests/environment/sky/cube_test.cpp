@@ -105,20 +105,6 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("cube: trilinear lookups run linearly from level to level and stay within them") {
-        CubeMips mips;
-        for (int level = 0; level < 3; ++level) {
-            mips.push_back(make_cube(4 >> level, 3));
-            for (Image<float>& face : mips.back().faces)
-                for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = float(level + 1);
-        }
-        const float nan = std::numeric_limits<float>::quiet_NaN();
-        const std::pair<float, float> values[] = {{-1, 1},      {0, 1}, {0.25f, 1.25f}, {1, 2},
-                                                  {1.5f, 2.5f}, {2, 3}, {9, 3},         {nan, 1}};
-        for (const auto& [level, value] : values)
-            CHECK(lookup(mips, Vec3f(1, 1, 0.2f), level).y == doctest::Approx(value));
-    }
-
     TEST_CASE("cube: a step across an edge and back ends where it began") {
         for (const int n : {1, 4, 7})
             for (const CubeFace face : all_faces)

@@ -1,6 +1,6 @@
 #include "bake/base/vec.h"
 #include "bake/environment/sky/environment.h"
-#include "bake/environment/sky/projection.h"
+#include "bake/environment/sky/sky_format.h"
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -11,17 +11,20 @@ using namespace bake;
 
 namespace {
 
-constexpr Projection all_projections[] = {Projection::latlong, Projection::latlong_edges, Projection::octahedral,
-                                          Projection::ball, Projection::probe};
-
 Vec3d random_direction(std::mt19937& random) {
     std::normal_distribution<double> normal;
     return glm::normalize(Vec3d(normal(random), normal(random), normal(random)));
 }
 
-int height_of(Projection p, int width) {
-    return p == Projection::latlong || p == Projection::latlong_edges ? width / 2 : width;
+/// Every format that is a projection, with its name and its shape.
+std::vector<SkyFormatEntry> projected_formats() {
+    std::vector<SkyFormatEntry> found;
+    for (const SkyFormatEntry& format : sky_formats)
+        if (format.projection) found.push_back(format);
+    return found;
 }
+
+int height_of(const SkyFormatEntry& format, int width) { return width * format.rows / format.columns; }
 
 } // namespace
 
@@ -102,41 +105,52 @@ TEST_SUITE("unit") {
 
     TEST_CASE("projection: points and directions lead back to each other") {
         std::mt19937 random(2);
-        for (const Projection p : all_projections) {
-            CAPTURE(name(p));
-            const int w = 64, h = height_of(p, w);
+        for (const SkyFormatEntry& format : projected_formats()) {
+            CAPTURE(std::string(format.name));
+            const Projection p = *format.projection;
+            const int w = 64, h = height_of(format, w);
             for (int i = 0; i < 2000; ++i) {
                 const Vec3d d = random_direction(random);
                 const Vec2d at = picture_point(p, w, h, 3.0 * d);
                 const Vec3d back = picture_direction(p, w, h, at.x, at.y);
                 // Near the rim of the disc the ball's radius hardly changes with the direction.
-                CHECK(glm::length(back - d) < (has_disc(p) ? 1e-6 : 1e-7));
+                CHECK(glm::length(back - d) < (format.discs > 0 ? 1e-6 : 1e-7));
             }
         }
     }
 
-    TEST_CASE("projection: texels beyond the border are those that lie there on the sphere") {
-        for (const Projection p : {Projection::latlong, Projection::latlong_edges, Projection::octahedral}) {
-            CAPTURE(name(p));
-            const int w = 64, h = height_of(p, w);
+    TEST_CASE("projection: the texel across a border is on the other side of the border, equally far from it") {
+        for (const SkyFormatEntry& format : projected_formats()) {
+            if (format.discs > 0) continue; // sampled inside the rim only
+            CAPTURE(std::string(format.name));
+            const Projection p = *format.projection;
+            const int w = 64, h = height_of(format, w);
             const auto direction = [&](const PictureTexel& at) {
                 return picture_direction(p, w, h, at.x + 0.5, at.y + 0.5);
             };
-            double worst = 0;
-            for (int i = 0; i < w; ++i)
-                for (int side = 0; side < 4; ++side) {
-                    const int j = i * h / w;
-                    const PictureTexel inside = side == 0   ? PictureTexel{i, 0}
-                                                : side == 1 ? PictureTexel{i, h - 1}
-                                                : side == 2 ? PictureTexel{0, j}
-                                                            : PictureTexel{w - 1, j};
-                    PictureTexel outside = inside;
-                    (side < 2 ? outside.y : outside.x) += side % 2 ? 1 : -1;
-                    worst = std::max(
-                        worst, glm::length(direction(inside) - direction(wrapped(p, w, h, outside.x, outside.y))));
+            // Where the outer samples lie on the border, the neighbours are the second samples.
+            const int first = format.is_openexr() ? 1 : 0;
+            for (int side = 0; side < 4; ++side)
+                for (int i = 0; i < (side < 2 ? w : h); ++i) {
+                    const int last = (side < 2 ? h : w) - 1;
+                    const int in = side % 2 ? last - first : first, out = side % 2 ? last + 1 : -1;
+                    const double edge = side % 2 ? last + 1 : 0;
+                    const auto border_at = [&](double at) {
+                        return side < 2 ? picture_direction(p, w, h, at, edge) : picture_direction(p, w, h, edge, at);
+                    };
+                    const Vec3d border = border_at(i + 0.5);
+                    const Vec3d inside = direction(side < 2 ? PictureTexel{i, in} : PictureTexel{in, i});
+                    const Vec3d outside =
+                        direction(side < 2 ? texel_across(p, w, h, i, out) : texel_across(p, w, h, out, i));
+                    if (glm::length(inside - border) < 1e-9) continue; // rows at a pole
+                    CAPTURE(side);
+                    CAPTURE(i);
+                    CHECK(glm::length(outside - border) == doctest::Approx(glm::length(inside - border)).epsilon(0.01));
+                    // The plane of the border; at a pole, where the border of a lat-long is a point, that half way.
+                    const Vec3d along = glm::cross(border_at(i + 0.25), border_at(i + 0.75));
+                    const Vec3d normal = glm::length(along) > 1e-9 ? along : inside - border;
+                    CHECK(glm::dot(inside - border, normal) * glm::dot(outside - border, normal) < 0);
                 }
-            // A texel spans .1 rad; across the poles of a lat-long one row further.
-            CHECK(worst < 0.21);
         }
     }
 
@@ -145,16 +159,17 @@ TEST_SUITE("stability") {
 
     TEST_CASE("projection: every direction has a place in every picture, and every place a direction") {
         const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-        for (const Projection p : all_projections) {
-            CAPTURE(name(p));
+        for (const SkyFormatEntry& format : projected_formats()) {
+            CAPTURE(std::string(format.name));
+            const Projection p = *format.projection;
             for (const Vec3d d : {Vec3d(0), Vec3d(nan, 1, 0), Vec3d(inf, 0, 0), Vec3d(1e-320, 0, 0), Vec3d(0, 0, -1),
                                   Vec3d(0, 0, 1), Vec3d(0, -1, 0), Vec3d(0, 1e300, 0)}) {
-                const Vec2d at = picture_point(p, 16, height_of(p, 16), d);
+                const Vec2d at = picture_point(p, 16, height_of(format, 16), d);
                 CHECK((at.x >= 0 && at.x <= 16 && at.y >= 0 && at.y <= 16));
             }
             for (const double x : {-1e9, 0.0, 8.0, 16.0, 1e9})
                 for (const double y : {-1e9, 0.0, 8.0, 16.0, 1e9})
-                    CHECK(glm::length(picture_direction(p, 16, height_of(p, 16), x, y)) == doctest::Approx(1));
+                    CHECK(glm::length(picture_direction(p, 16, height_of(format, 16), x, y)) == doctest::Approx(1));
         }
     }
 

@@ -44,7 +44,13 @@ TEST_SUITE("unit") {
         double sum = 0;
         for (const double cell : cells) sum += cell;
         CHECK(6 * sum == doctest::Approx(4 * pi).epsilon(1e-14));
-        CHECK(cells[3] == doctest::Approx(rectangle_solid_angle(-1, -0.2, -0.2, 0.7)).epsilon(1e-14));
+        CHECK(cells[3] ==
+              doctest::Approx(
+                  test::triangle_solid_angle(test::face_direction(4, -1, -0.2), test::face_direction(4, -0.2, -0.2),
+                                             test::face_direction(4, -0.2, 0.7)) +
+                  test::triangle_solid_angle(test::face_direction(4, -1, -0.2), test::face_direction(4, -0.2, 0.7),
+                                             test::face_direction(4, -1, 0.7)))
+                  .epsilon(1e-14));
     }
 
 } // TEST_SUITE

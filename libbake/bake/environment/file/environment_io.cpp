@@ -15,21 +15,29 @@ std::string size_of(const Image<float>& image) {
     return std::to_string(image.width()) + "x" + std::to_string(image.height());
 }
 
-SkyFormat format_of(const std::string& file, const Image<float>& image, const ImageInfo& info) {
-    if (info.environment == EnvironmentTag::cube) return SkyFormat::openexr_cube;
-    if (info.environment == EnvironmentTag::latlong) return SkyFormat::openexr_latlong;
-    if (image.width() == 2 * std::int64_t(image.height())) return SkyFormat::latlong;
-    if (const auto layout = layout_of_size(image.width(), image.height())) {
-        if (*layout == CubeLayout::hcross) return SkyFormat::hcross;
-        return *layout == CubeLayout::vcross ? SkyFormat::vcross : SkyFormat::strip;
+bool has_shape(const SkyFormatEntry& format, int width, int height) noexcept {
+    return std::int64_t(width) * format.rows == std::int64_t(height) * format.columns;
+}
+
+const SkyFormatEntry& format_of(const std::string& file, const Image<float>& image, const ImageInfo& info) {
+    const int w = image.width(), h = image.height();
+    std::string alike;
+    for (const SkyFormatEntry& format : sky_formats) {
+        if (info.environment != EnvironmentTag::none && format.tag == info.environment) return format;
+        if (format.layout || format.projection)
+            if (has_shape(format, w, h)) alike += (alike.empty() ? "" : ", ") + std::string(format.name);
     }
-    if (image.width() == image.height())
-        throw unsuitable(file, "is square, as mirror balls, angular maps and octahedral maps are; say which with "
-                               "`from` ball, probe or octahedral");
+    for (const SkyFormatEntry& format : sky_formats) {
+        const bool side_by_side = format.layout == CubeLayout::strip && has_shape(format, h, w);
+        if (format.known_by_shape && (has_shape(format, w, h) || side_by_side)) return format;
+    }
+    if (!alike.empty())
+        throw unsuitable(file,
+                         "is " + size_of(image) + ", a shape that several formats have; set `from` to one of " + alike);
     throw unsuitable(
-        file,
-        "is " + size_of(image) +
-            ", which is no shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop it, or say `from`");
+        file, "is " + size_of(image) +
+                  ", which is not the shape of a sky: 2:1 lat-long, 4:3 or 3:4 cross, 6:1 or 1:6 strip; crop the "
+                  "picture, or name its format in `from`");
 }
 
 /// Mean of the colour channels of the texels inside and outside the disc.
@@ -49,60 +57,35 @@ DiscMeans disc_means(const Image<float>& image) {
     return {counts[0] > 0 ? sums[0] / counts[0] : 0, counts[1] > 0 ? sums[1] / counts[1] : 0};
 }
 
-void check_shape(const std::string& file, const Image<float>& image, SkyFormat kind) {
-    const std::int64_t w = image.width(), h = image.height();
-    switch (kind) {
-    case SkyFormat::latlong:
-    case SkyFormat::openexr_latlong:
-        if (w != 2 * h || w < 2)
-            throw unsuitable(file, "is " + size_of(image) + "; a lat-long is twice as wide as high; crop or scale it");
-        break;
-    case SkyFormat::octahedral:
-    case SkyFormat::ball:
-    case SkyFormat::probe:
-        if (w != h) throw unsuitable(file, "is " + size_of(image) + "; " + name(kind) + " is a square; crop it");
-        if (w < 2) throw unsuitable(file, "is a single texel, which shows nothing of a sky; give a larger picture");
-        break;
-    default: break;
-    }
-    if (kind == SkyFormat::probe) {
-        const DiscMeans means = disc_means(image);
-        if (means.outside > 0.02 * means.inside)
-            throw unsuitable(
-                file,
-                format(
-                    "is not black outside the disc (mean %.3g there, %.3g inside), so it is no angular map; perhaps a "
-                    "photograph of a ball (`from` ball) or octahedral",
-                    means.outside, means.inside));
-    }
+void check_projection(const std::string& file, const Image<float>& image, const SkyFormatEntry& format) {
+    if (!has_shape(format, image.width(), image.height()))
+        throw unsuitable(file, "is " + size_of(image) + "; width to height of " + format.name + " is " +
+                                   std::to_string(format.columns) + ":" + std::to_string(format.rows) +
+                                   "; crop or scale the picture");
+    if (image.width() < 2)
+        throw unsuitable(file, "is a single texel, which shows nothing of a sky; give a larger picture");
+    if (format.is_openexr() && image.height() < 2)
+        throw unsuitable(file, "has one row, which cannot be both poles; give a larger picture");
+    if (format.format != SkyFormat::probe) return;
+    const DiscMeans means = disc_means(image);
+    if (means.outside > 0.02 * means.inside)
+        throw unsuitable(file,
+                         bake::format("is not black outside the disc (mean %.3g there, %.3g inside), so it is not an "
+                                      "angular map; if it is a photograph of a ball, set `from` to ball, or else to "
+                                      "octahedral",
+                                      means.outside, means.inside));
 }
 
-Projection projection_of(SkyFormat format) noexcept {
-    switch (format) {
-    case SkyFormat::openexr_latlong: return Projection::latlong_edges;
-    case SkyFormat::octahedral: return Projection::octahedral;
-    case SkyFormat::ball: return Projection::ball;
-    case SkyFormat::probe: return Projection::probe;
-    default: return Projection::latlong;
-    }
+Cube cut(const std::string& file, const Image<float>& image, const SkyFormatEntry& format) {
+    const bool side_by_side =
+        format.layout == CubeLayout::strip && !format.is_openexr() && image.width() > image.height();
+    Cube cube = cut_faces(image, side_by_side ? CubeLayout::hstrip : *format.layout, format.order(), file);
+    if (format.is_openexr() && cube.size() < 2)
+        throw unsuitable(file, "has faces of one texel, which cannot lie on all four edges; give a larger picture");
+    return cube;
 }
 
-Cube cut(const std::string& file, const Image<float>& image, SkyFormat format) {
-    const bool flat = image.width() > image.height();
-    switch (format) {
-    case SkyFormat::hcross: return cut_faces(image, CubeLayout::hcross, FaceOrder::gl, file);
-    case SkyFormat::vcross: return cut_faces(image, CubeLayout::vcross, FaceOrder::gl, file);
-    case SkyFormat::openexr_cube: {
-        Cube cube = cut_faces(image, CubeLayout::strip, FaceOrder::openexr, file);
-        if (cube.size() < 2)
-            throw unsuitable(file, "has faces of one texel, which cannot lie on all four edges; give a larger one");
-        return cube;
-    }
-    default: return cut_faces(image, flat ? CubeLayout::hstrip : CubeLayout::strip, FaceOrder::gl, file);
-    }
-}
-
-void prove_orientation(Environment& sky, const ReadEnvironmentOptions& options, EnvironmentReport& report) {
+void check_seams(Environment& sky, const ReadEnvironmentOptions& options, EnvironmentReport& report) {
     report.checked = true;
     report.orientation = check_orientation(sky.cube);
     if (!options.fix_orientation || !report.orientation.wrong) return;
@@ -110,79 +93,58 @@ void prove_orientation(Environment& sky, const ReadEnvironmentOptions& options, 
     report.fixed = true;
 }
 
-} // namespace
-
-const char* name(SkyFormat format) noexcept {
-    switch (format) {
-    case SkyFormat::automatic: return "auto";
-    case SkyFormat::faces: return "faces";
-    case SkyFormat::latlong: return "latlong";
-    case SkyFormat::hcross: return "hcross";
-    case SkyFormat::vcross: return "vcross";
-    case SkyFormat::strip: return "strip";
-    case SkyFormat::ball: return "ball";
-    case SkyFormat::probe: return "probe";
-    case SkyFormat::octahedral: return "octahedral";
-    case SkyFormat::openexr_cube: return "openexr-cube";
-    case SkyFormat::openexr_latlong: return "openexr-latlong";
-    }
-    return "";
+void read_six(const FaceFiles& found, const ReadEnvironmentOptions& options, Environment& sky,
+              EnvironmentReport& report) {
+    FacesReport faces;
+    sky.cube = read_faces(found.files, options.radiance, &faces);
+    report.format = SkyFormat::faces;
+    report.files = found.files;
+    report.naming = found.naming;
+    report.type = faces.first.type;
+    for (const BadTexels& bad : faces.mended) report.mended += bad;
+    check_seams(sky, options, report);
 }
+
+void read_picture(const std::string& file, const ReadEnvironmentOptions& options, Environment& sky,
+                  EnvironmentReport& report) {
+    ImageInfo info;
+    Image<float> image = read_radiance(file, options.radiance, &info, &report.mended);
+    const SkyFormatEntry& format =
+        options.from == SkyFormat::automatic ? format_of(file, image, info) : entry_of(options.from);
+    report.type = info.type;
+    report.format = format.format;
+    if (format.projection) {
+        check_projection(file, image, format);
+        sky.projection = *format.projection;
+        sky.picture = std::move(image);
+        return;
+    }
+    sky.cube = cut(file, image, format);
+    sky.edge_samples = format.is_openexr();
+    for (int k = 0; k < 6; ++k) report.files[k] = std::string("its ") + cube_face_names[k];
+    check_seams(sky, options, report);
+}
+
+} // namespace
 
 Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options,
                              EnvironmentReport* report_out) {
     EnvironmentReport own;
     EnvironmentReport& report = report_out ? *report_out : own;
     Environment sky;
-    const bool pattern = inputs.size() == 1 && inputs[0].find("%s") != std::string::npos;
-    if (inputs.size() != 1 || pattern) {
-        if (options.from != SkyFormat::automatic && options.from != SkyFormat::faces)
-            throw Error(Refusal::usage,
-                        std::string("`from` ") + name(options.from) + ": is one image, but " + inputs[0] +
-                            (pattern ? " stands for six" : " is one of " + std::to_string(inputs.size())) +
-                            "; leave `from` out");
-        const FaceFiles found = pattern ? find_faces(inputs[0]) : name_faces(inputs);
-        FacesReport faces;
-        sky.cube = read_faces(found.files, options.radiance, &faces);
-        report.format = SkyFormat::faces;
-        report.files = found.files;
-        report.naming = found.naming;
-        report.type = faces.first.type;
-        for (const BadTexels& bad : faces.mended) {
-            if (report.mended.x < 0) report.mended.x = bad.x, report.mended.y = bad.y, report.mended.value = bad.value;
-            report.mended.nan += bad.nan;
-            report.mended.infinite += bad.infinite;
-            report.mended.negative += bad.negative;
-            report.mended.over += bad.over;
-            report.mended.texels += bad.texels;
-        }
-        prove_orientation(sky, options, report);
+    const bool pattern = inputs.size() == 1 && is_face_pattern(inputs[0]);
+    if (inputs.size() == 1 && !pattern) {
+        if (options.from == SkyFormat::faces)
+            throw Error(Refusal::usage, inputs[0] + ": is one file; give six faces, or a pattern with %s");
+        read_picture(inputs[0], options, sky, report);
         return sky;
     }
-    const std::string& file = inputs[0];
-    if (options.from == SkyFormat::faces)
-        throw Error(Refusal::usage, file + ": is one file; give six faces, or a pattern with %s");
-    ImageInfo info;
-    Image<float> image = read_radiance(file, options.radiance, &info, &report.mended);
-    report.type = info.type;
-    report.format = options.from == SkyFormat::automatic ? format_of(file, image, info) : options.from;
-    check_shape(file, image, report.format);
-    switch (report.format) {
-    case SkyFormat::hcross:
-    case SkyFormat::vcross:
-    case SkyFormat::strip:
-    case SkyFormat::openexr_cube:
-        sky.cube = cut(file, image, report.format);
-        sky.edge_samples = report.format == SkyFormat::openexr_cube;
-        for (int k = 0; k < 6; ++k) report.files[k] = std::string("its ") + cube_face_names[k];
-        prove_orientation(sky, options, report);
-        break;
-    default:
-        sky.projection = projection_of(report.format);
-        if (sky.projection == Projection::latlong_edges && image.height() < 2)
-            throw unsuitable(file, "has one row, which cannot be both poles; give a larger one");
-        sky.picture = std::move(image);
-    }
+    if (options.from != SkyFormat::automatic && options.from != SkyFormat::faces)
+        throw Error(Refusal::usage, std::string("`from` ") + name(options.from) + ": is the format of one image, but " +
+                                        inputs[0] +
+                                        (pattern ? " stands for six" : " is one of " + std::to_string(inputs.size())) +
+                                        "; leave `from` out");
+    read_six(pattern ? find_faces(inputs[0]) : name_faces(inputs), options, sky, report);
     return sky;
 }
 

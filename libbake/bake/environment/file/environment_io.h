@@ -1,50 +1,36 @@
-// Environments from files: which format it is, whether it is what it is said to be, and whether its faces join.
+// Reading environments from files: finds the format, checks it, and checks whether the faces match at their seams.
 #pragma once
 #include "bake/environment/file/face_files.h"
 #include "bake/environment/file/orientation.h"
 #include "bake/environment/sky/environment.h"
-#include "bake/environment/sky/layout.h"
+#include "bake/environment/sky/sky_format.h"
 #include <string>
 #include <vector>
 
 namespace bake {
 
-enum class SkyFormat {
-    automatic,
-    faces,
-    latlong,
-    hcross,
-    vcross,
-    strip,
-    ball,
-    probe,
-    octahedral,
-    openexr_cube,
-    openexr_latlong
-};
-const char* name(SkyFormat format) noexcept;
-
 struct ReadEnvironmentOptions {
-    /// automatic: six inputs or a %s are faces; one image is what its OpenEXR tag says, else what its shape can only be:
-    /// 2:1 latlong, 4:3 hcross, 3:4 vcross, 1:6 or 6:1 strip. A square is refused: ball, probe and octahedral look alike.
+    /// automatic: six inputs or a %s are faces; a single picture has the format of its OpenEXR tag or else of its shape:
+    /// 2:1 latlong, 4:3 hcross, 3:4 vcross, 1:6 or 6:1 strip. A square picture is refused, because ball, probe and
+    /// octahedral are all square.
     SkyFormat from = SkyFormat::automatic;
     RadianceOptions radiance;
-    bool fix_orientation = false; ///< puts the faces where their seams close
+    bool fix_orientation = false; ///< moves and turns the faces so that their seams match
 };
 
 struct EnvironmentReport {
-    SkyFormat format = SkyFormat::automatic; ///< what it was read as
+    SkyFormat format = SkyFormat::automatic; ///< used for reading
     std::array<std::string, 6> files;        ///< of the faces; for crosses and strips px ... nz
-    std::string naming;                      ///< the words that told the faces
+    std::string naming;                      ///< the words by which the faces were recognised
     BadTexels mended;                        ///< summed over the files; x, y of the first file with any
-    bool checked = false;                    ///< `orientation` holds something: there were six faces
+    bool checked = false;                    ///< whether there are six faces, so that `orientation` is set
     OrientationCheck orientation;
-    bool fixed = false; ///< the faces were moved as orientation.closes says
+    bool fixed = false; ///< the faces were moved to orientation.closes
     SampleType type = SampleType::other;
 };
 
 /// Throws Error naming the file: as read_image, read_faces, name_faces; unsuitable when the picture does not have the
-/// shape of its format, and for a probe or ball with something else than black outside the disc.
+/// shape of its format, and for a probe that is not black outside its disc.
 Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options = {},
                              EnvironmentReport* report = nullptr);
 

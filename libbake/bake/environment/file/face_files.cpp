@@ -44,7 +44,7 @@ std::string joined(const Words& words) {
     return text;
 }
 
-/// What the names of the files differ in: without the beginning and the end that all share.
+/// The file names without the beginning and the end that all of them share.
 std::vector<std::string> distinct_parts(const std::vector<std::string>& paths) {
     std::vector<std::string> names;
     for (const std::string& path : paths) names.push_back(fs::path(path).filename().string());
@@ -61,7 +61,7 @@ std::vector<std::string> distinct_parts(const std::vector<std::string>& paths) {
     return names;
 }
 
-/// Which face each word stands for, -1 where it is none of the set.
+/// The face that each word names, -1 for words that are not in the set.
 std::vector<int> faces_of(const std::vector<std::string>& parts, const Words& words) {
     std::vector<int> faces;
     for (const std::string& part : parts) {
@@ -87,7 +87,7 @@ FaceFiles name_faces(const std::vector<std::string>& paths) {
     const std::vector<std::string> parts = distinct_parts(paths);
     for (const Words& words : all_words()) {
         const std::vector<int> faces = faces_of(parts, words);
-        // A lone file has no part that differs from others.
+        // A single file has no part that differs from the others.
         if (paths.size() < 2 || std::count(faces.begin(), faces.end(), -1) > 0) continue;
         FaceFiles found;
         found.naming = joined(words);

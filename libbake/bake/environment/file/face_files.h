@@ -1,4 +1,4 @@
-// Which file is which face: by its name, by a pattern, or by its place in a list; and the reading of all six.
+// Six face files: finds which file is which face, by its name, by a pattern or by its position in a list, and reads them.
 #pragma once
 #include "bake/environment/file/radiance.h"
 #include "bake/environment/sky/cube.h"
@@ -11,7 +11,8 @@ namespace bake {
 /// Six files in the order of CubeFace.
 struct FaceFiles {
     std::array<std::string, 6> files;
-    std::string naming; ///< the six words that told the faces, "px nx py ny pz nz"; empty: the order of the list did
+    std::string
+        naming; ///< the six words by which the faces were recognised, "px nx py ny pz nz"; empty: by the order of the list
 };
 
 /// The words that stand for faces, each set in the order px nx py ny pz nz:
@@ -19,19 +20,23 @@ struct FaceFiles {
 ///   rt lf up dn bk ft (id Software's: bk is +Z) | rt lf up dn fr bk | +x -x +y -y +z -z | xpos xneg ... | 0 1 2 3 4 5
 /// in lower case, upper case or with a capital.
 ///
-/// Six paths, in any order when what their names differ in are such words, else in the order px nx py ny pz nz. Throws
-/// Error{Refusal::usage}, naming what is missing or given twice, for any other number and for a face given twice.
+/// Six paths: in any order if their names differ in such words, otherwise in the order px nx py ny pz nz. Throws
+/// Error{Refusal::usage} for any other number of paths and for a face that is given twice; the message names the face.
 FaceFiles name_faces(const std::vector<std::string>& paths);
 
-/// The six files of a pattern with one `%s` that are there, by any of the sets of words. Throws Error{Refusal::usage}
-/// when it does not hold exactly one `%s`; Error{Refusal::unreadable}, naming the missing file, when no set is whole.
+/// The six existing files of a pattern with one `%s`, for any of the sets of words. Throws Error{Refusal::usage} when the
+/// pattern does not contain exactly one `%s`, and Error{Refusal::unreadable}, naming the missing file, when no set is
+/// complete.
 FaceFiles find_faces(const std::string& pattern);
 
+/// Whether a name stands for six files.
+inline bool is_face_pattern(const std::string& file) { return file.find("%s") != std::string::npos; }
+
 /// The six names that are written for a pattern: `%s` is replaced by px, nx, py, ny, pz, nz. Throws
-/// Error{Refusal::usage} when it does not hold exactly one `%s`.
+/// Error{Refusal::usage} when the pattern does not contain exactly one `%s`.
 std::array<std::string, 6> cube_files(const std::string& pattern);
 
-/// What was found while reading faces.
+/// Findings of read_faces.
 struct FacesReport {
     std::array<BadTexels, 6> mended;
     ImageInfo first; ///< of px

@@ -8,12 +8,12 @@
 namespace bake {
 namespace {
 
-/// Sides of a face: 0 top, 1 right, 2 bottom, 3 left; each runs clockwise round the face.
-struct Side {
+/// A side of a face: 0 top, 1 right, 2 bottom, 3 left; each runs clockwise around the face.
+struct FaceSide {
     int face, side;
 };
-/// The 12 edges of the cube: which sides meet. Seen from inside, one runs against the other.
-using Seams = std::array<std::pair<Side, Side>, 12>;
+/// The 12 edges of the cube as pairs of sides, which run in opposite directions as seen from inside.
+using Seams = std::array<std::pair<FaceSide, FaceSide>, 12>;
 
 CubeTexel texel_on(int n, CubeFace face, int side, int i) noexcept {
     switch (side) {
@@ -24,7 +24,7 @@ CubeTexel texel_on(int n, CubeFace face, int side, int i) noexcept {
     }
 }
 
-/// Found by stepping over each side of a small cube.
+/// Found by texel_across for each side of a small cube.
 const Seams& seams() {
     static const Seams found = [] {
         Seams all{};
@@ -46,7 +46,7 @@ const Seams& seams() {
     return found;
 }
 
-/// Steps summed over texels, as they are and squared.
+/// Sums of steps and of squared steps.
 struct StepSums {
     double plain = 0, square = 0;
     void add(const StepSums& other) noexcept {
@@ -55,7 +55,7 @@ struct StepSums {
     }
 };
 
-/// Of square roots, as the eye has it: in linear light a few lamps would outweigh all the rest.
+/// The step between two texels, of square roots: in linear radiance a few lamps would outweigh everything else.
 StepSums step(const float* a, const float* b, int channels) noexcept {
     const auto seen = [](float value) { return std::sqrt(value > 0 ? value : 0.0f); };
     StepSums sum;
@@ -87,7 +87,7 @@ StepSums mean_inside(const Cube& cube, int channels) {
     return {sum.plain / count, sum.square / count};
 }
 
-StepSums mean_across(const Cube& cube, Side a, Side b, int channels) {
+StepSums mean_across(const Cube& cube, FaceSide a, FaceSide b, int channels) {
     const int n = cube.size();
     StepSums sum;
     for (int i = 0; i < n; ++i) {
@@ -98,7 +98,7 @@ StepSums mean_across(const Cube& cube, Side a, Side b, int channels) {
     return {sum.plain / n, sum.square / n};
 }
 
-/// steps[4 a + i][4 b + j]: mean squared step when side i of file a meets side j of file b, which runs against it.
+/// steps[4 a + i][4 b + j]: mean squared step between side i of file a and side j of file b.
 using Steps = std::array<std::array<double, 24>, 24>;
 
 Steps all_squares(const Cube& cube, int channels) {
@@ -111,7 +111,7 @@ Steps all_squares(const Cube& cube, int channels) {
     return steps;
 }
 
-/// The side of the file that lies at `side` of a face it fills after `turns` counter-clockwise quarter turns.
+/// The side of a file that becomes `side` of a face after `turns` counter-clockwise quarter turns.
 int side_of_file(int side, int turns) noexcept { return (side + turns) % 4; }
 
 double total(const Steps& steps, const Orientation& o) noexcept {
@@ -122,7 +122,7 @@ double total(const Steps& steps, const Orientation& o) noexcept {
     return sum;
 }
 
-/// How much of the given arrangement is left, larger being more; px and nx decide among equals.
+/// Score for keeping files as given, larger for more; px and nx decide between equals.
 int kept(const Orientation& o) noexcept {
     int score = 0;
     for (int k = 0; k < 6; ++k) {
@@ -133,12 +133,12 @@ int kept(const Orientation& o) noexcept {
     return score;
 }
 
-/// Depth first over the faces, given up as soon as the seams so far cost more than the best: 2.9 million arrangements
-/// take some milliseconds.
-class Search {
+/// Depth-first search over the faces, which abandons a branch as soon as its seams cost more than the best arrangement: 2.9
+/// million arrangements take a few milliseconds.
+class OrientationSearch {
 public:
-    /// Arrangements whose costs differ by `same` are equally good.
-    Search(const Steps& steps, double same) : steps_(steps), same_(same), limit_(total(steps, {})) {
+    /// Arrangements whose costs differ by at most `same` are equally good.
+    OrientationSearch(const Steps& steps, double same) : steps_(steps), same_(same), limit_(total(steps, {})) {
         for (const auto& [a, b] : seams()) at_[std::max(a.face, b.face)].push_back({a, b});
         visit(0, 0.0);
     }
@@ -173,7 +173,7 @@ private:
 
     const Steps& steps_;
     double same_, limit_;
-    std::array<std::vector<std::pair<Side, Side>>, 6> at_; ///< seams that are whole once this face stands
+    std::array<std::vector<std::pair<FaceSide, FaceSide>>, 6> at_; ///< seams that are complete once this face is placed
     std::array<bool, 6> used_{};
     Orientation now_;
 };
@@ -197,26 +197,20 @@ OrientationCheck check_orientation(const Cube& cube) {
     OrientationCheck check;
     const int channels = colours(cube);
     const StepSums inside = mean_inside(cube, channels);
-    check.inside = inside.plain;
     if (!(inside.plain > 0)) {
         check.unknown = true;
         return check;
     }
-    // Squares tell arrangements apart better, where little more than noise crosses the seams.
+    // Squares distinguish arrangements better if little more than noise crosses the seams.
     const Steps squares = all_squares(cube, channels);
     const double mean_square = 12 * inside.square;
-    check.closes = Search(squares, 1e-6 * inside.square).best;
+    check.closes = OrientationSearch(squares, 1e-6 * inside.square).best;
     const double given = total(squares, {}) / mean_square, best = total(squares, check.closes) / mean_square;
     check.wrong =
         given > 1.2 && !check.closes.as_given() && best <= 0.85 * given && (best <= 1.4 || best <= 0.25 * given);
     check.given = mean_over_seams(cube, {}) / inside.plain;
     check.best = check.closes.as_given() ? check.given : mean_over_seams(cube, check.closes) / inside.plain;
     return check;
-}
-
-double seam_ratio(const Cube& cube) {
-    const double inside = mean_inside(cube, colours(cube)).plain;
-    return inside > 0 ? mean_over_seams(cube, {}) / inside : 0;
 }
 
 Cube reorient(const Cube& cube, const Orientation& orientation) {

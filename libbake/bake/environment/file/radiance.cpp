@@ -61,13 +61,23 @@ bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
     return info.type == SampleType::u8 || info.srgb_tagged;
 }
 
+BadTexels& BadTexels::operator+=(const BadTexels& later) noexcept {
+    if (x < 0) x = later.x, y = later.y, value = later.value;
+    nan += later.nan;
+    infinite += later.infinite;
+    negative += later.negative;
+    over += later.over;
+    texels += later.texels;
+    return *this;
+}
+
 BadTexels find_bad(const Image<float>& image, float largest, int alpha) {
     std::vector<BadTexels> rows(image.height());
     const int channels = image.channels();
     for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = int(begin); y < int(end); ++y) {
             const float* row = image.row(y);
-            // A quick look at the row decides: hardly any has a fault.
+            // Nearly all rows pass this quick check.
             bool any = false;
             for (int i = 0; i < image.width() * channels; ++i) any |= is_bad(row[i], largest);
             if (!any) continue;
@@ -76,14 +86,7 @@ BadTexels find_bad(const Image<float>& image, float largest, int alpha) {
         }
     });
     BadTexels all;
-    for (const BadTexels& row : rows) {
-        if (all.x < 0 && row.x >= 0) all.x = row.x, all.y = row.y, all.value = row.value;
-        all.nan += row.nan;
-        all.infinite += row.infinite;
-        all.negative += row.negative;
-        all.over += row.over;
-        all.texels += row.texels;
-    }
+    for (const BadTexels& row : rows) all += row;
     return all;
 }
 

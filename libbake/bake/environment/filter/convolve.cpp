@@ -10,8 +10,8 @@ namespace {
 
 constexpr int tile_directions = 64;
 
-/// A square of output texels: its directions, and a ball about them.
-struct Tile {
+/// A square of output texels: their directions, and a bounding sphere of these.
+struct DirectionTile {
     int face, x0, y0, width, height, count = 0;
     float nx[tile_directions], ny[tile_directions], nz[tile_directions];
     Vec3f centre;
@@ -24,13 +24,13 @@ struct Sums {
     float light[max_sky_channels][tile_directions];
 };
 
-/// What the walk found: texels, and nodes that are taken whole.
+/// Result of a traversal: texels, and nodes that are used as a whole.
 struct Sources {
     std::vector<SkyNode> texels, nodes;
 };
 
-Tile tile_at(int face, int x0, int y0, int edge, int size) {
-    Tile tile{face, x0, y0, std::min(edge, size - x0), std::min(edge, size - y0)};
+DirectionTile tile_at(int face, int x0, int y0, int edge, int size) {
+    DirectionTile tile{face, x0, y0, std::min(edge, size - x0), std::min(edge, size - y0)};
     Vec3d sum(0.0);
     for (int y = y0; y < y0 + tile.height; ++y)
         for (int x = x0; x < x0 + tile.width; ++x) {
@@ -45,23 +45,23 @@ Tile tile_at(int face, int x0, int y0, int edge, int size) {
     return tile;
 }
 
-/// Decides whether a tile takes a node whole.
+/// Decides whether a tile may use a node as a whole.
 template <class Lobe> class Opening {
 public:
     Opening(const RadianceTree& tree, const Lobe& lobe, const ConvolveOptions& options)
         : lobe_(lobe), widest_(options.node_width * width_of(lobe)),
-          // The horizon's kink, summed along it in steps of this width, over the lobe's integral.
+          // Bounds the error of the kink at the horizon, integrated along the horizon, relative to the integral of the lobe.
           widest_at_horizon_(options.node_width * 0.25f *
                              float(std::sqrt(lobe.integral() / (3.2 * double(lobe.horizon_slope()) + 1e-30)))),
           allowed_(options.tolerance * float(tree.mean() * lobe.integral())) {}
 
-    /// `near` and `far`: distances, along chords, that the node's texels keep from the tile's directions.
+    /// `near` and `far`: bounds of the chord lengths between the node's texels and the tile's directions.
     bool takes_whole(const SkyNode& node, float near, float far) const noexcept {
         constexpr float widest_expansion = 0.4f;
         const float t = near * near / 2, K = lobe_.at(t);
         const bool straddles_horizon = far * far / 2 > 1;
-        // Nodes may grow as the lobe dies away: between K^(-1/4), the same error in each part of it, and K^(-1/2), the
-        // same error on each part of the sky.
+        // Nodes may grow where the lobe is small: by K^(-1/4) the error would be equal in each part of the lobe, by K^(-1/2)
+        // in each part of the sky; the exponent is between these.
         const float widest =
             std::min(straddles_horizon ? widest_at_horizon_ : widest_expansion, widest_ / std::pow(K, 0.3f));
         if (2 * node.rho > widest) return false;
@@ -76,15 +76,15 @@ private:
 };
 
 template <class Lobe>
-void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const Tile& tile, Sources& found) {
-    struct Place {
+void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const DirectionTile& tile, Sources& found) {
+    struct NodeIndex {
         int level, face, x, y;
     };
     found.texels.clear(), found.nodes.clear();
-    std::vector<Place> open;
+    std::vector<NodeIndex> open;
     for (int face = 5; face >= 0; --face) open.push_back({tree.last_level(), face, 0, 0});
     while (!open.empty()) {
-        const Place at = open.back();
+        const NodeIndex at = open.back();
         open.pop_back();
         const SkyNode node = tree.node(at.level, at.face, at.x, at.y);
         const float apart = glm::length(node.d - tile.centre), reach = tile.radius + node.rho;
@@ -104,7 +104,7 @@ void find_sources(const RadianceTree& tree, const Opening<Lobe>& opening, const 
 }
 
 template <class Lobe>
-void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const Tile& tile, int channels,
+void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const DirectionTile& tile, int channels,
                 Sums& sums) noexcept {
     float K[tile_directions];
     for (const SkyNode& s : texels) {
@@ -119,7 +119,7 @@ void add_texels(const std::vector<SkyNode>& texels, const Lobe& lobe, const Tile
 }
 
 template <class Lobe>
-void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& tile, int channels,
+void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const DirectionTile& tile, int channels,
                Sums& sums) noexcept {
     float K[tile_directions], K1[tile_directions];
     for (const SkyNode& s : nodes) {
@@ -128,7 +128,7 @@ void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& 
             const float x = tile.nx[k] - s.d.x, y = tile.ny[k] - s.d.y, z = tile.nz[k] - s.d.z;
             const float t = 0.5f * (x * x + y * y + z * z) + s.h;
             const LobeValue value = lobe.at(t, r);
-            // The cosine's variance over the node is sin^2 h.
+            // The variance of the cosine over the node is h times the squared sine.
             K[k] = value.K + value.K2 * half_h * t * (2 - t);
             K1[k] = value.K1;
             sums.white[k] += s.omega * K[k];
@@ -141,16 +141,16 @@ void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Tile& 
     }
 }
 
-/// Direction k's mean under the lobe. Within the sky's own range, which a mean cannot leave.
+/// The mean of the sky under the lobe of direction k, clamped to the range of the sky.
 template <class Lobe>
-float mean_light(const RadianceTree& tree, const Lobe& lobe, const Tile& tile, const Sums& sums, int k, int c,
+float mean_light(const RadianceTree& tree, const Lobe& lobe, const DirectionTile& tile, const Sums& sums, int k, int c,
                  bool integral_known) noexcept {
     const float light = sums.light[c][k], white = sums.white[k];
-    if (white < std::numeric_limits<float>::min()) // a lobe that no texel's centre lies in
+    if (white < std::numeric_limits<float>::min()) // no texel centre is in the lobe
         return tree.texel_at(Vec3f(tile.nx[k], tile.ny[k], tile.nz[k]), c);
     float mean = light / white;
     if (integral_known) {
-        // What the sum of a white sky lacks is what the even part of this sky lacks; suns are summed exactly.
+        // The error of the sum for a white sky is that of the even part of this sky; suns are summed exactly.
         const float integral = float(lobe.integral());
         mean = (light + (integral - white) * float(tree.even_level(c))) / integral;
     }
@@ -168,12 +168,12 @@ int finest_level_for(int sky_size, float lobe_width) noexcept {
 template <class Lobe>
 Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options) {
     const int channels = tree.channels();
-    // Tiles not much wider than the lobe, so that few nodes are opened for a few of their directions only.
+    // Tiles are not much wider than the lobe, so that few nodes are subdivided for only a few directions of a tile.
     int edge = 8;
     while (edge > 2 && 2.0f * float(edge) / float(size) > 4 * width_of(lobe)) edge /= 2;
     const int tiles = (size + edge - 1) / edge;
     const Opening<Lobe> opening(tree, lobe, options);
-    // A sum over texels knows the lobe's integral when it is wider than a texel: by the spectrum of GGX to
+    // A sum over texels reproduces the integral of a lobe that is wider than a texel: by the spectrum of GGX to
     // exp(-2 sqrt 2 pi 1.2) = 2e-5 at the widest texel, of 2 / size.
     const bool integral_known = width_of(lobe) > 1.2f * 2 / float(tree.size(0));
 
@@ -182,7 +182,7 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
         Sources found;
         for (std::int64_t i = begin; i < end; ++i) {
             const int face = int(i / (tiles * tiles)), x0 = int(i % tiles) * edge, y0 = int(i / tiles % tiles) * edge;
-            const Tile tile = tile_at(face, x0, y0, edge, size);
+            const DirectionTile tile = tile_at(face, x0, y0, edge, size);
             find_sources(tree, opening, tile, found);
             Sums sums{};
             add_nodes(found.nodes, lobe, tile, channels, sums);

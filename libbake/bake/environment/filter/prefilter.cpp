@@ -11,15 +11,14 @@ namespace {
 
 void check(const PrefilterOptions& options) {
     const auto refuse = [](const std::string& message) { throw Error(Refusal::usage, message); };
-    if (options.roughness.empty())
-        refuse("specular: no roughness; give one for each level, as in `roughness` 0,0.1,0.3,1");
+    if (options.roughness.empty()) refuse("`roughness`: is empty; give one value for each level, such as 0,0.1,0.3,1");
     if (options.size < 0)
-        refuse("specular: size " + std::to_string(options.size) + " is negative; give 0 for the sky's own");
+        refuse("`size` " + std::to_string(options.size) + ": is negative; give 0 for the size of the sky");
     for (const double value : options.roughness) {
         if (options.lobe == SpecularLobe::ggx && !(value >= 0 && value <= 1))
-            refuse("roughness " + std::to_string(value) + ": GGX's alpha lies in 0 to 1; give one of these");
+            refuse("`roughness` " + std::to_string(value) + ": is not an alpha of GGX; give 0 to 1");
         if (options.lobe == SpecularLobe::phong && !(value >= 0 && value <= 1e6))
-            refuse("roughness " + std::to_string(value) + ": Phong's exponent lies in 0 to 1e6; give one of these");
+            refuse("`roughness` " + std::to_string(value) + ": is not an exponent of Phong's lobe; give 0 to 1e6");
     }
 }
 

@@ -10,7 +10,7 @@
 namespace bake {
 namespace {
 
-// Order of a node's values: omega, h, rho, Q, d, then F and D of each channel.
+// A node is stored as omega, h, rho, Q, d, then F and D of each channel.
 constexpr int fixed_values = 7;
 
 void store(const SkyNode& node, int channels, float* to) noexcept {
@@ -30,7 +30,7 @@ SkyNode load(const float* from, int channels) noexcept {
     return node;
 }
 
-/// The node that one to four children make.
+/// The parent of one to four nodes.
 SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
     double omega = 0;
     Vec3d d(0.0);
@@ -42,7 +42,7 @@ SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
     SkyNode node;
     node.omega = float(omega);
     node.d = Vec3f(d);
-    // Children are placed about the centre as it is stored, so that its rounding cancels.
+    // Moments are taken about the rounded centre that is stored, so that the rounding has no effect.
     d = Vec3d(node.d);
     double h = 0, rho = 0, Q = 0, uneven = 0, second[4];
     for (int i = 0; i < count; ++i) {
@@ -69,7 +69,7 @@ SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
     return node;
 }
 
-/// Sum of term(L) omega over a channel, row by row in double, so that it does not depend on the threads.
+/// Sum of term(L) omega over a channel, row by row, so that it does not depend on the number of threads.
 template <class Term>
 double sum_over_texels(const Cube& sky, int channel, const std::vector<double>& omega, Term&& term) {
     const int n = sky.size(), channels = sky.channels();

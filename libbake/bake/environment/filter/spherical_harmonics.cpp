@@ -23,8 +23,8 @@ struct RowDirections {
     }
 };
 
-/// Calls use(l, m, q) for m from 0 and l from m to bands - 1, q being the row of Y_lm less its factor in the longitude:
-/// Y_l0 = q, Y_lm = sqrt 2 q Re (x + i y)^m, Y_l,-m = sqrt 2 q Im (x + i y)^m. next_m(m) comes before each m.
+/// Calls use(l, m, q) for m from 0 and l from m to bands - 1, where q is a row of Y_lm without the factor in the longitude:
+/// Y_l0 = q, Y_lm = sqrt 2 q Re (x + i y)^m, Y_l,-m = sqrt 2 q Im (x + i y)^m. Calls next_m(m) before each m.
 template <class NextM, class Use>
 void for_each_legendre(const std::vector<double>& z, int bands, NextM&& next_m, Use&& use) {
     const int n = int(z.size());
@@ -47,7 +47,7 @@ void for_each_legendre(const std::vector<double>& z, int bands, NextM&& next_m, 
     }
 }
 
-/// C + i S = (x + i y)^m of a row, one power after the other.
+/// C + i S = (x + i y)^m of a row, for m = 0, 1, ...
 struct Powers {
     std::vector<double> C, S;
 
@@ -62,7 +62,7 @@ struct Powers {
     }
 };
 
-// Four sums side by side, in a fixed order, so that they vectorise.
+// Four partial sums, so that the loop vectorises, added in a fixed order.
 double dot(const double* a, const double* b, int n) noexcept {
     double sum[4] = {};
     int i = 0;
@@ -72,7 +72,7 @@ double dot(const double* a, const double* b, int n) noexcept {
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/// Adds the integrals over one row; flux holds (L - mean) omega, n values for each channel.
+/// Adds the integrals over one row; flux: (L - mean) omega, n values for each channel.
 void project_row(const RowDirections& d, const std::vector<double>& flux, int bands, int channels, double* sums) {
     const int n = int(d.x.size());
     Powers powers(n);

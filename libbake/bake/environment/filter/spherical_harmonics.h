@@ -1,4 +1,4 @@
-// Real spherical harmonics of a cube: radiance into coefficients and back.
+// Real spherical harmonics of a cube: projection and evaluation.
 //
 // Orthonormal on the sphere, without the Condon-Shortley sign; x, y, z are cube space:
 //   Y_00 = 1 / (2 sqrt pi), Y_1,-1 = sqrt(3 / 4 pi) y, Y_10 = sqrt(3 / 4 pi) z, Y_11 = sqrt(3 / 4 pi) x, ...
@@ -14,8 +14,8 @@ struct ShCoefficients {
     std::vector<double> values; ///< bands * bands * channels
 };
 
-/// Integrals of L Y_lm: texel centres times exact solid angles, about the mean sky, so that a constant sky has a
-/// constant term only. bands >= 1. The same for any number of threads.
+/// Integrals of L Y_lm by the values at texel centres and exact solid angles. The mean of the sky is subtracted first, so that
+/// the coefficients of a constant sky other than the first are exactly 0. bands >= 1. The same for any number of threads.
 ShCoefficients project_sh(const Cube& sky, int bands);
 
 /// The series at the centre of every texel of a cube of `size` texels along an edge.

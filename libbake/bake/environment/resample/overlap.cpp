@@ -5,7 +5,7 @@
 namespace bake {
 namespace {
 
-/// A part of an edge within cell (x, y), in coordinates of the cell.
+/// Appends the part of an edge within cell (x, y), given in coordinates of the cell.
 inline void add_part(EdgePart*& parts, int x, int y, double x0, double y0, double x1, double y1) noexcept {
     const double h = y1 - y0, middle = 0.5 * (y0 + y1), across = x0 + x1;
     *parts++ = {x,
@@ -22,7 +22,7 @@ template <int sign> inline void add(CellMoments& sum, const CellMoments& part) n
     sum.unused += sign * part.unused;
 }
 
-/// Adds an edge's parts to the cells, `columns` to a row, the first of them at (column, row).
+/// Adds the parts of an edge to the cells, `columns` to a row, of which the first is (column, row).
 template <int sign>
 inline void add_edge(const EdgeParts& edge, CellMoments* cells, int column, int row, int columns) noexcept {
     for (const EdgePart *part = edge.first, *end = part + edge.count; part != end; ++part) {
@@ -33,7 +33,7 @@ inline void add_edge(const EdgeParts& edge, CellMoments* cells, int column, int 
     }
 }
 
-/// A part of an edge within one row of cells, cut at the columns' borders.
+/// Cuts a part of an edge within one row of cells at the borders of the columns.
 inline void cut_row(EdgePart*& parts, int row, int c0, int c1, double x0, double y0, double x1, double y1) noexcept {
     if (c0 == c1) return add_part(parts, c0, row, x0 - c0, y0, x1 - c0, y1);
     const double slope = (y1 - y0) / (x1 - x0);
@@ -60,7 +60,7 @@ void cut_edge(const PlanePoint& from, const PlanePoint& to, EdgePart* parts) noe
     const int r0 = from.row, r1 = to.row;
     if (r0 == r1) return cut_row(parts, r0, from.column, to.column, from.x, from.y - r0, to.x, to.y - r0);
     const double slope = (to.x - from.x) / (to.y - from.y);
-    // Kept between the ends: rounding must not leave their columns.
+    // Clamped to the range of the ends: rounding must not move a point to a column outside it.
     const double least = std::min(from.x, to.x), most = std::max(from.x, to.x);
     double x = from.x, y = from.y;
     int column = from.column;
@@ -86,13 +86,13 @@ void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const Edg
     if (result.cells.size() < count) result.cells.resize(count);
     CellMoments* const cells = result.cells.data();
     std::fill_n(cells, count, CellMoments{});
-    // Round the quadrilateral, the lower and the left edge are walked backwards.
+    // On the way around the quadrilateral the lower and the left edge are traversed backwards.
     add_edge<1>(edges[0], cells, result.column, result.row, columns);
     add_edge<1>(edges[1], cells, result.column, result.row, columns);
     add_edge<-1>(edges[2], cells, result.column, result.row, columns);
     add_edge<-1>(edges[3], cells, result.column, result.row, columns);
 
-    // The middle is where J and the local coordinates are taken.
+    // J and the local coordinates are evaluated at the middle.
     const double mx = 0.25 * (p0.x + p1.x + p2.x + p3.x), my = 0.25 * (p0.y + p1.y + p2.y + p3.y);
     const double inverse_scale = 1 / grid.scale();
     const double sc = (mx - grid.middle()) * inverse_scale, tc = (my - grid.middle()) * inverse_scale;
@@ -106,7 +106,7 @@ void overlap(const FaceGrid& grid, const PlanePoint* const corners[4], const Edg
     const double ux = 0.5 * (p1.x - p0.x + p2.x - p3.x), uy = 0.5 * (p1.y - p0.y + p2.y - p3.y);
     const double vx = 0.5 * (p3.x - p0.x + p2.x - p1.x), vy = 0.5 * (p3.y - p0.y + p2.y - p1.y);
     const double det = ux * vy - uy * vx, inverse_det = det != 0 ? 1 / det : 0;
-    result.orientation = det < 0 ? 1 : -1; // what lies right of a falling edge counts
+    result.orientation = det < 0 ? 1 : -1; // areas are measured to the right of a falling edge
     result.ax = vy * inverse_det;
     result.ay = -vx * inverse_det;
     result.bx = -uy * inverse_det;

@@ -3,7 +3,10 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/base/vec.h"
-#include "bake/environment/resample/resample_exact.h"
+#include "bake/environment/resample/face_accumulator.h"
+#include "bake/environment/resample/gather_picture.h"
+#include "bake/environment/resample/shared_texels.h"
+#include "bake/environment/sky/sky_format.h"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -18,29 +21,30 @@ namespace {
 
 int side_of(Samples samples) noexcept { return samples == Samples::grid4 ? 4 : 1; }
 
-/// One row of the result: side x side looks per texel; direction(x, y) gives the source's direction at a point of the
-/// result, in texels.
+/// One row of the result from side x side samples per texel; direction(x, y) is the direction in the source of a point of
+/// the result, in texels.
 template <class Directions>
 void sample_row(const Environment& source, int y, int width, int side, Directions&& direction,
-                std::vector<Vec3d>& looks, std::vector<float>& seen, float* row) {
+                std::vector<Vec3d>& directions, std::vector<float>& values, float* row) {
     const int channels = source.channels();
-    looks.resize(width);
-    seen.resize(std::size_t(width) * channels);
+    directions.resize(width);
+    values.resize(std::size_t(width) * channels);
     if (side == 1) {
-        for (int x = 0; x < width; ++x) looks[x] = direction(x + 0.5, y + 0.5);
-        sample(source, looks.data(), width, row);
+        for (int x = 0; x < width; ++x) directions[x] = direction(x + 0.5, y + 0.5);
+        sample(source, directions.data(), width, row);
         return;
     }
     std::fill_n(row, std::size_t(width) * channels, 0.0f);
     const float share = 1.0f / float(side * side);
     for (int k = 0; k < side * side; ++k) {
-        for (int x = 0; x < width; ++x) looks[x] = direction(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
-        sample(source, looks.data(), width, seen.data());
-        for (std::size_t i = 0; i < seen.size(); ++i) row[i] += share * seen[i];
+        for (int x = 0; x < width; ++x)
+            directions[x] = direction(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
+        sample(source, directions.data(), width, values.data());
+        for (std::size_t i = 0; i < values.size(); ++i) row[i] += share * values[i];
     }
 }
 
-/// Rows [low, high) of a face, sampled.
+/// Rows [low, high) of a face by interpolated samples.
 void sampled_rows(const Environment& source, const FaceGrid& grid, CubeFace face, const ResampleOptions& options,
                   Samples samples, int low, int high, float* values, Progress* progress) {
     const int n = grid.texels, side = side_of(samples), channels = source.channels();
@@ -54,14 +58,14 @@ void sampled_rows(const Environment& source, const FaceGrid& grid, CubeFace face
         high - low, 8,
         [&](std::int64_t begin, std::int64_t end) {
             std::vector<Vec3d> looks;
-            std::vector<float> seen;
+            std::vector<float> sampled;
             for (std::int64_t i = begin; i < end; ++i)
                 sample_row(
                     source, low + int(i), n, side,
                     [&](double at_x, double at_y) {
                         return middle + (at_x - 0.5 * n) * scale * right + (at_y - 0.5 * n) * scale * down;
                     },
-                    looks, seen, values + i * n * channels);
+                    looks, sampled, values + i * n * channels);
         },
         progress);
 }
@@ -74,106 +78,17 @@ Image<float> sampled_picture(const Environment& source, Projection projection, i
         height, 8,
         [&](std::int64_t begin, std::int64_t end) {
             std::vector<Vec3d> looks;
-            std::vector<float> seen;
+            std::vector<float> sampled;
             for (auto y = int(begin); y < int(end); ++y)
                 sample_row(
                     source, y, width, side_of(samples),
                     [&](double at_x, double at_y) {
                         return back * picture_direction(projection, width, height, at_x, at_y);
                     },
-                    looks, seen, image.row(y));
+                    looks, sampled, image.row(y));
         },
         progress);
     return image;
-}
-
-/// The values of texels at a face's edges, channels each, by frame_index.
-using Frame = std::vector<float>;
-
-/// Texels on the edges and corners stand on two or three faces: all get the mean over their whole solid angle. `frames`:
-/// flux and solid angle.
-std::array<Frame, 6> join_frames(int n, int channels, const std::array<std::vector<double>, 6>& frames) {
-    std::array<Frame, 6> joined;
-    for (const CubeFace face : all_cube_faces) {
-        Frame& values = joined[int(face)];
-        values.resize(std::size_t(4) * n * channels);
-        for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; x += y == 0 || y == n - 1 || n == 1 ? 1 : n - 1) {
-                const Vec3d d = cube_direction(CubePoint<double>{face, double(x) / (n - 1), double(y) / (n - 1)});
-                std::vector<double> sum(channels + 1, 0.0);
-                for (int other = 0; other < 6; ++other) {
-                    const PlanePoint at = FacePlane({n, true}, CubeFace(other)).project(d);
-                    const double u = (at.x - 1) / 2, v = (at.y - 1) / 2; // texels from the first one's centre
-                    if (at.ma < 1 - 1e-9 || std::abs(u - 0.5 * (n - 1)) > 0.5 * n ||
-                        std::abs(v - 0.5 * (n - 1)) > 0.5 * n)
-                        continue;
-                    const int index = frame_index(n, int(std::lround(u)), int(std::lround(v)));
-                    for (int c = 0; c <= channels; ++c)
-                        sum[c] += frames[other][std::size_t(index) * (channels + 1) + c];
-                }
-                float* const value = &values[std::size_t(frame_index(n, x, y)) * channels];
-                for (int c = 0; c < channels; ++c) value[c] = float(sum[c] / sum[channels]);
-            }
-    }
-    return joined;
-}
-
-/// A texel on an edge is folded round it: its light has its middle up to 1/8 of a texel further from the edge's middle
-/// than its sample, |t| / 8 at t in [-1, 1]. The value is brought back by its difference to the neighbour on that side,
-/// which loses no light but for that in which |t| / 8 changes from texel to texel.
-void centre_edges(int n, int channels, Frame& frame) {
-    for (int side = 0; side < 4; ++side) {
-        const auto at = [&](int i) {
-            const int index = side == 0   ? frame_index(n, i, 0)
-                              : side == 1 ? frame_index(n, i, n - 1)
-                              : side == 2 ? frame_index(n, 0, i)
-                                          : frame_index(n, n - 1, i);
-            return &frame[std::size_t(index) * channels];
-        };
-        // From the ends inwards, so that neighbours still hold what they were given; the middle has nothing to move.
-        for (int i = 1; 2 * i < n - 1; ++i)
-            for (const int k : {i, n - 1 - i}) {
-                const float share = float(std::abs(2.0 * k / (n - 1) - 1) / 8);
-                float *value = at(k), *inner = at(k < n - 1 - k ? k + 1 : k - 1);
-                for (int c = 0; c < channels; ++c) value[c] += share * (inner[c] - value[c]);
-            }
-    }
-}
-
-/// Writes a frame over rows [low, high) of a face.
-void put_frame(const Frame& frame, int n, int channels, int low, int high, float* values) {
-    for (int y = low; y < high; ++y)
-        for (int x = 0; x < n; x += y == 0 || y == n - 1 || n == 1 ? 1 : n - 1)
-            std::copy_n(&frame[std::size_t(frame_index(n, x, y)) * channels], channels,
-                        values + (std::size_t(y - low) * n + x) * channels);
-}
-
-/// Whether the texels that an edge-sampled lat-long has twice or more, its outer columns and rows, are equal.
-bool is_joined(const Image<float>& picture) noexcept {
-    const int w = picture.width(), h = picture.height(), channels = picture.channels();
-    for (int y = 0; y < h; ++y)
-        if (!std::equal(&picture.at(0, y), &picture.at(0, y) + channels, &picture.at(w - 1, y))) return false;
-    for (const int y : {0, h - 1})
-        for (int x = 1; x < w; ++x)
-            if (!std::equal(&picture.at(0, y), &picture.at(0, y) + channels, &picture.at(x, y))) return false;
-    return true;
-}
-
-/// An edge-sampled source whose shared texels differ is read as their mean.
-Image<float> joined(const Image<float>& picture) {
-    Image<float> copy(picture.width(), picture.height(), picture.channels());
-    std::copy_n(picture.data(), picture.size(), copy.data());
-    const int w = copy.width(), h = copy.height(), channels = copy.channels();
-    for (int c = 0; c < channels; ++c) {
-        for (int y = 0; y < h; ++y)
-            copy.at(0, y, c) = copy.at(w - 1, y, c) = 0.5f * (copy.at(0, y, c) + copy.at(w - 1, y, c));
-        for (const int y : {0, h - 1}) {
-            double sum = 0;
-            for (int x = 0; x < w; ++x) sum += copy.at(x, y, c);
-            for (int x = 0; x < w; ++x) copy.at(x, y, c) = float(sum / w);
-        }
-    }
-    return copy;
 }
 
 /// Turns a picture by 180 degrees.
@@ -192,10 +107,10 @@ double density_of(const FaceGrid& grid) noexcept { return std::sqrt(6.0 * grid.t
 } // namespace
 
 Samples resolve(const Environment& source, double density, bool same, const ResampleOptions& options) {
-    const bool disc = !source.is_cube() && has_disc(source.projection);
+    const bool disc = !source.is_cube() && entry_of(source.projection).discs > 0;
     if (options.samples == Samples::exact && disc)
-        throw Error(Refusal::usage, std::string("`samples` exact: texels at the rim of a ") + name(source.projection) +
-                                        " have no shape to share out; take `samples` 4x4");
+        throw Error(Refusal::usage, std::string("`samples` exact: is not defined for a ") + name(source.projection) +
+                                        ", whose texels at the rim have no area on the sphere; take 4x4");
     if (options.samples != Samples::automatic) return options.samples;
     if (disc) return Samples::grid4;
     glm::dmat3 turn = options.turn;
@@ -206,45 +121,46 @@ Samples resolve(const Environment& source, double density, bool same, const Resa
 
 namespace {
 
-/// How the faces of a cube are made.
+/// Resampling to the faces of a cube.
 struct FaceJob {
     const Environment& given;
     FaceGrid grid;
     ResampleOptions options;
     Samples samples;
-    Environment clean;           ///< the source with its shared texels joined, where they were not
-    std::array<Frame, 6> frames; ///< what exact puts at the edges of edge-sampled faces
+    Environment joined;            ///< the source with equal shared texels, if those of `given` differ
+    std::array<Border, 6> borders; ///< of edge-sampled faces made by exact
 
-    const Environment& source() const noexcept { return clean.picture.empty() ? given : clean; }
+    const Environment& source() const noexcept { return joined.picture.empty() ? given : joined; }
 };
 
 FaceJob face_job(const Environment& source, const FaceGrid& grid, const ResampleOptions& options) {
     FaceJob job{source, grid, options, resolve(source, density_of(grid), same_lattice(source, grid), options), {}, {}};
     if (job.samples != Samples::exact) return job;
     if (!source.is_cube() && source.projection == Projection::latlong_edges && !is_joined(source.picture)) {
-        job.clean.projection = source.projection;
-        job.clean.picture = joined(source.picture);
+        job.joined.projection = source.projection;
+        job.joined.picture = joined(source.picture);
     }
     if (!grid.edges) return job;
     std::array<std::vector<double>, 6> sums;
     for (const CubeFace face : all_cube_faces)
-        sums[int(face)] = FaceRain(job.source(), grid, face, options.turn).frame();
-    job.frames = join_frames(grid.texels, source.channels(), sums);
-    for (Frame& frame : job.frames) centre_edges(grid.texels, source.channels(), frame);
+        sums[int(face)] = FaceAccumulator(job.source(), grid, face, options.turn).border();
+    job.borders = join_borders(grid.texels, source.channels(), sums);
+    for (Border& border : job.borders) shift_to_samples(grid.texels, source.channels(), border);
     return job;
 }
 
-/// Rows [low, high) of a face; `rain`: of that face, for exact.
-void make_rows(const FaceJob& job, const FaceRain* rain, CubeFace face, int low, int high, float* values,
-               Progress* progress) {
-    if (!rain) return sampled_rows(job.given, job.grid, face, job.options, job.samples, low, high, values, progress);
-    rain->rows(low, high, values, progress);
-    if (job.grid.edges) put_frame(job.frames[int(face)], job.grid.texels, job.given.channels(), low, high, values);
+/// Rows [low, high) of a face; `accumulator`: that of the face, for exact.
+void make_rows(const FaceJob& job, const std::optional<FaceAccumulator>& accumulator, CubeFace face, int low, int high,
+               float* values, Progress* progress) {
+    if (!accumulator)
+        return sampled_rows(job.given, job.grid, face, job.options, job.samples, low, high, values, progress);
+    accumulator->rows(low, high, values, progress);
+    if (job.grid.edges) put_border(job.borders[int(face)], job.grid.texels, job.given.channels(), low, high, values);
 }
 
-std::optional<FaceRain> rain_of(const FaceJob& job, CubeFace face) {
+std::optional<FaceAccumulator> accumulator_for(const FaceJob& job, CubeFace face) {
     if (job.samples != Samples::exact) return std::nullopt;
-    return std::optional<FaceRain>(std::in_place, job.source(), job.grid, face, job.options.turn);
+    return std::optional<FaceAccumulator>(std::in_place, job.source(), job.grid, face, job.options.turn);
 }
 
 } // namespace
@@ -253,8 +169,8 @@ Cube to_cube(const Environment& source, const FaceGrid& grid, const ResampleOpti
     const FaceJob job = face_job(source, grid, options);
     Cube cube = make_cube(grid.texels, source.channels());
     for (const CubeFace face : all_cube_faces) {
-        const auto rain = rain_of(job, face);
-        make_rows(job, rain ? &*rain : nullptr, face, 0, grid.texels, cube[face].data(), progress);
+        const auto accumulator = accumulator_for(job, face);
+        make_rows(job, accumulator, face, 0, grid.texels, cube[face].data(), progress);
     }
     return cube;
 }
@@ -267,14 +183,13 @@ void each_band(const Environment& source, const FaceGrid& grid, const ResampleOp
     for (int k = 0; k < 6; ++k) {
         const auto [face, turns] = faces[k];
         assert(turns % 2 == 0);
-        const auto rain = rain_of(job, face);
+        const auto accumulator = accumulator_for(job, face);
         for (int y = 0; y < n; y += height) {
             const int end = std::min(y + height, n);
             Image<float> band(n, end - y, channels);
-            // Upside down the last rows come first, backwards.
+            // A face that is turned by 180 degrees starts with its last rows.
             const bool around = turns % 4 != 0;
-            make_rows(job, rain ? &*rain : nullptr, face, around ? n - end : y, around ? n - y : end, band.data(),
-                      progress);
+            make_rows(job, accumulator, face, around ? n - end : y, around ? n - y : end, band.data(), progress);
             if (around) reverse_texels(band);
             take(k, y, band);
         }

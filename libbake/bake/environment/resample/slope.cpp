@@ -7,7 +7,7 @@
 namespace bake {
 namespace {
 
-/// Four channels side by side, in one register; slopes of every texel of a sky were a tenth of exact, one by one.
+/// Four channels in one register: channel by channel the slopes took a tenth of the time of exact resampling.
 typedef float Four __attribute__((vector_size(16)));
 typedef std::int32_t FourBits __attribute__((vector_size(16)));
 
@@ -24,18 +24,18 @@ inline Four load(const float* texel, int channels) noexcept {
     }
 }
 
-/// The central difference of what lies before and behind, each per texel; not steeper than twice either, and 0 at an
-/// extremum: along an axis the texel's values stay between its neighbours'. Van Leer, Towards the Ultimate Conservative
-/// Difference Scheme IV, JCP 1977.
+/// The central difference of the differences to the neighbours before and behind, per texel, limited to twice the smaller
+/// of the two, and 0 at an extremum. Along an axis the texel's values then stay between those of its neighbours. Van Leer,
+/// Towards the Ultimate Conservative Difference Scheme IV, JCP 1977.
 inline Four limited(Four before, Four behind) noexcept {
     const Four central = 0.5f * (before + behind),
                size = least(magnitude(central), 2 * least(magnitude(before), magnitude(behind)));
     return before * behind > 0 ? Four(FourBits(size) | (FourBits(central) & std::int32_t(0x80000000))) : Four{};
 }
 
-/// Both slopes, from the differences to the four neighbours, each per texel; scaled down where the texel's corners would
-/// leave the neighbours' range: Barth and Jespersen, The Design and Application of Upwind Schemes on Unstructured Meshes,
-/// AIAA 1989.
+/// Both slopes, from the differences to the four neighbours per texel, scaled down if the values at the texel's corners
+/// would leave the range of the neighbours: Barth and Jespersen, The Design and Application of Upwind Schemes on
+/// Unstructured Meshes, AIAA 1989.
 inline void set_slopes(Slopes& s, Four before_x, Four behind_x, Four before_y, Four behind_y) noexcept {
     const Four x = limited(before_x, behind_x), y = limited(before_y, behind_y),
                change = 0.5f * (magnitude(x) + magnitude(y));
@@ -48,23 +48,24 @@ inline void set_slopes(Slopes& s, Four before_x, Four behind_x, Four before_y, F
     std::memcpy(s.y, &scaled_y, sizeof s.y);
 }
 
-/// Across one edge of a face: the value that stands one step outside (x, y), moved along the edge to where the row meets
-/// it, and how many texels away that is.
-struct Beyond {
+/// The neighbour across an edge of a face: its value, moved along the edge to the row or column of the texel inside, and
+/// its distance in texels.
+struct EdgeNeighbour {
     float value[4];
     float distance;
 };
 
-Beyond beyond_edge(const Cube& cube, CubeFace face, int x, int y, bool across_s) noexcept {
+EdgeNeighbour neighbour_across(const Cube& cube, CubeFace face, int x, int y, bool across_s) noexcept {
     const int n = cube.size(), channels = cube.channels();
     const CubeTexel there = texel_across(n, face, x, y);
     const float* value = &cube[there.face].at(there.x, there.y);
-    // In the plane of this face the neighbour's centre lies at 1 / (1 - 1/n), and so much further along, too.
+    // In the plane of this face the centre of the neighbour is at 1 / (1 - 1/n), and is displaced along the edge by the same
+    // factor.
     const double stretch = n > 1 ? 1 / (1 - 1.0 / n) : 1;
     const int along = across_s ? y : x;
     const double t = (2 * along + 1.0) / n - 1, moved = 0.5 * n * t * (stretch - 1);
-    Beyond result{{}, float(0.5 * n * (stretch - (1 - 1.0 / n)))}; // from the outer texel's centre
-    // The slope along the edge is that of this face's own outer texels.
+    EdgeNeighbour result{{}, float(0.5 * n * (stretch - (1 - 1.0 / n)))}; // from the centre of the outer texel
+    // The slope along the edge is taken from the outer texels of this face.
     const int low = std::max(along - 1, 0), high = std::min(along + 1, n - 1);
     const int own_x = std::clamp(x, 0, n - 1), own_y = std::clamp(y, 0, n - 1);
     const float* before = across_s ? &cube[face].at(own_x, low) : &cube[face].at(low, own_y);
@@ -75,7 +76,7 @@ Beyond beyond_edge(const Cube& cube, CubeFace face, int x, int y, bool across_s)
     return result;
 }
 
-/// One-sided where the face ends and its samples lie on the edge.
+/// At the border of an edge-sampled face the differences are one-sided.
 void edge_sampled_slopes(const Image<float>& face, int x, int y, Slopes& s) noexcept {
     const int n = face.width(), channels = face.channels();
     if (n < 2) {
@@ -95,7 +96,7 @@ void picture_slopes(Projection projection, const Image<float>& picture, int x, i
     const int w = picture.width(), h = picture.height(), channels = picture.channels();
     const auto at = [&](int i, int j) {
         if (i >= 0 && j >= 0 && i < w && j < h) return load(&picture.at(i, j), channels);
-        const PictureTexel texel = wrapped(projection, w, h, i, j);
+        const PictureTexel texel = texel_across(projection, w, h, i, j);
         return load(&picture.at(texel.x, texel.y), channels);
     };
     if (projection == Projection::latlong_edges && (y == 0 || y == h - 1)) { // a pole
@@ -114,10 +115,10 @@ void face_slopes(const Cube& cube, bool edge_samples, CubeFace f, int x, int y, 
     const auto at = [&](int i, int j) { return load(&face.at(i, j), channels); };
     if (x > 0 && y > 0 && x + 1 < n && y + 1 < n)
         return set_slopes(s, own - at(x - 1, y), at(x + 1, y) - own, own - at(x, y - 1), at(x, y + 1) - own);
-    // The difference to the neighbour there, from here to it.
+    // The difference to a neighbour, per texel.
     const auto rise = [&](int i, int j, bool across_s) {
         if (i >= 0 && j >= 0 && i < n && j < n) return at(i, j) - own;
-        const Beyond beyond = beyond_edge(cube, f, i, j, across_s);
+        const EdgeNeighbour beyond = neighbour_across(cube, f, i, j, across_s);
         return (load(beyond.value, channels) - own) / beyond.distance;
     };
     set_slopes(s, -rise(x - 1, y, true), rise(x + 1, y, true), -rise(x, y - 1, false), rise(x, y + 1, false));

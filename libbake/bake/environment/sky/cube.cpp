@@ -5,7 +5,7 @@
 namespace bake {
 namespace {
 
-// A direction cube_point can divide: finite, and with the meaning the header gives to what is not.
+// Replaces non-finite components as cube_point specifies.
 template <class T> Vec3<T> defined(Vec3<T> d) noexcept {
     bool infinite = false;
     for (int i = 0; i < 3; ++i) {
@@ -17,7 +17,8 @@ template <class T> Vec3<T> defined(Vec3<T> d) noexcept {
     return d;
 }
 
-/// Bilinear taps: four texels and their weights; a corner's fourth texel is shared among the other three.
+/// Bilinear interpolation: four texels and their weights. At a corner of the cube the weight of the missing texel is
+/// divided between the other three.
 struct Taps {
     CubeTexel at[4];
     double weight[4];
@@ -47,7 +48,7 @@ Taps taps(int n, const Vec3d& d) noexcept {
     return found;
 }
 
-/// Of the first `channels` channels.
+/// Interpolates the first `channels` channels.
 template <int channels> void gather(const Cube& cube, const Taps& found, double* sum) noexcept {
     for (int c = 0; c < channels; ++c) sum[c] = 0;
     for (int i = 0; i < 4; ++i) {
@@ -67,7 +68,7 @@ Cube make_cube(int size, int channels) {
 template <class T> CubePoint<T> cube_point(const Vec3<T>& direction) noexcept {
     const Vec3<T> d = defined(direction);
     const T x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-    // Divided, not multiplied by a reciprocal, which overflows for denormals.
+    // A reciprocal would overflow for denormals.
     const auto at = [](CubeFace face, T sc, T tc, T ma) {
         return CubePoint<T>{face, (sc / ma + T(1)) / T(2), (tc / ma + T(1)) / T(2)};
     };
@@ -100,8 +101,8 @@ template Vec3d cube_direction(const CubePoint<double>&) noexcept;
 CubeTexel texel_across(int n, CubeFace face, int x, int y) noexcept {
     const double s = (std::clamp(x, 0, n - 1) + 0.5) / n, t = (std::clamp(y, 0, n - 1) + 0.5) / n;
     const bool across_s = x < 0 || x >= n;
-    // On the edge itself sc or tc is 1 in magnitude. The step folds round the edge: half a texel further, where the
-    // centres of the neighbour's texels are, the old major axis has lost 1 / n.
+    // On the edge |sc| or |tc| is 1. The centres of the neighbour's texels are half a texel beyond the edge, where the
+    // component along this face's axis is smaller by 1 / n.
     const CubePoint<double> edge =
         across_s ? CubePoint<double>{face, x < 0 ? 0.0 : 1.0, t} : CubePoint<double>{face, s, y < 0 ? 0.0 : 1.0};
     Vec3d d = cube_direction(edge);
@@ -127,15 +128,6 @@ Vec3f lookup(const Cube& cube, const Vec3f& d) noexcept {
     double sum[3];
     gather<3>(cube, taps(cube.size(), Vec3d(d)), sum);
     return {float(sum[0]), float(sum[1]), float(sum[2])};
-}
-
-Vec3f lookup(const CubeMips& mips, const Vec3f& d, float level) noexcept {
-    const float last = float(mips.size() - 1);
-    const float at = level > 0 ? std::min(level, last) : 0.0f; // NaN gives 0
-    const int lower = int(at);
-    const float beyond = at - float(lower);
-    const Vec3f fine = lookup(mips[lower], d);
-    return beyond > 0 ? (1 - beyond) * fine + beyond * lookup(mips[lower + 1], d) : fine;
 }
 
 } // namespace bake

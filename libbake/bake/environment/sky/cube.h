@@ -1,4 +1,4 @@
-// Six-face environment maps: the faces, where directions meet them, lookups.
+// Cube maps: the faces, the mapping between directions and faces, and interpolation.
 //
 // Faces as in the OpenGL table (Vulkan and Direct3D agree), seen from inside, in cube space: left-handed, +Z ahead,
 // +X right, +Y up.
@@ -16,13 +16,12 @@
 //
 //      s = (sc / |ma| + 1) / 2         t = (tc / |ma| + 1) / 2
 //
-// The world is right-handed. world_to_cube is the only place where the two meet, so that pictures, and text in them,
-// are never mirrored.
+// The world is right-handed. world_to_cube is the only conversion between the two, so that pictures, and text in them, are
+// never mirrored.
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/picture/image.h"
 #include <array>
-#include <vector>
 
 namespace bake {
 
@@ -31,23 +30,24 @@ inline constexpr std::array<const char*, 6> cube_face_names = {"px", "nx", "py",
 inline constexpr std::array<CubeFace, 6> all_cube_faces = {CubeFace::px, CubeFace::nx, CubeFace::py,
                                                            CubeFace::ny, CubeFace::pz, CubeFace::nz};
 
-/// A place on a face: s right, t down, both in [0, 1].
+/// A point on a face: s right, t down, both in [0, 1].
 template <class T> struct CubePoint {
     CubeFace face = CubeFace::pz;
     T s = T(0.5), t = T(0.5);
 };
 
-/// The one flip between world and cube space: x changes sign. It is its own inverse.
+/// Conversion between world and cube space: x changes sign. The function is its own inverse.
 template <class T> Vec3<T> world_to_cube(const Vec3<T>& d) noexcept { return {-d.x, d.y, d.z}; }
 
-/// Where a direction in cube space, of any length, leaves the cube. Equal magnitudes: z before y before x. A zero
-/// vector gives the centre of pz; a NaN component counts as zero, and beside an infinite one finite ones count as zero.
+/// The point where a ray from the centre in a direction in cube space, of any length, leaves the cube. For components of
+/// equal magnitude z takes precedence over y, and y over x. A zero vector gives the centre of pz. A NaN component counts as
+/// zero; if a component is infinite, finite components count as zero.
 template <class T> CubePoint<T> cube_point(const Vec3<T>& d) noexcept;
 
 /// The direction in cube space through a point of a face, not unit: its major component is 1 or -1.
 template <class T> Vec3<T> cube_direction(const CubePoint<T>& point) noexcept;
 
-/// Six square faces of one size and one to four channels (colour is linear), in the order of CubeFace. Texel (x, y) of
+/// Six square faces of equal size with one to four channels (colour is linear), in the order of CubeFace. Texel (x, y) of
 /// n covers s in [x, x + 1] / n, t in [y, y + 1] / n. Empty: no environment.
 struct Cube {
     std::array<Image<float>, 6> faces;
@@ -57,28 +57,21 @@ struct Cube {
     Image<float>& operator[](CubeFace face) noexcept { return faces[int(face)]; }
     const Image<float>& operator[](CubeFace face) const noexcept { return faces[int(face)]; }
 };
-/// Six faces whose values are not set.
+/// Six faces with uninitialised values.
 Cube make_cube(int size, int channels);
-
-/// Level 0 first; each further level is half as large, rounded down, until size 1.
-using CubeMips = std::vector<Cube>;
 
 /// One texel of a cube.
 struct CubeTexel {
     CubeFace face;
     int x, y;
 };
-/// The texel at column x and row y of a face of `size` texels, exactly one of which is one step outside, -1 or size: the
-/// neighbour across that edge.
+/// The neighbour across an edge of a face of `size` texels: exactly one of x and y is -1 or size.
 CubeTexel texel_across(int size, CubeFace face, int x, int y) noexcept;
 
-/// Value from a direction in cube space: bilinear, seamless across the edges. At a corner, where only three texels
-/// meet, the fourth is their mean. Directions without direction are taken as cube_point takes them.
-/// Writes channels() values.
+/// Value in a direction in cube space, by bilinear interpolation across edges. At a corner of the cube only three texels
+/// touch, and the fourth is their mean. Degenerate directions are treated as in cube_point. Writes channels() values.
 void lookup(const Cube& cube, const Vec3d& d, float* value) noexcept;
 /// The same for a cube of three channels or more.
 Vec3f lookup(const Cube& cube, const Vec3f& d) noexcept;
-/// Trilinear: linear between the two mips beside `level`, clamped to those there are; NaN counts as 0.
-Vec3f lookup(const CubeMips& mips, const Vec3f& d, float level) noexcept;
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "bake/environment/sky/environment.h"
 #include "bake/base/vec.h"
+#include "bake/environment/sky/sky_format.h"
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,7 @@ namespace {
 constexpr int batch = 128;
 constexpr double snap = 1e-9;
 
-/// Texel coordinates, 0 at the first texel's centre, of a batch of directions in a lat-long.
+/// Texel coordinates, 0 at the centre of the first texel, of a batch of directions in a lat-long.
 void latlong_places(const Environment& sky, const Vec3d* d, int count, double* x, double* y) noexcept {
     const int w = sky.picture.width(), h = sky.picture.height();
     double ahead[batch], level[batch];
@@ -28,18 +29,22 @@ void latlong_places(const Environment& sky, const Vec3d* d, int count, double* x
     }
 }
 
+/// A point of a disc, moved one texel inside the rim, because the texels beyond the rim hold no sky.
+Vec2d inside_disc(const Vec2d& at, int width, int height, int discs) noexcept {
+    const double disc_width = double(width) / discs;
+    const int disc = std::clamp(int(at.x / disc_width), 0, discs - 1);
+    const Vec2d radius(0.5 * disc_width, 0.5 * height), middle((disc + 0.5) * disc_width, 0.5 * height);
+    const double r = glm::length((at - middle) / radius), largest = std::max(0.0, 1 - 3.0 / disc_width);
+    return r > largest ? middle + (at - middle) * (largest / r) : at;
+}
+
 void picture_places(const Environment& sky, const Vec3d* d, int count, double* x, double* y) noexcept {
     const int w = sky.picture.width(), h = sky.picture.height();
-    if (sky.projection == Projection::latlong || sky.projection == Projection::latlong_edges)
-        return latlong_places(sky, d, count, x, y);
+    if (is_latlong(sky.projection)) return latlong_places(sky, d, count, x, y);
+    const int discs = entry_of(sky.projection).discs;
     for (int i = 0; i < count; ++i) {
         Vec2d at = picture_point(sky.projection, w, h, d[i]);
-        if (has_disc(sky.projection)) {
-            // One texel inside the rim, beyond which there is no sky.
-            const Vec2d middle(0.5 * w, 0.5 * h);
-            const double r = glm::length((at - middle) / middle), most = std::max(0.0, 1 - 3.0 / w);
-            if (r > most) at = middle + (at - middle) * (most / r);
-        }
+        if (discs > 0) at = inside_disc(at, w, h, discs);
         x[i] = at.x - 0.5;
         y[i] = at.y - 0.5;
     }
@@ -53,13 +58,13 @@ void mix(const float* a, const float* b, const float* c, const float* d, float f
     }
 }
 
-/// A texel and how far beyond its centre.
+/// The texel at or before a position, and the distance from its centre to the position.
 struct Step {
     int at;
     float beyond;
 };
 Step step_of(double x) noexcept {
-    // Without the library call that std::floor is on a plain x86-64; places are never below -2.
+    // std::floor is a library call on baseline x86-64; positions are never below -2.
     const int low = int(x + (snap + 4)) - 4;
     const double beyond = x - low;
     return {low, beyond > snap ? float(beyond) : 0.0f};
@@ -79,14 +84,14 @@ template <int channels> void sample_picture(const Environment& sky, const Vec3d*
         }
         const float* taps[4];
         for (int k = 0; k < 4; ++k) {
-            const PictureTexel at = wrapped(sky.projection, w, h, sx.at + k % 2, sy.at + k / 2);
+            const PictureTexel at = texel_across(sky.projection, w, h, sx.at + k % 2, sy.at + k / 2);
             taps[k] = &image.at(at.x, at.y);
         }
         mix<channels>(taps[0], taps[1], taps[2], taps[3], sx.beyond, sy.beyond, out + i * channels);
     }
 }
 
-/// Faces whose outer texels lie on the edges need no neighbour.
+/// Faces with samples on their edges: bilinear interpolation needs no texel of another face.
 template <int channels> void sample_edges(const Cube& cube, const Vec3d* d, int count, float* out) noexcept {
     const int n = cube.size();
     for (int i = 0; i < count; ++i) {
@@ -130,40 +135,10 @@ double Environment::density() const noexcept {
     return std::sqrt(texels / (4 * pi));
 }
 
-PictureTexel wrapped(Projection projection, int width, int height, int x, int y) noexcept {
-    switch (projection) {
-    case Projection::latlong:
-        if (y < 0 || y >= height) {
-            y = y < 0 ? -1 - y : 2 * height - 1 - y;
-            x += width / 2;
-        }
-        y = std::clamp(y, 0, height - 1);
-        x %= width;
-        return {x < 0 ? x + width : x, y};
-    case Projection::latlong_edges: { // the last column is the first again; the outer rows are the poles
-        const int around = std::max(1, width - 1);
-        if (y < 0 || y >= height) {
-            y = y < 0 ? -y : 2 * (height - 1) - y;
-            x += around / 2;
-        }
-        if (x >= 0 && x < width) return {x, std::clamp(y, 0, height - 1)};
-        x %= around;
-        return {x < 0 ? x + around : x, std::clamp(y, 0, height - 1)};
-    }
-    case Projection::octahedral: // a side joins itself, reversed
-        if (x < 0 || x >= width) {
-            x = x < 0 ? 0 : width - 1;
-            y = height - 1 - y;
-        }
-        if (y < 0 || y >= height) {
-            y = y < 0 ? 0 : height - 1;
-            x = width - 1 - x;
-        }
-        return {std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)};
-    case Projection::ball:
-    case Projection::probe: break;
-    }
-    return {std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)};
+int Environment::face_edge() const noexcept {
+    if (is_cube()) return cube.size();
+    if (is_latlong(projection)) return std::max(1, picture.width() / 4);
+    return std::max(1, int(std::lround(density() * std::sqrt(4 * pi / 6))));
 }
 
 void sample(const Environment& sky, const Vec3d* directions, int count, float* values) noexcept {

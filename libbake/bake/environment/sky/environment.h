@@ -1,4 +1,4 @@
-// An environment in memory: six faces, or one picture of the whole sky; and its values at directions.
+// An environment in memory, six faces or one picture of the whole sky, and its values in given directions.
 #pragma once
 #include "bake/environment/sky/cube.h"
 #include "bake/environment/sky/projection.h"
@@ -6,26 +6,21 @@
 namespace bake {
 
 struct Environment {
-    Cube cube;                 ///< six faces; empty: `picture`
-    bool edge_samples = false; ///< the outer texels' centres lie on the faces' edges, as OpenEXR has it
-    Image<float> picture;
+    Cube cube;                 ///< six faces; empty if the environment is a picture
+    bool edge_samples = false; ///< the centres of the outer texels lie on the edges of the faces, OpenEXR's convention
+    Image<float> picture;      ///< of the whole sky
     Projection projection = Projection::latlong;
 
     bool is_cube() const noexcept { return !cube.empty(); }
     int channels() const noexcept { return is_cube() ? cube.channels() : picture.channels(); }
     /// Texels per radian, on average over the sphere.
     double density() const noexcept;
+    /// Edge, in texels, of the faces of an equally fine cube, at least 1.
+    int face_edge() const noexcept;
 };
 
-/// The texel that stands for (x, y), which may lie up to one step outside the picture: round the sphere, over the poles,
-/// across octahedral folds.
-struct PictureTexel {
-    int x, y;
-};
-PictureTexel wrapped(Projection projection, int width, int height, int x, int y) noexcept;
-
-/// Bilinear values at `count` directions of any length, channels() each. Directions within 1e-9 texel of a texel's centre
-/// give that texel to the bit.
+/// Bilinear values in `count` directions of any length, channels() values each. A direction within 1e-9 texel of a texel's
+/// centre gives exactly that texel.
 void sample(const Environment& sky, const Vec3d* directions, int count, float* values) noexcept;
 
 } // namespace bake

@@ -6,7 +6,7 @@
 namespace bake {
 namespace {
 
-/// One cell of a layout: its column and row, the face in it, the turns the face has been given there.
+/// One cell of a layout: its column and row, and the face in it with the turns that the layout gives the face.
 struct Cell {
     int column, row;
     TurnedFace face;
@@ -64,20 +64,12 @@ Image<float> turned(const Image<float>& face, int quarter_turns) {
     Image<float> result(n, n, face.channels());
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-            // Turned once, what stood at the right stands at the top.
+            // One quarter turn moves the right side to the top.
             const int from_x = turns == 0 ? x : turns == 1 ? n - 1 - y : turns == 2 ? n - 1 - x : y;
             const int from_y = turns == 0 ? y : turns == 1 ? x : turns == 2 ? n - 1 - y : n - 1 - x;
             std::copy_n(&face.at(from_x, from_y), face.channels(), &result.at(x, y));
         }
     return result;
-}
-
-std::optional<CubeLayout> layout_of_size(int width, int height) noexcept {
-    if (std::int64_t(width) * 3 == std::int64_t(height) * 4) return CubeLayout::hcross;
-    if (std::int64_t(width) * 4 == std::int64_t(height) * 3) return CubeLayout::vcross;
-    if (height == 6 * std::int64_t(width)) return CubeLayout::strip;
-    if (width == 6 * std::int64_t(height)) return CubeLayout::hstrip;
-    return std::nullopt;
 }
 
 Cube cut_faces(const Image<float>& picture, CubeLayout layout, FaceOrder order, const std::string& file) {
@@ -87,7 +79,7 @@ Cube cut_faces(const Image<float>& picture, CubeLayout layout, FaceOrder order, 
         throw Error(Refusal::unsuitable, file + ": is " + std::to_string(picture.width()) + "x" +
                                              std::to_string(picture.height()) + "; this layout has " +
                                              std::to_string(cells.columns) + "x" + std::to_string(cells.rows) +
-                                             " square faces; give another with `from`");
+                                             " square faces; name another format in `from`");
     Cube cube = make_cube(n, picture.channels());
     for (const Cell& cell : cells.cells) {
         Image<float>& face = cube[cell.face.face];

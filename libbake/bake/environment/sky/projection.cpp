@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+// A projection that has been forgotten in one of the switches does not compile.
+#pragma GCC diagnostic error "-Wswitch"
+
 namespace bake {
 namespace {
 
@@ -11,6 +14,10 @@ Vec3d on_sphere(double u, double v) noexcept { // u, v in [0, 1] of a lat-long
     const double phi = (u - 0.5) * 2 * pi, theta = (0.5 - v) * pi;
     const double c = std::cos(theta);
     return {std::sin(phi) * c, std::sin(theta), std::cos(phi) * c};
+}
+
+Vec2d latlong_point(const Vec3d& d) noexcept { // in [0, 1]
+    return {std::atan2(d.x, d.z) / (2 * pi) + 0.5, 0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / pi};
 }
 
 Vec3d octahedral_direction(double u, double v) noexcept { // in [-1, 1]
@@ -42,49 +49,52 @@ Vec3d probe_direction(double u, double v, double r) noexcept {
     return {u * across, v * across, std::cos(angle)};
 }
 
-Vec3d disc_direction(Projection projection, double u, double v) noexcept {
+/// From the disc of radius 1, v up; points outside the disc are moved to its rim.
+template <class Direction> Vec3d disc_direction(double u, double v, Direction&& direction) noexcept {
     double r = std::hypot(u, v);
     if (r > 1) u /= r, v /= r, r = 1;
-    return projection == Projection::ball ? ball_direction(u, v, r) : probe_direction(u, v, r);
+    return direction(u, v, r);
 }
 
-Vec2d disc_point(Projection projection, const Vec3d& d) noexcept {
+/// The point at radius r in the direction's azimuth; `r_on_axis` is the radius where the azimuth is undefined.
+Vec2d disc_point(const Vec3d& d, double r, double r_on_axis) noexcept {
     const double across = std::hypot(d.x, d.y);
-    // Of the ball: the normal lies half way between the ray to the camera, -Z, and d.
-    const double r =
-        projection == Projection::ball ? std::sqrt(std::clamp((1 + d.z) / 2, 0.0, 1.0)) : std::atan2(across, d.z) / pi;
-    if (across == 0)
-        return {projection == Projection::ball && d.z > 0    ? 1.0
-                : projection == Projection::probe && d.z < 0 ? 1.0
-                                                             : 0.0,
-                0.0};
-    return {d.x / across * r, d.y / across * r};
+    return across == 0 ? Vec2d(r_on_axis, 0) : Vec2d(d.x / across * r, d.y / across * r);
+}
+
+// The normal of the ball is half way between the ray to the camera, -Z, and d.
+Vec2d ball_point(const Vec3d& d) noexcept {
+    return disc_point(d, std::sqrt(std::clamp((1 + d.z) / 2, 0.0, 1.0)), d.z > 0 ? 1 : 0);
+}
+
+Vec2d probe_point(const Vec3d& d) noexcept {
+    return disc_point(d, std::atan2(std::hypot(d.x, d.y), d.z) / pi, d.z < 0 ? 1 : 0);
+}
+
+/// A position on an axis of n samples of which the outer ones lie on the ends, as a fraction of the axis.
+double edge_sampled(double at, int n) noexcept { return n > 1 ? std::clamp((at - 0.5) / (n - 1), 0.0, 1.0) : 0.5; }
+
+/// `around`: distinct columns. The rows at a pole are each other's neighbours across it; where the outer rows are the poles
+/// themselves (`pole_rows`), the neighbours are one row further.
+PictureTexel across_latlong(int width, int around, int height, bool pole_rows, int x, int y) noexcept {
+    if (y < 0 || y >= height) {
+        y = (y < 0 ? -1 : 2 * height - 1) - y + (y < 0 ? pole_rows : -int(pole_rows));
+        x += around / 2; // on the other side of the pole
+    }
+    if (x < 0 || x >= width) x = (x % around + around) % around;
+    return {x, std::clamp(y, 0, height - 1)};
 }
 
 } // namespace
-
-const char* name(Projection projection) noexcept {
-    switch (projection) {
-    case Projection::latlong: return "latlong";
-    case Projection::latlong_edges: return "openexr-latlong";
-    case Projection::octahedral: return "octahedral";
-    case Projection::ball: return "ball";
-    case Projection::probe: return "probe";
-    }
-    return "";
-}
 
 Vec3d picture_direction(Projection projection, int width, int height, double x, double y) noexcept {
     const double u = std::clamp(x / width, 0.0, 1.0), v = std::clamp(y / height, 0.0, 1.0);
     switch (projection) {
     case Projection::latlong: return on_sphere(u, v);
-    case Projection::latlong_edges: {
-        const auto edge = [](double at, int n) { return n > 1 ? std::clamp((at - 0.5) / (n - 1), 0.0, 1.0) : 0.5; };
-        return on_sphere(edge(x, width), edge(y, height));
-    }
+    case Projection::latlong_edges: return on_sphere(edge_sampled(x, width), edge_sampled(y, height));
     case Projection::octahedral: return octahedral_direction(2 * u - 1, 2 * v - 1);
-    case Projection::ball:
-    case Projection::probe: return disc_direction(projection, 2 * u - 1, 1 - 2 * v);
+    case Projection::ball: return disc_direction(2 * u - 1, 1 - 2 * v, ball_direction);
+    case Projection::probe: return disc_direction(2 * u - 1, 1 - 2 * v, probe_direction);
     }
     return {0, 0, 1};
 }
@@ -92,24 +102,36 @@ Vec3d picture_direction(Projection projection, int width, int height, double x, 
 Vec2d picture_point(Projection projection, int width, int height, const Vec3d& direction) noexcept {
     Vec3d d = unit_or_zero(direction);
     if (d == Vec3d(0)) d = {0, 0, 1};
+    const auto of_disc = [&](const Vec2d& at) { return Vec2d((1 + at.x) / 2 * width, (1 - at.y) / 2 * height); };
     switch (projection) {
-    case Projection::latlong:
+    case Projection::latlong: {
+        const Vec2d at = latlong_point(d);
+        return {at.x * width, at.y * height};
+    }
     case Projection::latlong_edges: {
-        const double u = std::atan2(d.x, d.z) / (2 * pi) + 0.5, v = 0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / pi;
-        if (projection == Projection::latlong) return {u * width, v * height};
-        return {u * (width - 1) + 0.5, v * (height - 1) + 0.5};
+        const Vec2d at = latlong_point(d);
+        return {at.x * (width - 1) + 0.5, at.y * (height - 1) + 0.5};
     }
     case Projection::octahedral: {
         const Vec2d at = octahedral_point(d);
         return {(at.x + 1) / 2 * width, (at.y + 1) / 2 * height};
     }
-    case Projection::ball:
-    case Projection::probe: {
-        const Vec2d at = disc_point(projection, d);
-        return {(1 + at.x) / 2 * width, (1 - at.y) / 2 * height};
-    }
+    case Projection::ball: return of_disc(ball_point(d));
+    case Projection::probe: return of_disc(probe_point(d));
     }
     return {0, 0};
+}
+
+PictureTexel texel_across(Projection projection, int width, int height, int x, int y) noexcept {
+    if (projection == Projection::latlong) return across_latlong(width, width, height, false, x, y);
+    // The last column repeats the first.
+    if (projection == Projection::latlong_edges)
+        return across_latlong(width, std::max(1, width - 1), height, true, x, y);
+    if (projection == Projection::octahedral) { // Each side is folded onto itself, reversed.
+        if (x < 0 || x >= width) y = height - 1 - y;
+        if (y < 0 || y >= height) x = width - 1 - x;
+    }
+    return {std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)};
 }
 
 void arc_tangents(double* y, const double* x, int count) noexcept {

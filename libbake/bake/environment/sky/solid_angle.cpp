@@ -11,10 +11,6 @@ double from_centre(double x, double y) noexcept { return std::atan2(x * y, std::
 
 } // namespace
 
-double rectangle_solid_angle(double x0, double y0, double x1, double y1) noexcept {
-    return from_centre(x1, y1) - from_centre(x0, y1) - from_centre(x1, y0) + from_centre(x0, y0);
-}
-
 std::vector<double> cell_solid_angles(const std::vector<double>& lines) {
     const auto k = std::int64_t(lines.size());
     std::vector<double> corners(std::size_t(k * k)), cells(std::size_t((k - 1) * (k - 1)));

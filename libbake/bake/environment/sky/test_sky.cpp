@@ -34,13 +34,13 @@ bool covers(std::string_view text, double x, double y) noexcept {
     return false;
 }
 
-/// The same text with its middle at (cx, cy) and `cell` of the face per cell.
+/// The same for text centred at (cx, cy), with cells of size `cell` in units of the face.
 bool covers_at(std::string_view text, double s, double t, double cx, double cy, double cell) noexcept {
     const double width = 6.0 * double(text.size()) - 1;
     return covers(text, (s - cx) / cell + width / 2, (t - cy) / cell + 3.5);
 }
 
-/// An arrow from (0, 0) to (1, 0): along and across are in its own length.
+/// An arrow from (0, 0) to (1, 0), for a point (along, across) in units of the arrow's length.
 bool covers_arrow(double along, double across) noexcept {
     const double off = across < 0 ? -across : across;
     if (along < 0 || along > 1) return false;
@@ -57,7 +57,7 @@ const char* axis_of(const Vec3f& d) noexcept {
 
 Cube label_sky(int n) {
     constexpr float white[3] = {1, 1, 1};
-    // Along an axis and against it: a colour and its complement.
+    // The two faces of an axis have complementary colours.
     constexpr float colours[6][3] = {{0.45f, 0.06f, 0.06f}, {0.06f, 0.35f, 0.35f}, {0.08f, 0.4f, 0.08f},
                                      {0.35f, 0.06f, 0.35f}, {0.08f, 0.1f, 0.5f},   {0.4f, 0.38f, 0.05f}};
     Cube cube = make_cube(n, 3);

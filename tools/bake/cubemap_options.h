@@ -1,0 +1,39 @@
+// Options of bake cubemap.
+#pragma once
+#include "bake/environment/file/environment_io.h"
+#include "bake/environment/file/write_environment.h"
+#include "bake/environment/filter/irradiance.h"
+#include "bake/environment/filter/prefilter.h"
+#include "verb.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+enum class Specular { none, ggx, phong };
+
+struct CubemapArgs {
+    std::vector<std::string> inputs;
+    std::string capture, at; ///< a scene and the point to look from
+    ReadEnvironmentOptions reading;
+    ResampleOptions resampling;
+    double yaw = 0, pitch = 0, roll = 0;
+    bool mips = false, linear = false;
+    std::string irradiance, roughness;
+    Specular specular = Specular::none;
+    EnvironmentTarget target;
+
+    // Set by check_cubemap_options.
+    Vec3f position{0};
+    std::optional<IrradianceOptions> wanted_irradiance;
+    std::optional<PrefilterOptions> wanted_specular;
+};
+
+void add_cubemap_options(CLI::App& sub, CubemapArgs& args);
+/// Reads the values that are lists and completes the options that depend on each other. Throws Error{Refusal::usage}.
+void check_cubemap_options(CubemapArgs& args);
+/// The message with the library's fields, which it has in backquotes, as options: `size` gives --size.
+std::string name_options(const std::string& message);
+
+} // namespace bake
