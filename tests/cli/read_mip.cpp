@@ -6,7 +6,9 @@
 #include <vector>
 
 int main(int argc, char** argv) {
-    const auto in = argc == 3 ? OIIO::ImageInput::open(argv[1]) : nullptr;
+    OIIO::ImageSpec as_stored;
+    as_stored.attribute("oiio:UnassociatedAlpha", 1); // colours are not multiplied by alpha
+    const auto in = argc == 3 ? OIIO::ImageInput::open(argv[1], &as_stored) : nullptr;
     if (!in) return 1;
     const int level = std::atoi(argv[2]);
     if (!in->seek_subimage(0, level)) return 0;

@@ -5,14 +5,9 @@
 
 namespace bake {
 
-/// Why the file is not to be read, "" when nothing speaks against it: OpenEXR whose attributes are missing, run past the
-/// end or name unprintable channels, or that has more chunks than bytes; DDS and TIFF with fewer bytes than their headers
-/// ask for; formats whose decoders are not safe (DPX, Cineon, IFF, Softimage, zfile). Other formats are told apart from cut ones
-/// by their decoders. `stored` is the file's size in bytes.
+/// Why the file is not to be read, "" when nothing speaks against it: DDS and TIFF with fewer bytes than their headers ask
+/// for, and formats whose decoders are not safe (DPX, Cineon, IFF, Softimage, zfile). Other formats are told apart from
+/// cut ones by their decoders. `stored` is the file's size in bytes.
 std::string image_fault(const std::string& path, std::int64_t stored);
-
-/// Whether a PNG, EXR or TIFF just written by us reaches its end: a full disk goes unnoticed by some encoders, above all
-/// in their last bytes. Pixels are not looked at.
-bool reaches_its_end(const std::string& path);
 
 } // namespace bake

@@ -3,10 +3,12 @@
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/exr.h"
 #include "bake/picture/picture_formats.h"
 #include "bake/picture/picture_name.h"
-#include "bake/picture/plain_png.h"
 #include "bake/picture/plain_tiff.h"
+#include "bake/picture/png.h"
+#include "bake/picture/png_writer.h"
 #include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
@@ -72,29 +74,42 @@ const char* name(SampleType type) noexcept {
     return "other";
 }
 
-ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
-    if (const auto tiff = find_plain_tiff(path, limits)) return tiff->info;
+namespace {
+
+/// Reads the header, and the texels into `image` when that is given.
+ImageInfo read_picture(const std::string& path, const ReadLimits& limits, Image<float>* image) {
     ImageInfo info;
-    throw_failure(picture_formats().read_info(format_host(), path, limits, info));
+    const PictureFile file(path);
+    if (is_png(file)) {
+        read_png(file, limits, info, image);
+        return info;
+    }
+    if (is_exr(file) && read_exr(file, limits, info, image)) return info;
+    if (const auto tiff = find_plain_tiff(path, limits)) {
+        if (image) *image = read_plain_tiff(path, *tiff);
+        return tiff->info;
+    }
+    if (image && is_cut_short_tiff(path)) throw unreadable(path, "is cut short");
+    // All decoders that are not ours to choose are behind this call.
+    const PictureFormats& formats = picture_formats();
+    throw_failure(image ? formats.read(format_host(), path, limits, info, *image)
+                        : formats.read_info(format_host(), path, limits, info));
     return info;
 }
 
-Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
-    ImageInfo info;
+} // namespace
+
+ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
+    return read_picture(path, limits, nullptr);
+}
+
+Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) try {
     Image<float> image;
-    if (const auto tiff = find_plain_tiff(path, limits)) {
-        info = tiff->info;
-        image = read_plain_tiff(path, *tiff);
-    } else if (auto png = read_plain_png(path, limits)) {
-        info = std::move(png->info);
-        image = std::move(png->image);
-    } else {
-        if (is_cut_short_tiff(path))
-            throw Error(Refusal::unreadable, path + ": is cut short; the file is damaged; export it again");
-        throw_failure(picture_formats().read(format_host(), path, limits, info, image));
-    }
+    ImageInfo info = read_picture(path, limits, &image);
     if (info_out) *info_out = std::move(info);
     return image;
+} catch (const std::bad_alloc&) {
+    throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
 }
 
 void srgb_to_linear(Image<float>& image, int alpha_channel) {
@@ -167,13 +182,17 @@ struct ImageWriter::Impl {
     OutputFile file;
     Depth depth;
     int width, channels;
+    std::optional<PngWriter> png = {};
+    std::optional<ExrWriter> exr = {};
     std::optional<PlainTiffWriter> plain = {};
-    std::shared_ptr<FormatWriter> format = {}; ///< of files that are not plain
+    std::shared_ptr<FormatWriter> format = {}; ///< of all others
     std::vector<unsigned char> levels = {};    ///< one band of integer samples
     bool closed = false;
 
     void write_rows(const void* values, int rows) {
-        if (plain) plain->write(values, rows);
+        if (png) png->write(values, rows);
+        else if (exr) exr->write(static_cast<const float*>(values), rows);
+        else if (plain) plain->write(values, rows);
         else throw_failure(picture_formats().write(*format, values, rows));
     }
 
@@ -194,10 +213,12 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     if (resolved.channels.empty()) resolved.channels = default_channels(channels);
     impl_.reset(new Impl{path, OutputFile(path), resolved.depth, width, channels});
     const PictureSize size{width, height, channels};
-    if (fits_plain_tiff(path, size, resolved)) impl_->plain.emplace(path, impl_->file.temporary(), size, resolved);
-    else
-        throw_failure(
-            picture_formats().open(format_host(), path, impl_->file.temporary(), size, resolved, impl_->format));
+    const std::string& temporary = impl_->file.temporary();
+    const PictureFormat format = picture_format(path);
+    if (format == PictureFormat::png) impl_->png.emplace(path, temporary, size, resolved);
+    else if (format == PictureFormat::exr) impl_->exr.emplace(path, temporary, size, resolved);
+    else if (fits_plain_tiff(path, size, resolved)) impl_->plain.emplace(path, temporary, size, resolved);
+    else throw_failure(picture_formats().open(format_host(), path, temporary, size, resolved, impl_->format));
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -218,12 +239,15 @@ void ImageWriter::write(const float* values, int rows) {
 
 void ImageWriter::next_level() {
     impl_->width = std::max(1, impl_->width / 2);
-    throw_failure(picture_formats().next_level(*impl_->format));
+    if (impl_->exr) impl_->exr->next_level();
+    else throw_failure(picture_formats().next_level(*impl_->format));
 }
 
 void ImageWriter::close() {
     if (impl_->closed) return;
-    if (impl_->plain) impl_->plain->finish();
+    if (impl_->png) impl_->png->finish();
+    else if (impl_->exr) impl_->exr->finish();
+    else if (impl_->plain) impl_->plain->finish();
     else throw_failure(picture_formats().finish(*impl_->format));
     impl_->closed = true;
 }

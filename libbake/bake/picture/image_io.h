@@ -1,4 +1,4 @@
-// Images in and out: plain TIFF by ourselves, all other files by OpenImageIO.
+// Pictures in and out: PNG by libpng, OpenEXR by its own library, plain TIFF by libtiff, all others by OpenImageIO.
 #pragma once
 #include "bake/picture/image.h"
 #include "bake/picture/image_types.h"

@@ -1,16 +1,12 @@
 #include "bake/picture/picture_formats.h"
 #include "bake/base/error.h"
 #include "bake/picture/image_guard.h"
-#include "bake/picture/png_header.h"
+#include "bake/picture/picture_file.h"
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
-#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -27,23 +23,6 @@ void configure_oiio(int threads) {
     OIIO::attribute("exr_threads", threads > 1 ? threads : 0);
 }
 
-// OIIO's messages may span lines and repeat the file's name; ours are one line.
-std::string one_line(std::string text, const std::string& path) {
-    const std::string ours = "the file";
-    for (const std::string& name : {'"' + path + '"', path})
-        for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += ours.size())
-            text.replace(at, name.size(), ours);
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
-    while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    return text.empty() ? "unknown error" : text;
-}
-
-Error unreadable(const std::string& path, const std::string& why,
-                 const char* mend = "the file is damaged; export it again") {
-    return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
-}
-
 // Most samples one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
 // anything is allocated.
 double largest_ratio(const OIIO::ImageSpec& spec, const std::string& format) {
@@ -52,9 +31,6 @@ double largest_ratio(const OIIO::ImageSpec& spec, const std::string& format) {
     if (format == "openexr" && std::string(spec.get_string_attribute("compression")).starts_with("dwa")) return 32768;
     return 4096; // deflate reaches 1032, flat JPEG blocks less
 }
-
-// A display window with nothing but black around its data costs no bytes in the file. More than this must be earned.
-constexpr double free_window_bytes = 256 << 20, window_ratio = 20000;
 
 SampleType sample_type(OIIO::TypeDesc type) {
     switch (type.basetype) {
@@ -67,12 +43,6 @@ SampleType sample_type(OIIO::TypeDesc type) {
     }
 }
 
-// The part of the file that is the picture: the display window, except in OpenEXR's cube strips, whose six faces fill a
-// data window taller than it.
-struct Window {
-    int x, y, width, height;
-};
-
 constexpr const char *cube_format = "CubeFace Environment", *latlong_format = "LatLong Environment";
 
 EnvironmentTag environment_tag(const OIIO::ImageSpec& spec) {
@@ -82,13 +52,14 @@ EnvironmentTag environment_tag(const OIIO::ImageSpec& spec) {
     return spec.height == 6 * std::int64_t(spec.width) ? EnvironmentTag::cube : EnvironmentTag::latlong;
 }
 
+// The display window, except in cube strips of OpenEXR, whose six faces fill a data window taller than it.
 Window picture_window(const OIIO::ImageSpec& spec) {
     const bool cube = environment_tag(spec) == EnvironmentTag::cube;
     if (cube || spec.full_width <= 0 || spec.full_height <= 0) return {spec.x, spec.y, spec.width, spec.height};
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
 
-ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
+ImageInfo describe(OIIO::ImageInput& in) {
     const OIIO::ImageSpec& spec = in.spec();
     const Window window = picture_window(spec);
     ImageInfo info;
@@ -103,63 +74,18 @@ ImageInfo describe(OIIO::ImageInput& in, const std::string& path) {
     info.alpha_channel = spec.alpha_channel;
     info.environment = environment_tag(spec);
     info.description = spec.get_string_attribute("ImageDescription");
-    // OIIO calls every PNG sRGB and widens 1, 2 and 4 bits to 8 in silence.
-    if (info.format == "png")
-        if (const auto header = read_png_header(path)) info.bits = header->bits, info.srgb_tagged = header->srgb;
     return info;
-}
-
-// libpng writes lines of its own to stderr, about whole files too; what matters of them comes back through OIIO.
-class MutedStderr {
-public:
-    explicit MutedStderr(bool mute) : saved_(mute ? dup(2) : -1) {
-        const int nowhere = saved_ >= 0 ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
-        if (nowhere < 0) return;
-        dup2(nowhere, 2);
-        close(nowhere);
-    }
-    ~MutedStderr() {
-        if (saved_ < 0) return;
-        dup2(saved_, 2);
-        close(saved_);
-    }
-    MutedStderr(const MutedStderr&) = delete;
-    MutedStderr& operator=(const MutedStderr&) = delete;
-
-private:
-    int saved_;
-};
-
-// First bytes of the file, fewer when it is short.
-std::string file_head(const std::string& path) {
-    std::string head(128, '\0');
-    std::ifstream file(path, std::ios::binary);
-    file.read(head.data(), std::streamsize(head.size()));
-    head.resize(std::size_t(file.gcount()));
-    return head;
-}
-
-bool looks_like_png(const std::string& path) {
-    return file_head(path).starts_with("\x89PNG") || std::filesystem::path(path).extension() == ".png";
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const std::string& path, const ReadLimits& limits,
                                              ImageInfo& info) {
-    namespace fs = std::filesystem;
     configure_oiio(host.threads);
-    std::error_code failed;
-    const fs::file_status status = fs::status(path, failed);
-    if (!fs::exists(status)) throw unreadable(path, "no such file", "check the name");
-    if (fs::is_directory(status)) throw unreadable(path, "is a folder", "name an image file in it");
-    const auto stored = std::int64_t(fs::file_size(path, failed));
-    if (failed || !fs::is_regular_file(status)) throw unreadable(path, "is not a regular file", "name an image file");
-    if (stored == 0) throw unreadable(path, "is empty");
+    const auto stored = std::int64_t(std::filesystem::file_size(path));
     if (const std::string fault = image_fault(path, stored); !fault.empty())
         throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
-    const MutedStderr muted(looks_like_png(path));
     std::unique_ptr<OIIO::ImageInput> in;
     try {
         in = OIIO::ImageInput::open(path, &config);
@@ -168,26 +94,17 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const std::
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
-    info = describe(*in, path);
+    info = describe(*in);
     const OIIO::ImageSpec& spec = in->spec();
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
     if (spec.deep) throw unsuitable("is a deep image; flatten it");
-    if (info.width <= 0 || info.height <= 0 || spec.width <= 0 || spec.height <= 0 || info.channels.empty())
-        throw unreadable(path, "has no pixels");
-    // In double: a hostile header overflows 64 bits.
-    const double decoded = double(spec.width) * spec.height * spec.nchannels,
-                 picture = 4.0 * info.width * info.height * spec.nchannels;
-    const double stored_bytes = double(stored);
-    const std::string size =
-        std::to_string(std::max(info.width, spec.width)) + " x " + std::to_string(std::max(info.height, spec.height));
-    if (decoded > largest_ratio(spec, info.format) * stored_bytes + 65536 ||
-        (picture > free_window_bytes && picture > window_ratio * stored_bytes))
-        throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
-    if (std::max(4 * decoded, picture) > double(limits.max_bytes) ||
-        std::max({info.width, info.height, spec.width, spec.height}) > (1 << 20))
-        throw unsuitable(size + " pixels need more memory than the limit of " + std::to_string(limits.max_bytes >> 20) +
-                         " MiB; scale it down");
+    check_size(path, stored,
+               {{spec.x, spec.y, spec.width, spec.height},
+                picture_window(spec),
+                info.channels.empty() ? 0 : spec.nchannels,
+                largest_ratio(spec, info.format)},
+               limits);
     return in;
 }
 
@@ -213,22 +130,6 @@ void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string
     if (!whole || says_cut_short(message)) throw unreadable(path, message);
 }
 
-// Moves the data window to its place in the picture's window; what it does not cover is 0.
-Image<float> place(const Image<float>& data, const OIIO::ImageSpec& spec, const Window& window) {
-    Image<float> image(window.width, window.height, spec.nchannels);
-    std::fill_n(image.data(), image.size(), 0.0f);
-    const int left = std::max(spec.x, window.x), right = std::min(spec.x + spec.width, window.x + window.width);
-    const int top = std::max(spec.y, window.y), bottom = std::min(spec.y + spec.height, window.y + window.height);
-    for (int y = top; y < bottom && left < right; ++y)
-        std::copy_n(&data.at(left - spec.x, y - spec.y), std::size_t(right - left) * spec.nchannels,
-                    &image.at(left - window.x, y - window.y));
-    return image;
-}
-
-} // namespace
-
-namespace {
-
 void read_info(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info) {
     open_image(host, path, limits, info);
 }
@@ -240,10 +141,8 @@ void read_pixels(const FormatHost& host, const std::string& path, const ReadLimi
     const Window window = picture_window(spec);
     try {
         image = Image<float>(spec.width, spec.height, spec.nchannels);
-        const MutedStderr muted(info.format == "png");
         read_window(host, *in, path, image);
-        if (window.x != spec.x || window.y != spec.y || window.width != spec.width || window.height != spec.height)
-            image = place(image, spec, window);
+        image = place(std::move(image), {spec.x, spec.y, spec.width, spec.height}, window);
     } catch (const std::bad_alloc&) {
         throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
     } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
@@ -271,12 +170,6 @@ struct FormatWriter {
     OIIO::TypeDesc type; ///< of the rows handed over
     std::unique_ptr<OIIO::ImageOutput> out;
     int next_row = 0;
-
-    // libpng complains on stderr about a file that is given up; its reason is told elsewhere.
-    ~FormatWriter() {
-        const MutedStderr muted(out && out->format_name() == std::string("png"));
-        out.reset();
-    }
 
     [[noreturn]] void fail(const std::string& why) {
         throw Error(Refusal::unwritable,
@@ -369,7 +262,8 @@ void next_level(FormatWriter& writer) {
 void finish(FormatWriter& writer) {
     if (!writer.out->close()) writer.fail(writer.out->geterror());
     writer.out.reset(); // close() leaves EXR files with mips open
-    if (!reaches_its_end(writer.temporary)) writer.fail("is cut short");
+    const auto stored = std::int64_t(std::filesystem::file_size(writer.temporary));
+    if (!image_fault(writer.temporary, stored).empty()) writer.fail("is cut short");
 }
 
 /// The same function with its exceptions as values.

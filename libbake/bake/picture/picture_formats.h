@@ -1,4 +1,4 @@
-// OpenImageIO's part of this module: the formats that no library of our own choice reads.
+// OpenImageIO's part of the room: what is neither PNG, plain OpenEXR nor plain TIFF.
 //
 // It is a library of its own, bake_formats.so, loaded on first need: the 260 libraries that Debian's OpenImageIO brings
 // take 0.2 s to load, longer than most of what bake does without them. The library needs no symbol of the program that

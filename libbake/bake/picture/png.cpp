@@ -1,0 +1,177 @@
+#include "bake/picture/png.h"
+#include "bake/base/progress.h"
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+#include <png.h>
+#include <vector>
+
+namespace bake {
+namespace {
+
+/// The bytes of the file in their order, through a buffer.
+struct Source {
+    const PictureFile& file;
+    std::vector<char> buffer = std::vector<char>(1 << 16);
+    std::int64_t offset = 0; ///< of the byte after the buffer's last
+    std::size_t at = 0, end = 0;
+    bool exhausted = false;
+
+    bool take(png_bytep to, std::size_t size) {
+        for (std::size_t part; size > 0; size -= part, to += part, at += part) {
+            if (at == end) {
+                end = std::size_t(file.read(offset, buffer.data(), std::int64_t(buffer.size())));
+                at = 0, offset += std::int64_t(end);
+                exhausted = end == 0;
+                if (exhausted) return false;
+            }
+            part = std::min(size, end - at);
+            std::memcpy(to, buffer.data() + at, part);
+        }
+        return true;
+    }
+};
+
+void take(png_structp png, png_bytep to, std::size_t size) {
+    if (!static_cast<Source*>(png_get_io_ptr(png))->take(to, size)) png_error(png, "is cut short");
+}
+
+void keep_error(png_structp png, png_const_charp message) {
+    // A plain array: the jump may not pass over a destructor.
+    auto* const said = static_cast<char*>(png_get_error_ptr(png));
+    std::strncpy(said, message, 199);
+    png_longjmp(png, 1);
+}
+
+/// Warnings are about what is not needed here.
+void ignore_warning(png_structp, png_const_charp) {}
+
+/// libpng's two objects, and what it reads from. A jump out of libpng passes over no object with a destructor: each
+/// function that libpng may leave by a jump has none.
+class Decoder {
+public:
+    explicit Decoder(const PictureFile& file)
+        : source_{file}, png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, said_, keep_error, ignore_warning)) {
+        if (png_) info_ = png_create_info_struct(png_);
+        if (info_) png_set_read_fn(png_, &source_, take);
+    }
+    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    /// Up to the first pixels, which are to come out as whole samples of 8 or 16 bits.
+    bool read_header() noexcept {
+        if (!info_ || setjmp(png_jmpbuf(png_))) return false;
+        png_read_info(png_, info_);
+        const bool palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
+        bits_ = palette ? 8 : png_get_bit_depth(png_, info_);
+        stored_bits_ = png_get_bit_depth(png_, info_) * png_get_channels(png_, info_);
+        png_set_expand(png_);
+        passes_ = png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+    bool read_row(png_bytep row) noexcept {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_read_row(png_, row, nullptr);
+        return true;
+    }
+    bool read_interlaced(png_bytepp rows) noexcept {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_read_image(png_, rows);
+        return true;
+    }
+    /// What follows the pixels may be missing, but not damaged.
+    bool read_end() noexcept {
+        if (setjmp(png_jmpbuf(png_))) return source_.exhausted;
+        png_read_end(png_, nullptr);
+        return true;
+    }
+
+    ImageInfo describe() const {
+        static constexpr const char* names[] = {"", "Y", "YA", "RGB", "RGBA"};
+        ImageInfo info;
+        for (const char* name = names[png_get_channels(png_, info_)]; *name; ++name)
+            info.channels.emplace_back(1, *name);
+        info.format = "png";
+        info.width = int(png_get_image_width(png_, info_)), info.height = int(png_get_image_height(png_, info_));
+        info.type = bits_ == 16 ? SampleType::u16 : SampleType::u8;
+        info.bits = bits_;
+        // A profile says it by its name: libpng would go by its contents, and call a picture with both tags faulty.
+        const char* const profile = profile_name();
+        info.srgb_tagged =
+            *profile ? std::strstr(profile, "sRGB") != nullptr : png_get_valid(png_, info_, PNG_INFO_sRGB);
+        png_textp texts = nullptr;
+        for (int i = png_get_text(png_, info_, &texts, nullptr); i-- > 0;)
+            if (!std::strcmp(texts[i].key, "Description")) info.description = texts[i].text;
+        if (info.channels.back() == "A") info.alpha_channel = int(info.channels.size()) - 1;
+        return info;
+    }
+    /// Where the file says that its pixels lie.
+    Window data_window() const {
+        return {png_get_x_offset_pixels(png_, info_), png_get_y_offset_pixels(png_, info_),
+                int(png_get_image_width(png_, info_)), int(png_get_image_height(png_, info_))};
+    }
+    bool interlaced() const noexcept { return passes_ > 1; }
+    int stored_bits() const noexcept { return stored_bits_; }
+    const char* said() const noexcept { return *said_ ? said_ : "cannot be decoded"; }
+
+private:
+    const char* profile_name() const noexcept {
+        png_charp name = nullptr;
+        png_bytep profile = nullptr;
+        int compression = 0;
+        png_uint_32 size = 0;
+        return png_get_iCCP(png_, info_, &name, &compression, &profile, &size) ? name : "";
+    }
+
+    Source source_;
+    char said_[200] = {};
+    png_structp png_;
+    png_infop info_ = nullptr;
+    int bits_ = 0, stored_bits_ = 0, passes_ = 1;
+};
+
+void to_floats(const png_byte* row, float* values, std::size_t count, bool wide) noexcept {
+    if (wide)
+        for (std::size_t i = 0; i < count; ++i) values[i] = float(row[2 * i] << 8 | row[2 * i + 1]) * (1.0f / 65535);
+    else
+        for (std::size_t i = 0; i < count; ++i) values[i] = float(row[i]) * (1.0f / 255);
+}
+
+Image<float> read_pixels(Decoder& decoder, const PictureFile& file, const ImageInfo& info) {
+    const bool wide = info.type == SampleType::u16;
+    Image<float> image(info.width, info.height, int(info.channels.size()));
+    const std::size_t samples = std::size_t(info.width) * info.channels.size(), row_bytes = samples * (wide ? 2 : 1);
+    // Interlaced rows are complete only after the last pass.
+    const bool whole = decoder.interlaced();
+    std::vector<png_byte> bytes(row_bytes * std::size_t(whole ? info.height : 1));
+    std::vector<png_bytep> rows(std::size_t(info.height), bytes.data());
+    for (std::size_t y = 0; whole && y < rows.size(); ++y) rows[y] += row_bytes * y;
+    if (whole && !decoder.read_interlaced(rows.data())) throw unreadable(file.path(), decoder.said());
+    for (int y = 0; y < info.height; ++y) {
+        if (y % 256 == 0) throw_if_interrupted();
+        if (!whole && !decoder.read_row(bytes.data())) throw unreadable(file.path(), decoder.said());
+        to_floats(rows[std::size_t(y)], image.row(y), samples, wide);
+    }
+    if (!decoder.read_end()) throw unreadable(file.path(), decoder.said());
+    return image;
+}
+
+} // namespace
+
+bool is_png(const PictureFile& file) noexcept { return file.head().starts_with("\x89PNG"); }
+
+void read_png(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
+    Decoder decoder(file);
+    if (!decoder.read_header()) throw unreadable(file.path(), decoder.said());
+    info = decoder.describe();
+    const Window data = decoder.data_window(), picture{0, 0, info.width, info.height};
+    // Deflate makes at most 1032 bytes of one.
+    const int channels = int(info.channels.size());
+    check_size(file.path(), file.size(),
+               {data, picture, channels, 1032.0 * 8 * channels / std::max(1, decoder.stored_bits())}, limits);
+    if (image) *image = place(read_pixels(decoder, file, info), data, picture);
+}
+
+} // namespace bake

@@ -1,0 +1,49 @@
+// PNG, written by blocks of rows that all threads filter and compress at once.
+#pragma once
+#include "bake/picture/image_types.h"
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace bake {
+
+struct PictureSize;
+
+/// Writes rows from the top down. The same rows give the same bytes, for any number of threads and of calls.
+class PngWriter {
+public:
+    /// Writes to `temporary`, which exists; messages name `path`. The depth is u8 or u16. Throws
+    /// Error{Refusal::unwritable}, as all functions here, and Error{Refusal::usage} for mips or more than 4 channels.
+    PngWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+              const WriteOptions& options);
+    ~PngWriter();
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    /// `rows` rows of integer levels.
+    void write(const void* levels, int rows);
+    void finish();
+
+private:
+    struct Block;
+    void compress_rows();
+    Block compress(std::size_t begin, std::size_t end) const;
+    void put(const void* bytes, std::size_t size);
+    void put_chunk(const char* type, const std::vector<unsigned char>& data);
+    [[noreturn]] void fail() const;
+
+    std::string path_;
+    std::FILE* file_;
+    int sample_bytes_, texel_bytes_;
+    std::size_t row_bytes_, block_rows_, most_rows_; ///< most_rows_: that wait at a time
+    /// Rows that wait to be compressed, samples high byte first. The last row of those before comes first.
+    std::vector<unsigned char> rows_;
+    std::size_t waiting_ = 0;
+    /// Filtered rows, each after the number of its filter. Up to 32 KiB of those before come first: `history_` bytes.
+    std::vector<unsigned char> filtered_;
+    std::size_t history_ = 0;
+    unsigned long checksum_ = 1; ///< Adler-32 of all filtered rows
+    bool begun_ = false;         ///< the stream has its two bytes of header
+};
+
+} // namespace bake
