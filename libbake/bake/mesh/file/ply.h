@@ -1,13 +1,13 @@
-// PLY in and out: the rooms behind read_mesh and write_mesh.
+// Reads and writes PLY, for read_mesh() and write_mesh().
 #pragma once
 #include "bake/mesh/mesh.h"
 
 namespace bake {
 
-/// As read_mesh says of PLY.
+/// See read_mesh().
 Mesh read_ply(const std::string& path);
 
-/// As write_mesh says of PLY.
+/// See write_mesh().
 void write_ply(const std::string& path, const Mesh& mesh);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// A glTF file as it lies on disk: its JSON, its buffers and its pictures, before anything in them is trusted.
+// A glTF file before validation: its JSON, buffers and images.
 #pragma once
 #include "bake/base/file_bytes.h"
 #include "bake/mesh/gltf/io.h"
@@ -7,19 +7,19 @@
 namespace bake {
 
 struct GltfDocument {
-    std::string json;                                   ///< all but the buffers and the images
-    std::vector<std::span<const std::uint8_t>> buffers; ///< of the length that the JSON names
-    std::vector<GltfImage> images;                      ///< bytes as yet empty where image_view is not -1
-    std::vector<std::int64_t> image_view;               ///< per image: the bufferView that holds it, or -1
+    std::string json;                                   ///< without the buffers and the images
+    std::vector<std::span<const std::uint8_t>> buffers; ///< with the lengths given in the JSON
+    std::vector<GltfImage> images;                      ///< bytes are empty where image_view is not -1
+    std::vector<std::int64_t> image_view;               ///< per image: its bufferView, or -1
 
-    FileBytes file; ///< what the spans point into
+    FileBytes file; ///< memory of the spans
     std::vector<FileBytes> beside;
     std::vector<std::vector<std::uint8_t>> decoded;
 };
 
-/// Reads a .gltf or .glb (told apart by its first bytes) and the files that it names. A picture that is not there keeps
-/// its uri and has no bytes. Throws Error{Refusal::unreadable}: no glTF 2.0, cut short, a buffer that is not there,
-/// shorter than it says or not base64, JSON nested deeper than any writer nests it, a uri that leads elsewhere.
+/// Reads a .gltf or .glb (distinguished by its first bytes) and the files that it names. A missing image keeps its uri and
+/// has no bytes. Throws Error{Refusal::unreadable} for a file that is not glTF 2.0 or is truncated, a buffer that is missing,
+/// too short or not valid base64, JSON that is nested too deeply, and a uri outside of the folder.
 GltfDocument read_gltf_document(const std::string& path);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// glTF 2.0 in and out, through tinygltf. v runs down in its files: it is flipped here and nowhere else.
+// Reads and writes glTF 2.0 with tinygltf. v points down in glTF files and is flipped in this module only.
 #pragma once
 #include "bake/mesh/mesh.h"
 #include <optional>
@@ -7,19 +7,19 @@
 
 namespace bake {
 
-/// A picture as the file has it: not decoded.
+/// An image of the file, encoded.
 struct GltfImage {
     std::string name, mime_type;
-    std::string uri;                 ///< name of a file beside the .gltf; empty: embedded
-    std::vector<std::uint8_t> bytes; ///< encoded; none where that file is not there
+    std::string uri;                 ///< name of a file in the folder of the .gltf; empty if embedded
+    std::vector<std::uint8_t> bytes; ///< encoded; empty if the file is missing
 
     bool operator==(const GltfImage&) const = default;
 };
 
-/// Numbers of OpenGL, as in the file.
+/// OpenGL constants, as in the file.
 struct GltfSampler {
     int wrap_u = 10497, wrap_v = 10497; ///< 10497 repeat, 33071 clamp, 33648 mirror
-    int min_filter = 0, mag_filter = 0; ///< 0: the viewer's choice
+    int min_filter = 0, mag_filter = 0; ///< 0: chosen by the viewer
 
     bool operator==(const GltfSampler&) const = default;
 };
@@ -27,7 +27,7 @@ struct GltfSampler {
 struct GltfTexture {
     std::uint32_t image = no_index;
     std::uint32_t uv_set = 0;
-    double scale = 1; ///< normalTexture's; the strength of an occlusionTexture
+    double scale = 1; ///< scale of a normalTexture, strength of an occlusionTexture
     GltfSampler sampler;
 
     bool operator==(const GltfTexture&) const = default;
@@ -40,13 +40,13 @@ struct GltfMaterial {
     Vec3f emissive_factor{0};
     float metallic = 1, roughness = 1;
     std::string alpha_mode = "OPAQUE"; ///< or MASK, BLEND
-    float alpha_cutoff = 0.5f;         ///< of MASK
+    float alpha_cutoff = 0.5f;         ///< for MASK
     bool double_sided = false;
 
     bool operator==(const GltfMaterial&) const = default;
 };
 
-/// Faces [first_face, end_face) of the mesh, placed by `to_world` (column by column). No face is of two nodes.
+/// Faces [first_face, end_face) of the mesh with the transform `to_world` (column-major). A face belongs to one node.
 struct GltfNode {
     std::string name;
     std::size_t first_face = 0, end_face = 0;
@@ -55,11 +55,11 @@ struct GltfNode {
     bool operator==(const GltfNode&) const = default;
 };
 
-/// A scene of meshes. The mesh is in the nodes' own space; its materials' names are those of `materials` in order, and
-/// "material_<its place>" where that has none or one that an earlier has.
-/// Second and further TEXCOORDs and COLORs are attributes of the mesh, named so, and _CUSTOM_VALUES are "custom_values";
-/// where some primitives lack one that others have, colours are white there and all others 0. Tangents are those of the
-/// file, (0, 0, 0, 1) for primitives without. Without nodes, all of the mesh stands where it is.
+/// A scene of meshes. The positions of the mesh are in the local space of their nodes. Material names of the mesh are those
+/// of `materials`, or "material_<index>" if a name is missing or not unique.
+/// TEXCOORD_1 and higher and COLOR_n are attributes of the mesh with these names; _CUSTOM_VALUES becomes "custom_values".
+/// Primitives without such an attribute have white colours, and 0 otherwise. Tangents are those of the file, or (0, 0, 0, 1)
+/// for primitives without tangents. Without nodes the mesh is in world space.
 struct Gltf {
     Mesh mesh;
     std::vector<GltfMaterial> materials;
@@ -68,39 +68,42 @@ struct Gltf {
 };
 
 struct GltfOptions {
-    bool flip_v = true; ///< false for files whose v runs up, against the format's rule
+    bool flip_v = true; ///< false for files whose v points up, against the rule of the format
 };
 
-/// Reads .gltf (buffers and images embedded or beside it) or .glb: the scene that it shows first, or every node where it
-/// has no scene, or every mesh where it has no node. Triangle lists, strips (without their triangles of two equal
-/// indices) and fans; sparse and quantised accessors; a mesh placed by several nodes comes once per node. Points, lines,
-/// skins, morphs, cameras, lights and animations are left out. Within a node, corners of equal position share it, and
-/// those of equal position and normal, or uv, share that: seams of the file are seams of uvs and normals alone.
-/// Throws Error{Refusal::unreadable}, naming the file and the fault, and Error{Refusal::unsuitable} for extensions it
-/// cannot do without (Draco), files without triangles and meshes larger than the memory there is.
+/// Reads .gltf (with buffers and images embedded or in files) or .glb: the default scene, or all nodes if there is no scene,
+/// or all meshes if there is no node. Reads triangle lists, strips (without triangles of two equal indices) and fans, and
+/// sparse and quantised accessors. A mesh of several nodes is repeated per node. Points, lines, skins, morph targets,
+/// cameras, lights and animations are skipped. Within a node equal positions are merged, and at one position equal normals
+/// and equal uvs, so that only uvs and normals have seams.
+/// Throws Error{Refusal::unreadable} with the file and the fault. Throws Error{Refusal::unsuitable} for required extensions
+/// that are not supported (Draco), files without triangles, and meshes that do not fit in memory.
 Gltf read_gltf(const std::string& path, const GltfOptions& options = {});
 
-/// All nodes in world space, as one mesh: what read_mesh gives for .gltf and .glb. Mirroring nodes turn their faces, so
-/// that counter-clockwise stays front, and flip the tangents' sign. Normals and tangents of nodes that turn or stretch
-/// become unit. The nodes' names become the groups where there are several nodes and no groups.
+/// All nodes in world space as one mesh, as returned by read_mesh() for .gltf and .glb. Mirroring nodes reverse their faces,
+/// so that front faces stay counter-clockwise, and flip the sign of tangents. Transformed normals and tangents are
+/// normalised. If there are several nodes and no groups, each node becomes a group with its name.
 Mesh flatten(Gltf gltf);
 
-/// What had to be changed so that the file keeps to the format.
+/// Changes that were necessary to conform to the format.
 struct GltfWritten {
     std::size_t mended_normals =
-        0; ///< vertices whose normal was not unit: scaled, or that of their face where none was
-    std::size_t mended_tangents = 0; ///< the same of tangents: scaled, or any perpendicular to the normal
-    std::size_t dropped_images = 0;  ///< without bytes, or neither PNG nor JPEG: left out with their textures
-    std::size_t moved_nodes = 0;     ///< whose matrix is no move, turn and stretch: written in world space
+        0; ///< vertices with a normal that was not unit: normalised, or replaced by that of the face
+    std::size_t mended_tangents = 0; ///< likewise: normalised, or replaced by any vector perpendicular to the normal
+    std::size_t dropped_images =
+        0; ///< images without bytes or in other formats than PNG and JPEG, omitted with their textures
+    std::size_t moved_nodes =
+        0; ///< nodes whose matrix is not a translation, rotation and scale, written in world space
 };
 
-/// Writes .glb, or .gltf with its buffer (.bin) and images beside it, atomically, the .gltf last; faces of more than
-/// three corners as triangulate() splits them, one primitive per pair of material and group (named in its extras).
-/// A corner without normal gets that of its face, one without uv (0, 0). Tangents are written where the mesh has them
-/// beside normals; with a normal texture and none, MikkTSpace needs the caller (add_tangents of surface/chart/tangent_space.h,
-/// which is below this room). Attributes named COLOR_n or TEXCOORD_n are written as such, others in capitals behind '_'.
-/// Passes the Khronos validator. Memory: what a vertex per distinct corner needs, 8 bytes for each corner and vertex.
-/// Throws Error{Refusal::unwritable}, also for a mesh without faces, values that are not finite, and a .glb over 4 GiB.
+/// Writes .glb, or .gltf with a buffer file (.bin) and image files, atomically, the .gltf last. Faces are triangulated by
+/// triangulate(). Each pair of material and group is one primitive, with the name of the group in its extras.
+/// A corner without normal has that of its face, a corner without uv (0, 0). Tangents are written if the mesh has tangents
+/// and normals. If a material has a normal texture and the mesh has no tangents, call add_tangents() first
+/// (surface/chart/tangent_space.h); this module may not depend on it. Attributes COLOR_n and TEXCOORD_n keep their names;
+/// other names are written in capitals after '_'. The files pass the Khronos validator.
+/// Memory: one vertex per distinct corner, and 8 bytes for each corner and vertex.
+/// Throws Error{Refusal::unwritable}, also for a mesh without faces, values that are not finite, and a .glb larger than 4 GiB.
 GltfWritten write_gltf(const std::string& path, const Gltf& gltf);
 GltfWritten write_gltf(const std::string& path, const Mesh& mesh);
 
