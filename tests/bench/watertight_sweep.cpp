@@ -28,13 +28,13 @@ bool sweep(const std::string& name, const char* kind, const BaseSurface& base) {
                                       : test::uniform(patches > 20000  ? 1
                                                       : patches > 2000 ? 2
                                                                        : 3);
-            test::Noisy noisy;
-            const double seconds = bench::seconds([&] { noisy = test::displaced_by_noise(base, rates, seam); });
-            const Mesh& mesh = noisy.displaced.mesh;
-            const test::Cracks cracks = test::cracks_of(mesh, noisy.plan);
+            std::optional<test::Noisy> noisy;
+            const double seconds = bench::seconds([&] { noisy.emplace(test::displaced_by_noise(base, rates, seam)); });
+            const Mesh& mesh = noisy->displaced.mesh;
+            const test::Cracks cracks = test::cracks_of(mesh, noisy->plan);
             std::printf("%-34s %6zu %-8s %-8s %-8s %8zu %7zu %7lld %5lld %7lld %8.2f\n", name.c_str(),
                         base.mesh().faces(), kind, mixed ? "mixed" : "uniform",
-                        seam == Seam::blend ? "blend" : "average", mesh.faces(), test::mixed_patches(noisy.plan),
+                        seam == Seam::blend ? "blend" : "average", mesh.faces(), test::mixed_patches(noisy->plan),
                         cracks.border_edges, cracks.t_junctions, cracks.parted, seconds);
             std::fflush(stdout);
             whole &= !cracks.any();
