@@ -44,8 +44,9 @@ struct EdgeTable {
     }
 };
 
-/// `ends` gives the two vertices of a side, the first of them no_index where there is no such side. Edges are numbered in
-/// the order of their lower vertex, then of their higher one. Linear time; any number of threads gives the same table.
+/// ends(side) returns the two vertices of a side, the first of them no_index where there is no such side. Edges are
+/// numbered in the order of their lower vertex, then of their higher one. Linear time; the table does not depend on the
+/// number of threads.
 using SideEnds = std::array<std::uint32_t, 2>;
 EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::function<SideEnds(std::uint32_t)>& ends);
 
@@ -79,7 +80,7 @@ std::vector<std::uint32_t> find_mates(const HalfEdges& half_edges, const EdgeTab
 /// the same fan if a chain of edges that end at the vertex connects them.
 DisjointSets find_fans(const HalfEdges& half_edges, const EdgeTable& edges);
 
-/// Sets of faces that are connected through edges; `face` gives the face of a side.
+/// Sets of faces that are connected through edges; face(side) returns the face of a side.
 template <class FaceOf> DisjointSets connected_faces(const EdgeTable& edges, std::size_t faces, const FaceOf& face) {
     DisjointSets sets(faces);
     for (std::uint32_t e = 0; e < edges.edges(); ++e)

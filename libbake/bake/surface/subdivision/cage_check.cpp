@@ -1,6 +1,7 @@
 // OpenSubdiv accepts non-manifold, flipped and duplicate faces without an error and builds some surface from them. Here
 // the cage is built with OpenMesh's half-edges, which represent oriented manifolds only. If OpenMesh refuses a face, the
-// edge table of mesh/topology, which represents any polygons, gives the first fault its name.
+// first fault is located with the edge table of mesh/topology, which represents any polygons. The time of add_face()
+// is proportional to the valence of the vertices.
 #include "bake/base/error.h"
 #include "bake/mesh/number_distinct.h"
 #include "bake/mesh/topology.h"
