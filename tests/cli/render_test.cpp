@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+const std::string dots =
+    std::string(std::getenv("BAKE_SOURCE") ? std::getenv("BAKE_SOURCE") : ".") + "/meshes/dots.png";
+
 struct Folder {
     fs::path path = fs::temp_directory_path() /
                     ("bake_render_test_" + std::to_string(getpid()) + "_" + std::to_string(std::rand()));
@@ -34,15 +37,17 @@ struct Run {
     std::string out, err;
 };
 
-Run bake_render(const Folder& folder, const std::string& arguments) {
+Run run_bake(const Folder& folder, const std::string& arguments) {
     const char* bake = std::getenv("BAKE");
     REQUIRE_MESSAGE(bake, "BAKE names the command to test");
     const std::string out = folder / "stdout", err = folder / "stderr";
     const std::string command =
-        "cd '" + folder.path.string() + "' && '" + bake + "' render " + arguments + " >'" + out + "' 2>'" + err + "'";
+        "cd '" + folder.path.string() + "' && '" + bake + "' " + arguments + " >'" + out + "' 2>'" + err + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
 }
+
+Run bake_render(const Folder& folder, const std::string& arguments) { return run_bake(folder, "render " + arguments); }
 
 /// A ball above a floor under two lights, with a mirror's share.
 void write_scene(const Folder& folder) {
@@ -178,6 +183,49 @@ TEST_SUITE("cli") {
         int files = 0;
         for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path)) ++files;
         CHECK(files == 9); // scene, ball, floor, three bad scenes, a.png, stdout, stderr
+    }
+
+    TEST_CASE("render: a bump table in PNG or TIFF of 16 bits gives the picture of the EXR table within its steps") {
+        const Folder folder;
+        write_mesh(folder / "floor.ply", test::plane_mesh());
+        const auto picture = [&](const std::string& table) {
+            write_text(folder / (table + ".toml"), R"(light = [{type = "directional", from = [1, 2, 3]}]
+                material = [{name = "relief", diffuse = 1, bump = ")" +
+                                                       table +
+                                                       R"("}]
+                mesh = [{file = "floor.ply", material = "relief"}]
+                camera = {position = [0, 0, 3], target = [0, 0, 0]}
+                render = {size = 64, spp = 1})");
+            const Run run = bake_render(folder, table + ".toml -o " + table + "_picture.exr --depth float");
+            REQUIRE_MESSAGE(run.code == 0, run.err);
+            return read_image(folder / (table + "_picture.exr"));
+        };
+        const std::string bake_table = "bump-table '" + dots + "' --json --amplitude ";
+        REQUIRE(run_bake(folder, bake_table + "0.03 -o t.exr --depth float").code == 0);
+        const Image<float> expected = picture("t.exr");
+        REQUIRE(run_bake(folder, bake_table + "0 -o flat.exr --depth float").code == 0);
+        const Image<float> flat = picture("flat.exr");
+        for (const std::string name : {"t.png", "t.tif"}) {
+            const Run table = run_bake(folder, bake_table + "0.03 -o " + name + " --depth 16");
+            REQUIRE_MESSAGE(table.code == 0, table.err);
+            const double step = nlohmann::json::parse(table.out)["bias"]["range"].get<double>() / 32767;
+            const Image<float> got = picture(name);
+            double largest = 0, relief = 0;
+            for (std::size_t i = 0; i < got.size(); ++i) {
+                largest = std::max(largest, std::abs(double(got.data()[i]) - expected.data()[i]));
+                relief = std::max(relief, std::abs(double(flat.data()[i]) - expected.data()[i]));
+            }
+            CHECK(relief > 0.1);
+            // A slope is off by at most half a step on each axis; the radiance of a light of 1 changes no faster than the
+            // normal. The floor's p_u and p_v are its edges, 2 long.
+            CHECK(largest <= std::sqrt(0.5) * step / 2 + 1e-6);
+            CHECK(largest > 0);
+        }
+        // Integer samples that state no range are refused.
+        fs::copy_file(dots, folder / "dots.png");
+        write_text(folder / "bad.toml", R"(material = [{name = "relief", bump = "dots.png"}]
+            mesh = [{file = "floor.ply", material = "relief"}])");
+        check_refused(folder, "bad.toml -o a.png", 4, "dots.png");
     }
 
     TEST_CASE("render: --help has examples") {

@@ -1,6 +1,7 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
 #include "bake/relief/map/normal_map.h"
+#include "bake/relief/map/slope_code.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -70,8 +71,10 @@ Texture read_bump_table(const std::string& file, float scale) {
     ImageInfo info;
     const Image<float> image = read_image(file, &info);
     const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
-    if (info.type == SampleType::u8 || info.type == SampleType::u16 || info.type == SampleType::u32)
-        refuse("is stored in unsigned integers, which hold no signed slopes; bake the bump table to .exr");
+    const bool integers = info.type == SampleType::u8 || info.type == SampleType::u16 || info.type == SampleType::u32;
+    const std::optional<SlopeCode> code = integers ? slope_code(info.description) : std::nullopt;
+    if (integers && !code)
+        refuse("holds unsigned integers and does not state the slope of a level; bake the table by bump-table");
     const auto named = [&](const char* name) {
         const auto at = std::find(info.channels.begin(), info.channels.end(), name);
         return at == info.channels.end() ? -1 : int(at - info.channels.begin());
@@ -83,7 +86,10 @@ Texture read_bump_table(const std::string& file, float scale) {
         slopes = {0, 1};
     }
     Image<float> table = pick<2>(image, slopes);
-    for (std::size_t i = 0; i < table.size(); ++i) table.data()[i] *= scale;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const float value = table.data()[i];
+        table.data()[i] = scale * (code ? code->decode(value) : value);
+    }
     require_finite(table, file);
     return shared(std::move(table));
 }

@@ -19,9 +19,10 @@ enum class NormalEncoding {
 /// Colour (three channels, linear); a grey picture gives three equal ones. All readers throw Error naming the file:
 /// unreadable, or unsuitable for what the comment of each says, and for NaN or Inf.
 Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic);
-/// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`; the channels named
-/// b_u and b_v, else the first two. Unsuitable: integer samples, which hold no sign; one channel; six and more, as in
-/// OIIO's bumpslopes, which are in other units.
+/// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`. The channels are
+/// those named b_u and b_v, otherwise the first two. Integer samples are decoded by the SlopeCode that the file states.
+/// Unsuitable: integer samples without a SlopeCode; one channel; six and more, as in OpenImageIO's bumpslopes, which are
+/// in other units.
 Texture read_bump_table(const std::string& file, float scale = 1);
 /// Tangent-space normals, decoded to vectors (three channels), green up unless `directx`. Unsuitable: under three
 /// channels.
