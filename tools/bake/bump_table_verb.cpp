@@ -230,9 +230,9 @@ std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     add_choice<Compression>(sub, "--compression", args->compression,
                             {{"auto", Compression::automatic}, {"none", Compression::none}, {"zip", Compression::zip}},
                             "Lossless; auto: zip for .exr, none for .tif");
-    add_examples(sub, "  bake bump-table bricks.png -o bricks_bump.exr\n"
-                      "  bake bump-table bricks.png -o bricks_bump.tif --units world --extent 2,2 --amplitude 0.03\n"
-                      "  bake bump-table bricks.png -o bricks.exr --layout bumpslopes\n");
+    add_examples(sub, "  bake bump-table meshes/bricks.png -o bricks.exr\n"
+                      "  bake bump-table meshes/bricks.png -o bricks.tif --units world --extent 2,2 --amplitude 0.03\n"
+                      "  bake bump-table meshes/bricks.png -o bumpslopes.exr --layout bumpslopes\n");
     return [args, &common] { return run(*args, common); };
 }
 

@@ -117,14 +117,17 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
 std::function<int()> cubemap_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CubemapArgs>();
     add_cubemap_options(sub, *args);
-    add_examples(sub, "  bake cubemap sky_px.png sky_nx.png sky_py.png sky_ny.png sky_pz.png sky_nz.png -o sky.exr\n"
-                      "  bake cubemap 'sky_%s.jpg' --fix-orientation -o 'fixed_%s.png'\n"
-                      "  bake cubemap studio.hdr --size 512 -o 'studio_%s.exr'\n"
-                      "  bake cubemap 'sky_%s.exr' --to latlong --yaw 90 -o sky_latlong.exr\n"
-                      "  bake cubemap studio.hdr --specular ggx --roughness 0,0.1,0.3,0.6,1 -o 'studio_ggx_%s.exr'\n"
-                      "  bake cubemap studio.hdr --irradiance direct --size 32 -o 'studio_diffuse_%s.exr'\n"
-                      "  bake cubemap --capture scene.toml --at 0,1,0 -o probe.exr\n"
-                      "  bake cubemap labels --size 256 --to hcross -o which_way_is_up.png\n");
+    add_examples(
+        sub, "  bake cubemap meshes/sky_px.png meshes/sky_nx.png meshes/sky_py.png meshes/sky_ny.png meshes/sky_pz.png "
+             "meshes/sky_nz.png -o sky.exr\n"
+             "  bake cubemap 'meshes/sky_%s.png' --fix-orientation -o 'fixed_%s.png'\n"
+             "  bake cubemap sky.exr --to latlong -o latlong.exr\n"
+             "  bake cubemap latlong.exr --size 128 -o 'sky_%s.exr'\n"
+             "  bake cubemap 'meshes/sky_%s.png' --to latlong --yaw 90 -o turned.exr\n"
+             "  bake cubemap 'meshes/sky_%s.png' --specular ggx --roughness 0,0.1,0.3,0.6,1 --size 32 -o 'ggx_%s.exr'\n"
+             "  bake cubemap 'meshes/sky_%s.png' --irradiance direct --size 32 -o 'diffuse_%s.exr'\n"
+             "  bake cubemap --capture meshes/scene.toml --at 0,1,0 --size 64 -o probe.exr\n"
+             "  bake cubemap labels --size 256 --to hcross -o which_way_is_up.png\n");
     return [args, &common] {
         try {
             return run_cubemap(*args, common);

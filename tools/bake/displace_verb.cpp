@@ -88,15 +88,17 @@ std::function<int()> displace_verb(CLI::App& sub, const CommonArgs& common) {
     add_displace_options(sub, *args);
     add_examples(
         sub,
-        "  bake displace scan.ply --height scan_height.exr -o out.ply\n"
-        "  bake displace torus.obj --height bricks.png --amplitude 1% --levels 4 -o out.glb\n"
-        "  bake displace torus.obj --height vectors.exr --vector tangent --levels 4 -o out.glb\n"
+        "  bake displace meshes/torus.obj --height meshes/bricks.png -o out.ply\n"
+        "  bake displace meshes/torus.obj --height meshes/bricks.png --amplitude 1% --levels 4 -o out.glb\n"
+        "  bake normal-map --height meshes/dots.png -o vectors.exr\n"
+        "  bake displace meshes/torus.obj --height vectors.exr --vector tangent --midlevel 0.5 --levels 3 -o out.glb\n"
         "The limit of a cage; a shape:\n"
-        "  bake displace spot.obj --subdivide catmark --levels 5 --height rock.png --amplitude 2% -o out.ply\n"
-        "  bake displace --shape torus:R=2,r=0.7 --height bricks.png --amplitude 0.05 -o out.obj\n"
+        "  bake displace meshes/torus.obj --subdivide catmark --levels 4 --height meshes/dots.png --amplitude 2% -o "
+        "out.ply\n"
+        "  bake displace --shape torus:R=2,r=0.7 --height meshes/bricks.png --amplitude 0.05 -o out.obj\n"
         "As fine as a picture, or the relief, needs:\n"
-        "  bake displace spot.obj --subdivide catmark --height rock.png --edge-px 2 --camera scene.toml -o out.ply\n"
-        "  bake displace spot.obj --subdivide catmark --height rock.png --max-error 0.05% -o out.ply\n"
+        "  bake displace meshes/torus.obj --height meshes/dots.png --edge-px 4 --camera meshes/scene.toml -o out.ply\n"
+        "  bake displace meshes/torus.obj --subdivide catmark --height meshes/dots.png --max-error 0.5% -o out.ply\n"
         "See docs/displace.md for the rates, seams, creases and what folds.\n");
     return [args, &common] { return run(*args, common); };
 }

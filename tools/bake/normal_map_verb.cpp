@@ -167,9 +167,9 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                       "auto: 16 for .png, half for .exr, float for .tif");
     add_examples(
         sub,
-        "  bake normal-map --height bricks.png -o bricks_normal.png --amplitude 0.02\n"
-        "  bake normal-map --height bricks.png -o bricks_normal.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
-        "  bake normal-map torus.obj --height bricks.png --amplitude 1% -o torus_normal.exr --size 2048\n");
+        "  bake normal-map --height meshes/bricks.png -o bricks.png --amplitude 0.02\n"
+        "  bake normal-map --height meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
+        "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n");
     return [args, &common] { return run(*args, common); };
 }
 

@@ -55,10 +55,11 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
     sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
-    sub.footer(shapes_text() + "Examples:\n"
-                               "  bake surface --shape torus:R=2,r=0.7 --resolution 128x64 -o torus.ply\n"
-                               "  bake surface spot_control_mesh.obj --subdivide catmark --resolution 8 -o spot.glb\n"
-                               "  bake surface head.obj --maps normal,mean-curvature --size 2048 --maps-out head\n");
+    sub.footer(shapes_text() +
+               "Examples:\n"
+               "  bake surface --shape torus:R=2,r=0.7 --resolution 128x64 -o torus.ply\n"
+               "  bake surface meshes/torus.obj --subdivide catmark --resolution 8 -o limit.glb\n"
+               "  bake surface meshes/torus.obj --maps normal,mean-curvature --size 512 --maps-out torus\n");
 }
 
 std::pair<int, int> parse_resolution(const std::string& text) {
