@@ -67,7 +67,7 @@ TEST_SUITE("cli") {
         }
         const Folder folder;
         fs::copy_file(dots, folder / "square.png");
-        check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4, "--from ball");
+        check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4, "set --from to one of ball, probe, octahedral");
         check_refused(folder, {"bump-table", "square.png", "--channel", "a", "-o", "a.exr"}, 4, "another --channel");
         check_refused(folder,
                       {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "100M", "-o", "a.ply"}, 4,
