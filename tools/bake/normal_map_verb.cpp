@@ -1,24 +1,13 @@
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/relief/map/bake_budget.h"
-#include "normal_map_options.h"
-#include <cstdio>
+#include "normal_map_output.h"
 
 namespace bake {
 namespace {
 
-struct Result {
-    Image<float> map;
-    NormalMapReport report;
-    ErrorBudget budget;
-    std::optional<FilterAdvice> advice;
-    double tilt_deg = 0;
-    Filter filter = Filter::central;
-};
-
-Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, const Vec2d& extent, Depth depth,
-                  Progress& progress) {
+NormalMapResult bake_plane(const HeightTexture& height, const NormalMapOptions& options, const Vec2d& extent,
+                           Depth depth, Progress& progress) {
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
-    Result result;
+    NormalMapResult result;
     progress.start("bake", options.height);
     result.map = normal_map(field, extent, options, &progress);
     const BudgetInput input = plane_budget(height, field, options, extent, depth);
@@ -28,10 +17,10 @@ Result bake_plane(const HeightTexture& height, const NormalMapOptions& options, 
     return result;
 }
 
-Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const NormalMapOptions& options, Depth depth,
-                 Progress& progress) {
+NormalMapResult bake_mesh(const HeightTexture& height, const BakeTarget& target, const NormalMapOptions& options,
+                          Depth depth, Progress& progress) {
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
-    Result result;
+    NormalMapResult result;
     progress.start("bake", options.height);
     result.map = normal_map(field, target, options, result.report, &progress);
     const BudgetInput input = mesh_budget(height, field, options, target, depth);
@@ -40,67 +29,6 @@ Result bake_mesh(const HeightTexture& height, const BakeTarget& target, const No
     result.tilt_deg =
         step_tilt_deg(height.step, options.height_options.amplitude, target.scale.u, height.values.width());
     return result;
-}
-
-void print(const NormalMapArgs& args, const HeightTexture& height, const Result& result,
-           const NormalMapOptions& options) {
-    std::printf("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\n", args.out.c_str(), options.width,
-                options.height, options.space == Space::tangent ? "tangent" : "object",
-                options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
-                std::string(name(result.filter)).c_str(), describe_levels(height).c_str());
-    const NormalMapReport& r = result.report;
-    const double share = 100.0 / (double(options.width) * options.height);
-    if (!args.mesh.empty())
-        std::printf("charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat\n",
-                    share * double(r.covered), share * double(r.border), share * double(r.padded),
-                    share * double(r.empty));
-    if (height.step > 0) std::printf("one level of the height tilts the normal by %.3f deg along u\n", result.tilt_deg);
-    std::printf("%s\n", to_text(result.budget).c_str());
-}
-
-void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& r) {
-    const auto say = [&](std::int64_t count, const char* what) {
-        if (count > 0) note(common, format("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
-    };
-    say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
-    say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
-    say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside was baked");
-    say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
-    say(r.flat_triangles, "triangles have no area in uv and were not baked");
-    say(r.triangles_without_uv, "triangles have no uvs and were not baked");
-    say(r.folded, "texels turn inside out, the amplitude being beyond the radius of curvature; blinn's normal stands "
-                  "in for exact there");
-}
-
-nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const Result& result,
-                       const NormalMapOptions& options) {
-    const NormalMapReport& r = result.report;
-    nlohmann::json object = {{"out", args.out},
-                             {"width", options.width},
-                             {"height", options.height},
-                             {"space", options.space == Space::tangent ? "tangent" : "object"},
-                             {"green", options.directx ? "down" : "up"},
-                             {"method", name(options.method)},
-                             {"filter", name(result.filter)},
-                             {"amplitude", options.height_options.amplitude},
-                             {"levels", height.levels},
-                             {"step", height.step},
-                             {"step_tilt_deg", result.tilt_deg},
-                             {"error_budget", bake::to_json(result.budget)}};
-    if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
-    if (!args.mesh.empty())
-        object["texels"] = {{"covered", r.covered},
-                            {"border", r.border},
-                            {"overlapped", r.overlapped},
-                            {"padded", r.padded},
-                            {"empty", r.empty},
-                            {"degenerate", r.degenerate},
-                            {"folded", r.folded},
-                            {"outside_faces", r.outside_faces},
-                            {"crossing_faces", r.crossing_faces},
-                            {"flat_triangles", r.flat_triangles},
-                            {"triangles_without_uv", r.triangles_without_uv}};
-    return object;
 }
 
 int run(NormalMapArgs& args, const CommonArgs& common) {
@@ -116,7 +44,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     const NormalMapOptions options = resolve_options(args, height, mesh);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
-    Result result;
+    NormalMapResult result;
     if (args.mesh.empty()) {
         const Vec2d given = args.extent.empty() ? Vec2d(0) : parse_pair("--extent", args.extent);
         const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
@@ -133,14 +61,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     writer.write(result.map.data(), result.map.height());
     writer.finish();
     watch.lap("write");
-    if (common.json) {
-        nlohmann::json object = to_json(args, height, result, options);
-        object["seconds"] = watch.to_json();
-        std::printf("%s\n", object.dump(2).c_str());
-    } else {
-        print(args, height, result, options);
-        std::printf("%s\n", watch.to_text().c_str());
-    }
+    print(args, height, result, options, watch, common.json);
     warn(common, args, result.report);
     if (args.mesh.empty() && args.amplitude.empty())
         note(common, "amplitude 1: white lies as high above black as the picture is wide; --amplitude sets it");

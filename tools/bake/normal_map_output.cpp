@@ -1,0 +1,82 @@
+#include "normal_map_output.h"
+#include <cstdio>
+
+namespace bake {
+namespace {
+
+void print_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
+                const NormalMapOptions& options) {
+    std::printf("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\n", args.out.c_str(), options.width,
+                options.height, options.space == Space::tangent ? "tangent" : "object",
+                options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
+                std::string(name(result.filter)).c_str(), describe_levels(height).c_str());
+    const NormalMapReport& r = result.report;
+    const double share = 100.0 / (double(options.width) * options.height);
+    if (!args.mesh.empty())
+        std::printf("charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat\n",
+                    share * double(r.covered), share * double(r.border), share * double(r.padded),
+                    share * double(r.empty));
+    if (height.step > 0) std::printf("one level of the height tilts the normal by %.3f deg along u\n", result.tilt_deg);
+    std::printf("%s\n", to_text(result.budget).c_str());
+}
+
+nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
+                       const NormalMapOptions& options) {
+    const NormalMapReport& r = result.report;
+    nlohmann::json object = {{"out", args.out},
+                             {"width", options.width},
+                             {"height", options.height},
+                             {"space", options.space == Space::tangent ? "tangent" : "object"},
+                             {"green", options.directx ? "down" : "up"},
+                             {"method", name(options.method)},
+                             {"filter", name(result.filter)},
+                             {"amplitude", options.height_options.amplitude},
+                             {"levels", height.levels},
+                             {"step", height.step},
+                             {"step_tilt_deg", result.tilt_deg},
+                             {"error_budget", bake::to_json(result.budget)}};
+    if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
+    if (!args.mesh.empty())
+        object["texels"] = {{"covered", r.covered},
+                            {"border", r.border},
+                            {"overlapped", r.overlapped},
+                            {"padded", r.padded},
+                            {"empty", r.empty},
+                            {"degenerate", r.degenerate},
+                            {"folded", r.folded},
+                            {"outside_faces", r.outside_faces},
+                            {"crossing_faces", r.crossing_faces},
+                            {"flat_triangles", r.flat_triangles},
+                            {"triangles_without_uv", r.triangles_without_uv}};
+    return object;
+}
+
+} // namespace
+
+void print(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
+           const NormalMapOptions& options, const Stopwatch& watch, bool json) {
+    if (json) {
+        nlohmann::json object = to_json(args, height, result, options);
+        object["seconds"] = watch.to_json();
+        std::printf("%s\n", object.dump(2).c_str());
+        return;
+    }
+    print_text(args, height, result, options);
+    std::printf("%s\n", watch.to_text().c_str());
+}
+
+void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& r) {
+    const auto say = [&](std::int64_t count, const char* what) {
+        if (count > 0) note(common, format("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
+    };
+    say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
+    say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
+    say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside was baked");
+    say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
+    say(r.flat_triangles, "triangles have no area in uv and were not baked");
+    say(r.triangles_without_uv, "triangles have no uvs and were not baked");
+    say(r.folded, "texels turn inside out, because the amplitude exceeds the radius of curvature; blinn was used for "
+                  "them instead of exact");
+}
+
+} // namespace bake
