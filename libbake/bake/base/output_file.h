@@ -1,4 +1,4 @@
-// Atomic output: written beside its target under a temporary name, renamed when whole.
+// Atomic output: written beside its target under a temporary name, renamed when complete.
 #pragma once
 #include <string>
 

@@ -8,7 +8,7 @@ namespace bake {
 
 class Progress;
 
-/// While it lives, at most `threads` threads work; 0 means one per core.
+/// During the lifetime of this object at most `threads` threads work; 0 means one per core.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads);
@@ -36,7 +36,7 @@ template <class Work> void* context_of(Work& work) {
 } // namespace detail
 
 /// Calls work(begin, end) on chunks of at most `grain` rows that together cover [0, rows) once, on all threads, in any
-/// order. The chunks do not depend on the number of threads. An exception from a chunk comes out here; Ctrl-C comes
+/// order. The chunks do not depend on the number of threads. for_rows rethrows an exception of a chunk; Ctrl-C comes
 /// out as Error{Refusal::interrupted}. `progress`, when given, advances by one unit per row.
 template <class Work> void for_rows(std::int64_t rows, std::int64_t grain, Work&& work, Progress* progress = nullptr) {
     const auto call = [](void* context, std::int64_t begin, std::int64_t end) {

@@ -1,4 +1,4 @@
-// Progress of long work, and the interruption of it.
+// Progress display and interruption of long work.
 #pragma once
 #include <atomic>
 #include <cstdint>

@@ -7,17 +7,17 @@
 
 namespace bake {
 
-/// A corner without normal or uv, a face without material or group.
+/// Marks a missing index: of a normal or uv at a corner, of a material or group at a face.
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
-/// Values beside the mesh's own, named as in the file: curvatures, colours, second uvs.
+/// Further values per corner, named as in the file: curvatures, colours, second uvs.
 struct Attribute {
     std::string name;
     int components = 1;        ///< 1 to 4
     std::vector<float> values; ///< corners * components
 };
 
-/// How a subdivision surface rounds its cage: sharpness 0 is smooth, 10 and more infinitely sharp.
+/// Subdivision tags of a cage: sharpness 0 is smooth, 10 and more infinitely sharp.
 struct SubdivisionTags {
     struct Crease {
         std::uint32_t a, b; ///< positions at the ends of an edge
@@ -36,7 +36,7 @@ struct SubdivisionTags {
 };
 
 /// Face f has the corners [face_begin[f], face_begin[f + 1]), counter-clockwise seen from outside, at least three.
-/// corner_normal is empty when no face has normals, corner_uv when none has uvs; a single corner without has no_index.
+/// corner_normal is empty when no face has normals, corner_uv when none has uvs; a corner without one has no_index.
 /// Readers guarantee: every index is in range or no_index where that is allowed, every value is finite.
 struct Mesh {
     std::vector<Vec3f> positions;

@@ -44,7 +44,7 @@ struct EdgeTable {
     }
 };
 
-/// ends(side) returns the two vertices of a side, the first of them no_index where there is no such side. Edges are
+/// ends(side) returns the two vertices of a side, the first no_index if the side does not exist. Edges are
 /// numbered in the order of their lower vertex, then of their higher one. Linear time; the table does not depend on the
 /// number of threads.
 using SideEnds = std::array<std::uint32_t, 2>;

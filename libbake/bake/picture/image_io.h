@@ -20,8 +20,8 @@ void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
 /// The reverse, for pictures that people look at.
 float linear_to_srgb(float linear) noexcept;
 
-/// Depth a file of this name gets. Throws Error{Refusal::usage} for a depth its format cannot hold (half in png, 8 bit in
-/// exr) or an ending other than .png, .exr, .tif, .tiff.
+/// Resolves `depth` for a file of this name. Throws Error{Refusal::usage} for a depth that its format cannot
+/// hold (half in png, 8 bit in exr) or an ending other than .png, .exr, .tif, .tiff.
 Depth resolve_depth(const std::string& path, Depth depth);
 
 /// Writes rows from the top down as they come, so that a large picture need never be whole in memory. Integer depths
@@ -36,9 +36,9 @@ public:
     void write(const float* values, int rows);
     /// Ends a level and begins the next, half as wide and high, rounded down, at least 1.
     void next_level();
-    /// Ends the file under its temporary name, when several are to appear together.
+    /// Completes the file under its temporary name. For several files: close() each, then finish() each.
     void close();
-    /// Closes, if that is still to do, and puts the file under its own name.
+    /// Closes the file if necessary and renames it to its final name.
     void finish();
 
 private:

@@ -22,7 +22,7 @@ enum class SkyFormat {
     octahedral,
     openexr_cube,
     openexr_latlong,
-    count ///< no format: their number
+    count ///< number of formats, not a format
 };
 
 /// Fields with the value -1 must be given; the static_assert below names a forgotten one.
@@ -32,8 +32,8 @@ struct SkyFormatEntry {
     std::optional<CubeLayout> layout = {};     ///< of six faces in one picture
     std::optional<Projection> projection = {}; ///< of a picture of the whole sky
     int columns = -1, rows = -1;               ///< width : height of the picture
-    /// Width of a picture over the edge of a cube's face that is equally fine, 1 for six faces in any layout. 0: the format
-    /// can be read but not written.
+    /// Ratio of the picture's width to the face edge of a cube of equal resolution, 1 for six faces in any layout.
+    /// 0: the format can be read but not written.
     int width_per_edge = -1;
     int discs = -1; ///< of a projection: discs side by side that hold the sky; 0: the sky fills the picture
     bool known_by_shape = false; ///< a picture of this shape is read as this format, unless the caller names another

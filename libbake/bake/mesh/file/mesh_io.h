@@ -5,10 +5,10 @@
 namespace bake {
 
 struct MeshOptions {
-    bool flip_v = false; ///< turns v over, for files that ignore their format's rule (up in OBJ and PLY, down in glTF)
+    bool flip_v = false; ///< flips v, for files that ignore their format's rule (up in OBJ and PLY, down in glTF)
 };
 
-/// Reads a mesh by its ending, .obj, .ply, .gltf or .glb: whole, or not at all.
+/// Reads a mesh by its ending, .obj, .ply, .gltf or .glb. An error leaves no partial mesh.
 /// OBJ: v (x y z, further numbers ignored), vt, vn, f with any number of corners and positive or negative indices,
 /// g and o (groups; the later of the two holds), usemtl, both up to the end of the line, none where they are alone;
 /// t crease, corner and interpolateboundary (tags of a subdivision cage, as in OpenSubdiv's shapes; their positions

@@ -10,8 +10,8 @@ namespace bake {
 
 class Progress;
 
-/// Throws Error{Refusal::unsuitable} if the result needs more than max_bytes; the message has the need and the finest level
-/// that fits.
+/// Throws Error{Refusal::unsuitable} if the result needs more than max_bytes; the message states the need and
+/// the finest level that fits.
 /// Any number of threads gives the same bytes.
 Displaced displace(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options = {},
                    Progress* progress = nullptr);

@@ -35,12 +35,12 @@ struct Stencil {
     int reach() const noexcept { return int(taps.size()); }
     /// Response along the axis at w radians per texel over that of the true derivative, the other axis being at w_cross.
     double gain(double w, double w_cross = 0) const noexcept;
-    /// Root of the sum of the squared weights: noise of the slope per noise of a texel.
+    /// Root of the sum of the squared weights: standard deviation of the slope for texel noise of standard deviation 1.
     double noise() const noexcept;
 };
 /// automatic is not a stencil (assert).
 Stencil stencil(Filter filter);
-/// The central difference of order 128: right to 1e-3 up to four fifths of the highest frequency. What other filters are measured against on heights without a closed form.
+/// The central difference of order 128, right to 1e-3 up to .8 of the highest frequency: the reference without oracle.
 Stencil sharp_stencil();
 /// Noise (as Stencil::noise) of the difference of two filters' slopes.
 double noise_of_difference(const Stencil& a, const Stencil& b);
@@ -57,7 +57,7 @@ public:
     /// for in order cost least.
     struct Scratch {
         std::vector<T> a, b;
-        std::uint64_t filter = 0; ///< whose block it is
+        std::uint64_t filter = 0; ///< id of the filter that filled the block
         int block = -1;
     };
     /// Writes scale_u * slope along +u and scale_v * slope along +v (v is up: towards row 0) of row y, per texel, as

@@ -19,19 +19,19 @@ struct NormalMapReport {
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
     std::int64_t folded =
-        0; ///< texels where the displaced surface is inside out (folds()): blinn's normal stands in for exact
+        0; ///< texels where the displaced surface is inside out (folds()): blinn replaces exact there
 };
 
 /// Height and slopes at the texel centres of a map.
 class HeightField {
 public:
-    /// Slopes are those of `filter` where the map has the height's size. Where it is smaller the height is box-filtered
+    /// If the map has the size of the height, `filter` gives the slopes. If it is smaller, the height is box-filtered
     /// first by whole factors; where texel centres differ, value and filtered slopes are interpolated (Catmull-Rom; the
     /// spline itself for c2). The height must outlive it.
     HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width, int height_texels);
     /// The heights and slopes (per unit of u and v) of row y of the map.
     void row(int y, Height<float>* out, SlopeFilter<float>::Scratch& scratch) const;
-    /// The height the slopes are taken of: the texture, or its minified copy.
+    /// The height from which slopes are computed: the texture, or its minified copy.
     const Image<float>& values() const noexcept { return *values_; }
     int width() const noexcept { return width_; }
     int height() const noexcept { return map_height_; }

@@ -6,7 +6,7 @@
 namespace bake {
 
 /// Point on a triangle: position = (1 - b1 - b2) corner[0] + b1 corner[1] + b2 corner[2].
-/// A fresh one is not initialised, so that an image of them is written once.
+/// Members are not initialised, so that creating an image does not write it twice.
 struct TexelHit {
     std::uint32_t triangle; ///< index in the triangles given, no_index where the texel is empty
     float b1, b2;           ///< 0 where the texel is empty
@@ -28,7 +28,7 @@ struct UvRaster {
 /// whose square touches a triangle gets the nearest point of the nearest such triangle (lowest face on ties): charts
 /// are conservative at their borders. A centre on an edge that faces share is inside one of them only, so that faces
 /// side by side do not overlap. Faces that have a corner without uv are skipped; triangles come in the order of faces.
-/// Corners are snapped to a grid of 2^30 steps per unit; uvs beyond 10^8 units are taken as that far.
+/// Corners are snapped to a grid of 2^30 steps per unit; uvs are clamped to +-10^8.
 UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height);
 
 } // namespace bake

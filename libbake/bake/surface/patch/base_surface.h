@@ -29,7 +29,7 @@ public:
     /// The same parameters always give the same bits. The two patches at an edge agree on its points only up to rounding:
     /// a caller that needs equal points evaluates one of the patches.
     void evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept;
-    /// The lattice (i / rate, j / rate), row by row of j, as SubdivisionSurface::evaluate_lattice.
+    /// The lattice (i / rate, j / rate), in rows of equal j, as SubdivisionSurface::evaluate_lattice.
     void evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const noexcept;
 
 private:

@@ -11,7 +11,7 @@ namespace bake {
 struct JunctionSide {
     std::uint32_t patch;         ///< of the complex
     std::uint8_t corner_or_side; ///< of the patch: a corner at a vertex, a side at an edge
-    bool reversed;               ///< the side runs against its edge
+    bool reversed;               ///< the side has the opposite direction of its edge
     std::uint32_t uv_group, normal_group;
 };
 
