@@ -151,7 +151,7 @@ void PngWriter::put_chunk(const char* type, const Bytes& data) {
     const unsigned long start = crc32_z(0, ends.data() + 4, 4);
     append_big_endian(ends, data.empty() ? start : crc32_z(start, data.data(), data.size()));
     put(ends.data(), 8);
-    put(data.data(), data.size());
+    if (!data.empty()) put(data.data(), data.size()); // fwrite takes no null pointer
     put(ends.data() + 8, 4);
 }
 
