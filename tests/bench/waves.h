@@ -8,7 +8,7 @@ namespace bench {
 
 /// Steepest slope about 0.5 along u on a plane of extent 1 x 1. Whole waves, so that the picture repeats, but not of whole
 /// texels, so that it uses most levels.
-inline oracle::TorusRelief waves(int size) { return {0.5 / (2 * pi * size / 64), size / 64 + 1, size / 32 + 3}; }
+inline oracle::TorusRelief waves(int size) { return {0.5 / (2 * bake::pi * size / 64), size / 64 + 1, size / 32 + 3}; }
 
 /// As oracle::relief_texture, from one sine per row and per column.
 inline bake::HeightTexture wave_texture(int size, int bits) {
@@ -19,9 +19,9 @@ inline bake::HeightTexture wave_texture(int size, int bits) {
     const double largest = std::exp2(bits) - 1;
     bake::for_rows(size, 16, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> along_u(size);
-        for (int x = 0; x < size; ++x) along_u[x] = std::sin(2 * pi * r.k * (x + 0.5) / size);
+        for (int x = 0; x < size; ++x) along_u[x] = std::sin(2 * bake::pi * r.k * (x + 0.5) / size);
         for (auto y = int(begin); y < int(end); ++y) {
-            const double along_v = std::sin(2 * pi * r.m * (1 - (y + 0.5) / size));
+            const double along_v = std::sin(2 * bake::pi * r.m * (1 - (y + 0.5) / size));
             for (int x = 0; x < size; ++x) {
                 const double value = along_u[x] * along_v / 2 + 0.5;
                 height.values.at(x, y) = float(bits > 0 ? std::round(value * largest) / largest : value);
