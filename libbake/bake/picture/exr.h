@@ -1,4 +1,4 @@
-// OpenEXR, read and written by its own library: it loads in 3 ms, OpenImageIO in 0.2 s.
+// Reads and writes OpenEXR by its own library, which loads in 3 ms; OpenImageIO takes 0.2 s to load.
 #pragma once
 #include "bake/picture/picture_file.h"
 #include <memory>
@@ -10,15 +10,15 @@ struct PictureSize;
 
 bool is_exr(const PictureFile& file) noexcept;
 
-/// Fills `info` from the header, and `image`, when given, as read_image does. Returns false for a file that is left to
+/// Fills `info` from the header, and `image`, when given, as read_image does. Returns false for a file that needs
 /// OpenImageIO: several parts, layers, luminance and chroma, integers. Throws as read_image.
 bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
 
 /// Writes rows from the top down, and levels from the largest on. The same rows give the same bytes.
 class ExrWriter {
 public:
-    /// Writes to `temporary`, which exists; messages name `path`. The depth is half or float32. Throws
-    /// Error{Refusal::unwritable}, as all functions here.
+    /// Writes to `temporary`, which exists; messages name `path`. The depth is half or float32.
+    /// All functions throw Error{Refusal::unwritable}.
     ExrWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
               const WriteOptions& options);
     ~ExrWriter();

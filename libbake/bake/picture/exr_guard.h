@@ -1,11 +1,11 @@
-// What OpenEXR's library lets pass in a damaged header.
+// Finds faults of damaged OpenEXR headers that OpenEXR's library does not report.
 #pragma once
 #include "bake/picture/picture_file.h"
 
 namespace bake {
 
-/// Why an OpenEXR file is not to be read, "" when nothing speaks against it: attributes that are missing, run past the end
-/// or name unprintable channels, or more chunks than bytes.
+/// The reason why an OpenEXR file must not be read, "" if there is none: attributes that are missing, extend beyond the
+/// end of the file or name unprintable channels, or more chunks than bytes.
 std::string exr_fault(const PictureFile& file);
 
 } // namespace bake

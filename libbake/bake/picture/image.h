@@ -8,7 +8,7 @@
 namespace bake {
 
 namespace detail {
-/// Memory for `bytes` bytes; in huge pages where there are many, which the system hands out several times as fast.
+/// Memory for `bytes` bytes. Large blocks are in huge pages, which the system provides several times as fast.
 /// Throws std::bad_alloc.
 void* allocate_pages(std::size_t bytes);
 struct FreePages {
@@ -16,8 +16,8 @@ struct FreePages {
 };
 } // namespace detail
 
-/// Owns width * height * channels values, texel (x, y) at row(y)[x * channels]. Fresh values are NOT initialised:
-/// a large image is filled by its first writer, not twice. Moves, does not copy.
+/// Owns width * height * channels values, texel (x, y) at row(y)[x * channels]. New values are NOT initialised, which
+/// would take a second pass over a large image. An image can be moved, but not copied.
 /// Texel (x, y) has its centre at u = (x + 0.5) / width, v = 1 - (y + 0.5) / height.
 template <class T> class Image {
 public:

@@ -1,4 +1,4 @@
-// Pictures in and out: PNG by libpng, OpenEXR by its own library, plain TIFF by libtiff, all others by OpenImageIO.
+// Reads and writes pictures: PNG by libpng, OpenEXR by its own library, plain TIFF by libtiff, others by OpenImageIO.
 #pragma once
 #include "bake/picture/image.h"
 #include "bake/picture/image_types.h"
@@ -9,23 +9,23 @@ namespace bake {
 /// Reads the header. Throws Error{Refusal::unreadable} naming the file and the reason.
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {});
 
-/// Reads all channels as data: unsigned integers divided by their largest value, floats as they are; never sRGB-decoded
-/// and never divided by alpha. Data windows are placed in their display window (0 outside).
-/// Throws Error{Refusal::unreadable} for a file that is missing, damaged, cut short or of an unknown format, and
-/// Error{Refusal::unsuitable} for one that is over `limits`.
+/// Reads all channels as data: unsigned integers are divided by their largest value, floats are unchanged; values are
+/// not decoded from sRGB and not divided by alpha. A data window is placed in its display window (0 outside). Throws
+/// Error{Refusal::unreadable} for a file that is missing, damaged, cut short or of an unknown format, and
+/// Error{Refusal::unsuitable} for a file that exceeds `limits`.
 Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, const ReadLimits& limits = {});
 
-/// Decodes sRGB colour (IEC 61966-2-1) in place, alpha left alone: for colour textures and skies, never for data.
+/// Decodes sRGB (IEC 61966-2-1) in place, except alpha. For colour textures and skies, not for data.
 void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
-/// The reverse, for pictures that people look at.
+/// Encodes a linear value as sRGB, for pictures that people look at.
 float linear_to_srgb(float linear) noexcept;
 
 /// Resolves `depth` for a file of this name. Throws Error{Refusal::usage} for a depth that its format cannot
 /// hold (half in png, 8 bit in exr) or an ending other than .png, .exr, .tif, .tiff.
 Depth resolve_depth(const std::string& path, Depth depth);
 
-/// Writes rows from the top down as they come, so that a large picture need never be whole in memory. Integer depths
-/// round [0,1] to the nearest level and clamp; the caller biases signed data first. Atomic: the target appears in finish().
+/// Writes rows from the top down, so that a large picture is never in memory as a whole. Integer depths clamp to [0,1]
+/// and round to the nearest level; the caller biases signed data first. The file appears, complete, in finish().
 class ImageWriter {
 public:
     /// Throws Error{Refusal::unwritable} or Error{Refusal::usage}, as resolve_depth.

@@ -1,4 +1,4 @@
-// What image files are described by.
+// Types that describe picture files.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ const char* name(SampleType type) noexcept;
 /// Environments as OpenEXR tags them (attribute envmap); OpenImageIO keeps the tag in TIFF too.
 enum class EnvironmentTag { none, latlong, cube }; ///< cube: six square faces, one below the other
 
-/// What a file says of its picture. Nothing but the header is read to fill it.
+/// Description of a picture, filled from the header of its file.
 struct ImageInfo {
     std::string format;                ///< "png", "openexr", "tiff", ...
     int width = 0, height = 0;         ///< full resolution
@@ -26,7 +26,7 @@ struct ImageInfo {
     std::string description = {}; ///< free text: PNG Description, TIFF ImageDescription, EXR comments
 };
 
-/// Limits on what a reader believes of a header before it allocates.
+/// Limits that a header is checked against before memory is allocated.
 struct ReadLimits {
     std::int64_t max_bytes = std::int64_t(16) << 30; ///< decoded size
 };
@@ -34,15 +34,15 @@ struct ReadLimits {
 /// How samples are stored in a written file.
 enum class Depth { automatic, u8, u16, half, float32 };
 
-/// Lossless ones. automatic: none for tif, zip for exr; png is always deflated.
+/// Lossless compression. automatic: none for tif, zip for exr; png always uses deflate.
 enum class Compression { automatic, none, zip };
 
 struct WriteOptions {
     Depth depth = Depth::automatic;    ///< automatic: u16 for png, half for exr, float32 for tif
     std::vector<std::string> channels; ///< names; empty: Y, YA, RGB, RGBA by count
     Compression compression = Compression::automatic;
-    EnvironmentTag environment = EnvironmentTag::none; ///< exr only: other readers then see an environment
-    bool srgb = false;            ///< png: tagged as sRGB-encoded, which 16-bit pictures are not taken for otherwise
+    EnvironmentTag environment = EnvironmentTag::none; ///< exr only: other programs then recognise an environment
+    bool srgb = false;            ///< png: writes an sRGB tag; 16-bit pictures without it are taken as linear
     std::string description = {}; ///< free text, as ImageInfo
     bool mips = false;            ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };

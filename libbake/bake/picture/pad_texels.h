@@ -1,12 +1,12 @@
-// Texels beyond the borders of charts, so that filtering does not bleed in what lies outside.
+// Fills texels beyond the borders of charts, so that texture filtering does not blend in the background.
 #pragma once
 #include "bake/picture/image.h"
 #include <cstdint>
 
 namespace bake {
 
-/// Fills texels with `owner` false from the nearest texel with it true, up to `padding` texels away (ties: the upper,
-/// then the left one). Returns how many.
+/// Copies to each texel whose `owner` is false the nearest texel whose `owner` is true, if it is at most `padding`
+/// texels away (on ties the upper, then the left one). Returns the number of texels filled.
 std::int64_t pad_texels(Image<float>& image, const Image<unsigned char>& owner, int padding);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// A picture file while it is read: opened once, whatever decoder reads it.
+// A picture file that is opened once and read by any of the decoders.
 #pragma once
 #include "bake/base/error.h"
 #include "bake/picture/image.h"
@@ -10,7 +10,7 @@ namespace bake {
 
 class PictureFile {
 public:
-    /// Throws Error{Refusal::unreadable} for what is missing, empty or no regular file.
+    /// Throws Error{Refusal::unreadable} for a file that is missing, empty or not a regular file.
     explicit PictureFile(const std::string& path);
     ~PictureFile();
     PictureFile(const PictureFile&) = delete;
@@ -20,7 +20,7 @@ public:
     std::int64_t size() const noexcept { return size_; }
     /// The first 148 bytes, fewer in a shorter file.
     const std::string& head() const noexcept { return head_; }
-    /// Up to `size` bytes from `offset` on. Returns how many there were.
+    /// Reads up to `size` bytes from `offset` on. Returns their number.
     std::int64_t read(std::int64_t offset, char* to, std::int64_t size) const;
 
 private:
@@ -29,31 +29,31 @@ private:
     int descriptor_;
 };
 
-/// The text in one line, without the file's own name, which every message starts with.
+/// The text in one line, without the name of the file, because every message starts with it.
 std::string one_line(std::string text, const std::string& path);
 
 /// "<path>: <why>; <mend>"
 Error unreadable(const std::string& path, const std::string& why,
                  const char* mend = "the file is damaged; export it again");
 
-/// Where a part of a picture lies, in texels.
+/// Position and size of a part of a picture, in texels.
 struct Window {
     int x = 0, y = 0, width = 0, height = 0;
     bool operator==(const Window&) const = default;
 };
 
-/// What a header claims of a file's size.
+/// Sizes that a header claims.
 struct ClaimedSize {
-    Window data, picture; ///< what is stored, and what is shown of it
+    Window data, picture; ///< the part that is stored, and the part that is shown
     int channels = 0;
-    double most_per_byte = 4096; ///< samples that one stored byte can stand for
+    double most_per_byte = 4096; ///< largest number of samples that one stored byte can represent
 };
 
-/// Looks at a header's claims before anything is allocated. Throws Error{Refusal::unreadable} for a picture without
-/// pixels or with more than `stored` bytes can hold, and Error{Refusal::unsuitable} for one over `limits`.
+/// Checks the claims of a header before memory is allocated. Throws Error{Refusal::unreadable} for a picture without
+/// pixels or with more than `stored` bytes can hold, and Error{Refusal::unsuitable} for one that exceeds `limits`.
 void check_size(const std::string& path, std::int64_t stored, const ClaimedSize& claimed, const ReadLimits& limits);
 
-/// The texels of the window `picture` out of those of `data`; 0 where there are none.
+/// Copies the texels of the window `data` to the window `picture`; texels outside of `data` are 0.
 Image<float> place(Image<float> image, const Window& data, const Window& picture);
 
 } // namespace bake

@@ -1,8 +1,8 @@
-// OpenImageIO's part of the room: what is neither PNG, plain OpenEXR nor plain TIFF.
+// Reads and writes by OpenImageIO the formats that no other reader here handles.
 //
 // It is a library of its own, bake_formats.so, loaded on first need: the 260 libraries that Debian's OpenImageIO brings
-// take 0.2 s to load, longer than most of what bake does without them. The library needs no symbol of the program that
-// loads it, and no exception passes between the two: a failure is returned.
+// take 0.2 s to load, longer than most bakes. The library needs no symbol of the program that loads it, and no
+// exception passes between the two: failures are returned.
 #pragma once
 #include "bake/base/error.h"
 #include "bake/picture/image.h"
@@ -19,21 +19,21 @@ struct PictureSize {
 /// A file being written.
 struct FormatWriter;
 
-/// Why a call failed; nothing when it succeeded.
+/// The reason why a call failed; nothing if it succeeded.
 struct FormatFailure {
     Refusal refusal;
     std::string message; ///< as Error's
 };
 using FormatResult = std::optional<FormatFailure>;
 
-/// What the library may ask of the program while it works.
+/// What the program provides to the library.
 struct FormatHost {
     int threads = 1;
     bool (*interrupted)() noexcept = nullptr;
 };
 
-/// What the library offers. Reading is as image_io.h says of read_image_info and read_image; the options of `open` are
-/// resolved: no automatic depth, a name per channel.
+/// The functions of the library. Reading is as read_image_info() and read_image() in image_io.h. The options of `open`
+/// are resolved: the depth is not automatic, and every channel has a name.
 struct PictureFormats {
     FormatResult (*read_info)(const FormatHost& host, const std::string& path, const ReadLimits& limits,
                               ImageInfo& info);

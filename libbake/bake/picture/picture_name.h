@@ -1,4 +1,4 @@
-// Which format the name of a picture file asks for.
+// The format that a picture file has by its name.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@ namespace bake {
 /// Formats that pictures are written in.
 enum class PictureFormat { png, exr, tiff, unknown };
 
-/// By the name's ending, upper or lower case: .png, .exr, .tif or .tiff.
+/// The format for the ending of the name, in upper or lower case: .png, .exr, .tif or .tiff.
 PictureFormat picture_format(const std::string& path);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// PNG, written by blocks of rows that all threads filter and compress at once.
+// Writes PNG in blocks of rows that are filtered and compressed in parallel.
 #pragma once
 #include "bake/picture/image_types.h"
 #include <cstdio>
@@ -9,11 +9,11 @@ namespace bake {
 
 struct PictureSize;
 
-/// Writes rows from the top down. The same rows give the same bytes, for any number of threads and of calls.
+/// Writes rows from the top down. The bytes do not depend on the numbers of threads and of calls.
 class PngWriter {
 public:
-    /// Writes to `temporary`, which exists; messages name `path`. The depth is u8 or u16. Throws
-    /// Error{Refusal::unwritable}, as all functions here, and Error{Refusal::usage} for mips or more than 4 channels.
+    /// Writes to `temporary`, which exists; messages name `path`. The depth is u8 or u16. All
+    /// functions throw Error{Refusal::unwritable}; this one Error{Refusal::usage} for mips or more than 4 channels.
     PngWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
               const WriteOptions& options);
     ~PngWriter();
@@ -35,15 +35,15 @@ private:
     std::string path_;
     std::FILE* file_;
     int sample_bytes_, texel_bytes_;
-    std::size_t row_bytes_, block_rows_, most_rows_; ///< most_rows_: that wait at a time
-    /// Rows that wait to be compressed, samples high byte first. The last row of those before comes first.
+    std::size_t row_bytes_, block_rows_, most_rows_; ///< most_rows_: largest waiting_
+    /// The last compressed row, then the rows that wait to be compressed; the high byte of a sample comes first.
     std::vector<unsigned char> rows_;
     std::size_t waiting_ = 0;
-    /// Filtered rows, each after the number of its filter. Up to 32 KiB of those before come first: `history_` bytes.
+    /// `history_` bytes of compressed rows (at most 32 KiB), then filtered rows, each after the number of its filter.
     std::vector<unsigned char> filtered_;
     std::size_t history_ = 0;
     unsigned long checksum_ = 1; ///< Adler-32 of all filtered rows
-    bool begun_ = false;         ///< the stream has its two bytes of header
+    bool begun_ = false;         ///< the two bytes of the stream's header are written
 };
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, and how each row of them is laid out.
+// The header of a PLY file: its elements, and the layout of their rows.
 #pragma once
 #include "bake/base/file_bytes.h"
 #include <cstdint>
@@ -28,10 +28,10 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    const char* body = nullptr; ///< first byte behind the header
+    const char* body = nullptr; ///< first byte after the header
 };
 
-/// Throws Error{Refusal::unreadable}: what is no PLY header, naming the line; more rows than the bytes behind can hold.
+/// Throws Error{Refusal::unreadable} for an invalid header, with the line, and for more rows than the rest can hold.
 PlyHeader read_ply_header(const FileBytes& file, const std::string& path);
 
 /// Index of the property, or -1.

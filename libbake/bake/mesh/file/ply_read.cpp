@@ -89,7 +89,7 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     return layout;
 }
 
-/// Gives corners of one position the same uv index where their uvs are equal, so that faces hang together.
+/// Gives corners of one position the same uv index where their uvs are equal, so that faces stay connected in uv.
 void weld_texcoord(PlyBody& body) {
     Mesh& mesh = body.mesh;
     const auto key = [&body](std::uint32_t c) noexcept {

@@ -1,4 +1,4 @@
-// Values of a glTF accessor, as floats or as indices, once its places in the buffers are known to be there.
+// Reads the values of a glTF accessor, as floats or as indices, after its ranges in the buffers have been checked.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,15 +9,15 @@ namespace bake {
 /// Component types by their numbers in the file (those of OpenGL).
 enum class GltfType : int { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
 
-/// 0 for what is no component type of glTF.
+/// Size in bytes; 0 for a number that is not a component type of glTF.
 std::size_t size_of(GltfType type) noexcept;
 
-/// `count` elements of `components` values, `stride` bytes apart, all of them inside `bytes`; zeros where `bytes` is
-/// empty. Of them, sparse_index[i] is replaced by the i-th of sparse_values, which lie close together.
+/// `count` elements of `components` values, `stride` bytes apart, all within `bytes`; zeros if `bytes` is empty.
+/// Element sparse_index[i] is replaced by element i of sparse_values, which have no gaps.
 struct GltfAccessor {
     GltfType type = GltfType::float32;
     int components = 1;
-    bool normalized = false; ///< integers stand for [0,1] or [-1,1]
+    bool normalized = false; ///< integers represent [0,1] or [-1,1]
     std::size_t count = 0;
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0;
@@ -25,10 +25,10 @@ struct GltfAccessor {
     std::span<const std::uint8_t> sparse_values;
 };
 
-/// Writes count * components floats to `out`; where that is not finite, false.
+/// Writes count * components floats to `out`. Returns false if one of them is not finite.
 bool read_floats(const GltfAccessor& accessor, float* out);
 
-/// Writes count indices; the types are unsigned ones, the components one.
+/// Writes count indices. The type must be an unsigned integer, and `components` must be 1.
 void read_indices(const GltfAccessor& accessor, std::uint32_t* out);
 
 } // namespace bake

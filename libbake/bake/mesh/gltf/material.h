@@ -1,4 +1,4 @@
-// Materials of a glTF, with textures and samplers looked up.
+// Materials of a glTF file, with the textures and samplers that they refer to.
 #pragma once
 #include "bake/mesh/gltf/io.h"
 
@@ -8,8 +8,8 @@ class Model;
 
 namespace bake {
 
-/// All materials of the model, whose file has `images` pictures. Textures of formats that an extension brings are left
-/// out. Throws Error{Refusal::unreadable} for a texture, image or sampler that is not there.
+/// All materials of the model, whose file has `images` images. Textures whose image is given by an extension are
+/// skipped. Throws Error{Refusal::unreadable} for the index of a texture, image or sampler that does not exist.
 std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size_t images, const std::string& path);
 
 } // namespace bake

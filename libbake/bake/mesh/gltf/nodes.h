@@ -1,4 +1,4 @@
-// The tree of nodes of a glTF, and where it puts its meshes.
+// The node tree of a glTF file, and the world transforms of its meshes.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace bake {
 
-/// 4 x 4, column by column.
+/// A 4 x 4 matrix, column by column.
 using Transform = std::array<double, 16>;
 
-/// The matrix where there is one, else move * turn * stretch; lists of other lengths than the format's count for none.
-/// Spec 3.5.3. A rotation is made unit; one of zero is none.
+/// The matrix of a node if it has one, otherwise translation * rotation * scale (glTF 2.0, section 3.5.3). A list of
+/// the wrong length is ignored. The rotation is normalised; a zero rotation is ignored.
 Transform local_transform(const std::vector<double>& matrix, const std::vector<double>& translation,
                           const std::vector<double>& rotation, const std::vector<double>& scale);
 
@@ -28,8 +28,8 @@ struct GltfPlacement {
     std::array<float, 16> to_world;
 };
 
-/// In the order of a walk from the roots, each node before its children. Throws Error{Refusal::unreadable}: a child that
-/// is not there, a node that is met twice (a tree has no loops), a matrix that is not finite.
+/// The nodes with meshes, each before its descendants. Throws Error{Refusal::unreadable} for a child that does not
+/// exist, a node that is reached twice (by a loop or from two parents), and a matrix that is not finite.
 std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes, const std::vector<int>& roots,
                                        const std::string& path);
 

@@ -1,11 +1,11 @@
-// From vertices, which glTF splits wherever anything differs, to a mesh whose faces hang together.
+// Converts vertices, which glTF splits wherever a value differs, to a mesh whose faces are connected.
 #pragma once
 #include "bake/mesh/gltf/io.h"
 
 namespace bake {
 
-/// The vertices of one node, each with all its values. Lists may be shorter than the positions where the last primitives
-/// have none of that kind.
+/// The vertices of one node with all their values. A list may be shorter than `positions` if the last primitives have
+/// no values of its kind.
 struct GltfVertices {
     std::vector<Vec3f> positions, normals;
     std::vector<Vec2f> uvs;
@@ -17,20 +17,20 @@ struct GltfVertices {
     std::vector<std::uint32_t> face_material, face_group;
 };
 
-/// What corners have whose primitive lacks the values: white, or 0.
+/// The value at corners whose primitive lacks the attribute: 1 (white) for colours, otherwise 0.
 float default_value(const std::string& attribute) noexcept;
 
-/// The attribute of that name, added or widened to `components` where it has fewer.
+/// Returns the attribute of that name; adds it if it is missing, and extends it to `components` if it has fewer.
 Attribute& attribute_named(GltfVertices& vertices, const std::string& name, int components);
 
-/// The place of a group's name in the mesh, added when it is new; no_index for the empty name.
+/// Index of the name in mesh.groups; a new name is added. no_index for an empty name.
 std::uint32_t group_named(Mesh& mesh, const std::string& name);
 
-/// The names that the mesh gives the materials: unique and not empty.
+/// Names of the materials in the mesh: unique and not empty.
 std::vector<std::string> material_names(const std::vector<GltfMaterial>& materials);
 
-/// Adds the faces to the mesh; equal positions become one, and so do equal normals and uvs at one position. Vertices that
-/// no face uses are left out.
+/// Appends the faces to the mesh. Equal positions are merged, and equal normals and uvs at one position. Vertices that
+/// no face uses are skipped.
 void append_welded(GltfVertices vertices, Mesh& mesh);
 
 } // namespace bake

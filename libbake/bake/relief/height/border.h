@@ -12,7 +12,7 @@ namespace bake {
 
 enum class Wrap { repeat, clamp, mirror };
 
-/// Index in [0, n) of sample i of a repeated, mirrored (the border sample occurs twice) or clamped row of n samples.
+/// Index in [0, n) of the sample at any position i of a row of n samples. `mirror` repeats the border sample.
 int wrap_index(int i, int n, Wrap wrap) noexcept;
 
 /// Largest degree of a border polynomial. Higher degrees are lowered to it, and to n - 1 for a row of n samples, in all

@@ -11,31 +11,31 @@ namespace bake {
 /// Height above the surface and its slopes per unit of u and v, all in object units.
 template <class T> struct Height { T b = 0, b_u = 0, b_v = 0; };
 
-/// Which grey a picture's channels give.
+/// How the channels of a picture become one grey value.
 enum class Grey { mean, r, g, b, a, luma };
 
-/// A grayscale texture in memory and what its file says of it.
+/// A grayscale texture in memory and the description of its file.
 struct HeightTexture {
     Image<float> values; ///< one channel; [0,1] for integer files
     ImageInfo info;
-    int levels = 0;  ///< different values used in one channel, counted up to 257
-    double step = 0; ///< between neighbouring levels; 0: too fine to matter (float files)
+    int levels = 0;  ///< number of different values in one channel, counted up to 257
+    double step = 0; ///< difference of neighbouring levels; 0: too small to matter (float files)
 };
 
-/// Reads a height: never sRGB-decoded; `mean` averages the colour channels and leaves alpha out; luma weighs them by
-/// Rec. 709. Throws as read_image, and Error{Refusal::unsuitable} for a channel the file does not have or for NaN, Inf and
-/// values beyond 1e12 (with their count and first place).
+/// Reads a height picture, without decoding sRGB. `mean` averages the colour channels, without alpha; `luma` weights
+/// them by Rec. 709. Throws as read_image, and Error{Refusal::unsuitable} if the file lacks the channel or has NaN, Inf
+/// or values beyond 1e12 (the message has their count and the position of the first).
 HeightTexture read_height(const std::string& path, Grey grey = Grey::mean, const ReadLimits& limits = {});
 
-/// 1 - value everywhere: for textures whose black is high.
+/// Replaces every value by 1 - value, for textures in which black is high.
 void invert(HeightTexture& height);
 
-/// The height box-filtered by whole factors to at least width x height: what a smaller map can show without aliasing.
+/// Box-filters the height by integer factors to at least width x height texels, against aliasing in smaller maps.
 Image<float> box_minify(const Image<float>& values, int width, int height);
 
 struct HeightOptions {
     double amplitude = 1;  ///< height of white above black, object units
-    double midlevel = 0.5; ///< the value that lies on the surface
+    double midlevel = 0.5; ///< value whose height is 0
     Wrap wrap_u = Wrap::repeat;
     Wrap wrap_v = Wrap::repeat;
 };
@@ -49,13 +49,13 @@ enum class Interpolation {
 /// Values between texel centres, and their analytic derivatives.
 template <class T> class HeightSampler {
 public:
-    /// Copies what it needs of the one-channel image.
+    /// Copies the values of the one-channel image, or computes their spline coefficients.
     HeightSampler(const Image<T>& values, Interpolation interpolation, const HeightOptions& options);
 
-    /// Height and slopes per unit of u and v at any finite u, v. Beyond a clamped border the height is that of the
-    /// border and its slope across the border 0.
+    /// Height and slopes per unit of u and v at any finite u, v. Beyond a clamped border the height is that at
+    /// the border, and the slope across the border is 0.
     Height<T> at(T u, T v) const noexcept { return sample<T>(u, v); }
-    /// The same with coordinates and weights of another precision than the values'.
+    /// The same, computed in the precision of U.
     template <class U> Height<U> sample(U u, U v) const noexcept;
 
 private:

@@ -4,9 +4,9 @@
 
 namespace bake {
 
-/// The first three colour channels of a picture, taken as stored: never sRGB-decoded, [0,1] for integer files.
-/// Throws as read_image, and Error{Refusal::unsuitable} for a picture with fewer than three colour channels or with NaN,
-/// Inf and values beyond 1e12 (with their count and first place).
+/// The first three colour channels of a picture, without decoding sRGB; [0,1] for integer files. Throws as read_image,
+/// and Error{Refusal::unsuitable} for a picture with fewer than three colour channels or with NaN, Inf or values beyond
+/// 1e12 (the message has their count and the position of the first).
 Image<float> read_vector_height(const std::string& path, ImageInfo* info = nullptr);
 
 } // namespace bake

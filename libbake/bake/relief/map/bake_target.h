@@ -1,4 +1,4 @@
-// What a normal map is baked with: its options, and the mesh that it is for.
+// Options of a normal map, and the mesh that it is baked for.
 #pragma once
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/displaced_normal.h"
@@ -13,7 +13,7 @@ enum class Space {
 };
 
 struct NormalMapOptions {
-    int width = 0, height = 0; ///< texels of the map; 0: as the height
+    int width = 0, height = 0; ///< size of the map in texels; 0: that of the height
     NormalMethod method = NormalMethod::exact;
     HeightOptions height_options;
     Filter filter = Filter::automatic;
@@ -22,14 +22,14 @@ struct NormalMapOptions {
     int padding = 16;     ///< texels filled beyond the charts' borders
 };
 
-/// The mesh side of a bake, made once: the jets, the tangent space, and which triangle lies under each texel.
+/// What a bake needs of its mesh, computed once: jets, tangent space, and the triangle under each texel.
 struct BakeTarget {
     MeshSurface surface;
     std::vector<Vec4f> tangents; ///< corners
     UvRaster raster;
     ConstantScale<float> scale; ///< mean |p_u| and |p_v| over the charts
 };
-/// The mesh must outlive it. Throws Error{Refusal::unsuitable} for a mesh without uvs (`path` is named in it).
+/// The mesh must outlive the result. Throws Error{Refusal::unsuitable}, which names `path`, for a mesh without uvs.
 BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// Bump lookup table: the slopes (b_u, b_v) of a height texture at its texel centres, v up, positive where it rises.
+// Bump lookup table: the slopes (b_u, b_v) of a height texture at its texel centres. v points up; rising is positive.
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/relief/height/height.h"
@@ -14,7 +14,7 @@ enum class SlopeUnits {
     difference, ///< h[+1] - h[-1], the plain two-sided difference: twice the slope per texel
     texel,      ///< height per texel
     uv,         ///< height per unit of u and of v
-    world,      ///< height per object unit, the picture being extent_u x extent_v
+    world,      ///< height per object unit, for a picture of extent_u x extent_v object units
 };
 
 struct BumpTableOptions {
@@ -23,29 +23,29 @@ struct BumpTableOptions {
     Wrap wrap_v = Wrap::repeat;
     SlopeUnits units = SlopeUnits::uv;
     double amplitude = 1; ///< height of white above black, object units
-    double extent_u = 0;  ///< object units the picture is wide; 0: 1
-    double extent_v = 0;  ///< object units it is high; 0: extent_u times its height over its width
+    double extent_u = 0;  ///< width of the picture in object units; 0: 1
+    double extent_v = 0;  ///< height of the picture; 0: extent_u * its rows / its columns
 };
 
-/// What `automatic` stands for: sobel for 256 levels or fewer, whose steps it amplifies least; c2 otherwise.
+/// Resolves `automatic`: sobel for heights of at most 256 levels, because it amplifies their steps least, otherwise c2.
 Filter resolve_filter(Filter filter, const HeightTexture& height) noexcept;
 
-/// Object units per picture along u and v, the defaults filled in.
+/// Width and height of the picture in object units, with the defaults resolved.
 Vec2d resolve_extent(double extent_u, double extent_v, int width, int height) noexcept;
 
-/// Factors from slope per texel to the units asked for.
+/// Factors from slope per texel to `options.units`, along u and v.
 Vec2d slope_scale(const BumpTableOptions& options, int width, int height) noexcept;
 
 /// What a texel of a table holds.
 enum class TableLayout {
     slopes,     ///< (b_u, b_v), v up
-    bumpslopes, ///< OpenImageIO's (h, s, t, s^2, t^2, s t): s = dh/ds, t = dh/dt with t DOWN the picture
+    bumpslopes, ///< OpenImageIO's (h, h_s, h_t, h_s^2, h_t^2, h_s h_t); t points DOWN the picture
 };
 
-/// The table row by row, from any thread.
+/// Computes the table row by row, on any thread.
 class BumpTable {
 public:
-    /// The height must outlive it.
+    /// The height must outlive this object.
     BumpTable(const HeightTexture& height, const BumpTableOptions& options, TableLayout layout = TableLayout::slopes);
     int width() const noexcept { return height_.values.width(); }
     int height() const noexcept { return height_.values.height(); }
@@ -63,8 +63,8 @@ private:
     SlopeFilter<float> slopes_;
 };
 
-/// Hands the table to `consume(values, rows)` in bands of a multiple of 64 rows, from the top, while later bands are
-/// being computed: it need never be whole in memory.
+/// Calls consume(values, rows) for bands of the table from the top down, while later bands are computed, so that the
+/// table is never in memory as a whole. All bands but the last have a multiple of 64 rows.
 void for_bands(const BumpTable& table, const std::function<void(const float*, int)>& consume,
                Progress* progress = nullptr);
 
@@ -72,11 +72,11 @@ void for_bands(const BumpTable& table, const std::function<void(const float*, in
 Image<float> bump_table(const HeightTexture& height, const BumpTableOptions& options,
                         TableLayout layout = TableLayout::slopes);
 
-/// The code whose range is the largest magnitude in the table; 1 for a table of zeros.
+/// The code whose range is the largest absolute value in the table; range 1 for a table of zeros.
 SlopeCode code_for(const BumpTable& table);
 
-/// The next mip: half the size, rounded down, at least 1; each texel the mean by area of what it covers, so that first
-/// and second moments stay right (slopes and their squares filter linearly, normals do not).
+/// The next mip level: half the size, rounded down, at least 1. A texel is the area-weighted mean of the texels that it
+/// covers, which preserves first and second moments (slopes and their squares can be averaged, normals cannot).
 Image<float> halve(const BumpTable& table);
 Image<float> halve(const Image<float>& image);
 

@@ -12,33 +12,33 @@
 
 namespace bake {
 
-/// How N' is found, best first.
+/// How N' is computed, most accurate first.
 enum class NormalMethod {
     exact,            ///< every term
-    blinn,            ///< drops b n_u and b n_v: right while |b * curvature| stays under about 0.5 %
-    surface_gradient, ///< n - grad b: blinn's normal, from the surface gradient
-    constant_scale,   ///< blinn with one constant length per unit of u and of v, and a square frame
+    blinn,            ///< drops b n_u and b n_v: accurate while |b * curvature| is below about 0.5 %
+    surface_gradient, ///< n - grad b: the direction of blinn, from the surface gradient
+    constant_scale,   ///< blinn with constant |p_u| and |p_v|, and an orthogonal frame
 };
 inline constexpr NormalMethod all_normal_methods[] = {NormalMethod::exact, NormalMethod::blinn,
                                                       NormalMethod::surface_gradient, NormalMethod::constant_scale};
 /// "exact", "blinn", "surface-gradient", "constant-scale"
 std::string_view name(NormalMethod method) noexcept;
 
-/// What constant_scale takes |p_u| and |p_v| to be: object units per unit of u and of v, equal all over the surface.
+/// |p_u| and |p_v| that constant_scale uses everywhere on the surface, in object units per unit of u and of v.
 template <class T> struct ConstantScale { T u = 1, v = 1; };
 
-/// N', outward, not normalised. For exact and blinn its length is the area of the displaced (du,dv) cell over that of
-/// the method's own terms; it is 0 where the surface folds or the chart has a pole. The caller decides what 0 means.
+/// N', outward, not normalised. For exact and blinn its length is the area of the displaced cell (du, dv) per du dv,
+/// from the terms that the method keeps; it is 0 at a fold and at a pole of the chart. The caller decides what 0 means.
 template <class T>
 Vec3<T> displaced_normal(const Jet<T>& s, const Height<T>& h, NormalMethod method,
                          const ConstantScale<T>& scale = {}) noexcept;
 
-/// Whether the surface displaced by b turns inside out there, along one principal direction or both: min(1 + b a_i) <= 0,
-/// a_i the principal curvatures. The sign of N' . n is not enough: it is positive again where both directions turned.
-/// False where the chart has no area.
+/// True if displacement by b turns the surface inside out along one or both principal directions: min(1 + b a_i) <= 0
+/// for the principal curvatures a_i. The sign of N' . n is not sufficient, because it is positive where both are
+/// reversed. False where the chart has no area.
 template <class T> bool folds(const Jet<T>& s, T b) noexcept;
 
-// What follows is here so that loops over texels can have it inline.
+// The definitions are in the header so that loops over texels can inline them.
 
 namespace detail {
 
@@ -57,7 +57,7 @@ template <class T> inline Vec3<T> gradient_normal(const Jet<T>& s, const Height<
     return s.n - gradient;
 }
 
-// The frame is unit p_u and its perpendicular towards +v: right only where the chart is square and evenly scaled.
+// The frame is unit p_u and its perpendicular towards +v: exact only if p_u and p_v are perpendicular everywhere.
 template <class T>
 inline Vec3<T> constant_scale_normal(const Jet<T>& s, const Height<T>& h, const ConstantScale<T>& scale) noexcept {
     const Vec3<T> t = unit_or_zero(s.p_u);

@@ -1,13 +1,13 @@
-// The error a bake states of itself: estimated from the map it bakes, before anyone measures it.
+// The error budget of a bake, estimated from the map that is baked.
 //
-// All figures are root mean square angles of the normal in degrees, over a lattice of texels of the map itself:
-// - filter: the filter's slopes against those of a filter of order 128 at the same texels (sharp_stencil), less the
-//   share of that difference which quantisation noise explains. It sees the map's own spectrum;
-// - quantisation: white noise of step / sqrt 12 through the filter's weights (ORACLES.md section 3), turned into angle by
-//   the local metric and slope;
-// - encoding: the sampled normals stored and read back;
-// - method: the chosen method's normal against `exact` at the samples;
-// - total: 1.5 times the root of the sum of their squares, the bound that tests hold the measured error to.
+// All values are root mean square angles of the normal in degrees, over a lattice of texels of the map:
+// - filter: difference between the slopes of the filter and those of a filter of order 128 (sharp_stencil), without the
+//   part that quantisation noise explains. It depends on the spectrum of the map;
+// - quantisation: white noise of step / sqrt 12, weighted by the filter and converted to an angle by the local metric
+//   and slope;
+// - encoding: difference between the normals and the same normals written and read back;
+// - method: difference between the normals of the chosen method and of `exact`;
+// - total: 1.5 times the root of the sum of the squares. Tests check that the measured error is below it.
 #pragma once
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/displaced_normal.h"
@@ -23,32 +23,32 @@ struct ErrorBudget {
 
 struct BudgetInput {
     const Image<float>* values = nullptr; ///< the height at the resolution that is baked
-    double step = 0;                      ///< quantisation step of its values
+    double step = 0;                      ///< quantisation step of the values
     HeightOptions options;
     Filter filter = Filter::central; ///< not automatic
     NormalMethod method = NormalMethod::exact;
     ConstantScale<double> scale;
-    int lattice = 96; ///< samples a side, at most
+    int lattice = 96; ///< largest number of samples per side
     /// The base surface at (u, v); nothing where the chart is empty.
     std::function<std::optional<Jet<double>>(double u, double v)> jet;
-    /// The angle (radians) by which storing changes the unit normal n there.
+    /// Angle in radians between the unit normal n at a sample and the same normal written and read back.
     std::function<double(const Jet<double>& jet, const Height<double>& h, const Vec3d& n)> encoding_angle;
 };
 
 ErrorBudget error_budget(const BudgetInput& input);
 
-/// The filter whose total is smallest on this height, when that is less than three quarters of `own`, the budget of
-/// input.filter; nothing when input.filter is good enough.
+/// The filter with the smallest total on this height, if that total is below three quarters of the total of `own`, the
+/// budget of input.filter; otherwise nothing.
 struct FilterAdvice {
     Filter filter;
     double total_deg;
 };
 std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own);
 
-/// Angle between two vectors, radians; exact for small ones, 0 where one is zero.
+/// Angle between two vectors in radians, accurate for small angles; 0 if a vector is zero.
 double angle_between(const Vec3d& a, const Vec3d& b) noexcept;
 
-/// A float as half precision keeps it (round to nearest even; no overflow handling above 65504).
+/// A float rounded to half precision (to nearest even). Values above 65504 are not handled.
 float as_half(float value) noexcept;
 
 } // namespace bake

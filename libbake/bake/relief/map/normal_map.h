@@ -1,4 +1,4 @@
-// Normal maps from a height: on a plane, or on a UV-mapped mesh with the mesh's own metric and curvature.
+// Normal maps of a height on a plane, or on a UV-mapped mesh with the metric and curvature of the mesh.
 #pragma once
 #include "bake/picture/pad_texels.h"
 #include "bake/relief/map/bake_target.h"
@@ -9,7 +9,7 @@ namespace bake {
 
 class Progress;
 
-/// What became of the texels of a map on a mesh.
+/// Counts of the texels of a map on a mesh, and of faces that are not baked.
 struct NormalMapReport {
     std::int64_t covered = 0, border = 0, overlapped = 0; ///< as UvRaster
     std::int64_t outside_faces = 0, crossing_faces = 0;   ///< as UvRaster
@@ -25,9 +25,9 @@ struct NormalMapReport {
 /// Height and slopes at the texel centres of a map.
 class HeightField {
 public:
-    /// If the map has the size of the height, `filter` gives the slopes. If it is smaller, the height is box-filtered
-    /// first by whole factors; where texel centres differ, value and filtered slopes are interpolated (Catmull-Rom; the
-    /// spline itself for c2). The height must outlive it.
+    /// Slopes are computed by `filter`. If the map is smaller than the height, the height is first box-filtered by
+    /// integer factors. If texel centres differ, values and filtered slopes are interpolated (Catmull-Rom; for c2 the
+    /// spline itself). The height must outlive this object.
     HeightField(const HeightTexture& height, const HeightOptions& options, Filter filter, int width, int height_texels);
     /// The heights and slopes (per unit of u and v) of row y of the map.
     void row(int y, Height<float>* out, SlopeFilter<float>::Scratch& scratch) const;

@@ -2,7 +2,7 @@
 //
 //   level = round(slope / range * 32767) + 32768
 //
-// A slope of 0 has a level of its own. The range is part of the file: bump-table writes to_text(code) as the picture's
+// The level 32768 means slope 0. The range is stored in the file: bump-table writes to_text(code) as the picture's
 // description, and slope_code() reads it from there.
 #pragma once
 #include <cmath>
@@ -24,7 +24,7 @@ struct SlopeCode {
 /// "slope = (level - 32768) / 32767 * RANGE"
 std::string to_text(const SlopeCode& code);
 
-/// The code that a picture's description (ImageInfo::description) states; nothing where it states none.
+/// The code in a picture's description (ImageInfo::description); nothing if the description has none.
 std::optional<SlopeCode> slope_code(std::string_view description);
 
 } // namespace bake

@@ -9,24 +9,24 @@ struct SurfaceOptions {
     bool flat = false; ///< facet normals and facet tangents; else smooth ones
 };
 
-/// Per corner: unit normal n, and p_u, p_v, averaged over the face corners at the vertex that share its uv chart
-/// (position, uv and normal alike, same orientation in uv), each by its area in uv. The mesh must outlive the surface.
+/// Normal and derivatives per corner. p_u and p_v are averages over the corners with the same position, uv, normal and
+/// orientation in uv, weighted by the uv areas of their triangles. The mesh must outlive the surface.
 struct MeshSurface {
     const Mesh* mesh = nullptr;
-    std::vector<Triangle> triangles; ///< as triangulate(mesh) gives them
-    std::vector<Vec3f> n; ///< corners; unit; the file's own, else angle-weighted per position; zero where none exists
-    std::vector<Vec3f> p_u, p_v; ///< corners; zero where the chart has no area or the mesh no uv
-    std::vector<float> sigma;    ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv
+    std::vector<Triangle> triangles; ///< those of triangulate(mesh)
+    std::vector<Vec3f> n;            ///< corners; unit normals, see corner_normals()
+    std::vector<Vec3f> p_u, p_v;     ///< corners; zero without uvs or area in uv
+    std::vector<float> sigma;        ///< triangles; -1 mirrored in uv, +1 otherwise, 0 without area in uv
     bool flat = false;
 };
 
 MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options = {});
 
-/// The corner normals alone, one unit vector per corner: the file's own where it has them, else the mean of the facet
-/// normals around the position weighted by their angles there; zero where no face has area.
+/// One unit normal per corner: the normal of the mesh if the corner has one, otherwise the mean of the facet normals
+/// around its position, weighted by the angles of the facets; zero if no facet there has area.
 std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles);
 
-/// What the jets of one triangle share, fetched once for many of them.
+/// Values that all jets of one triangle share.
 template <class T> struct TrianglePatch {
     Vec3<T> p[3], n[3], p_u[3], p_v[3]; ///< corners
     Vec3<T> own_u, own_v;               ///< p_u and p_v of the triangle's plane
@@ -62,7 +62,7 @@ template <class T> inline Jet<T> jet_at(const TrianglePatch<T>& s, T b1, T b2) n
     jet.p_u = across(mix(s.p_u));
     jet.p_v = across(mix(s.p_v));
     if (!outward()) {
-        // A quad folded over in uv: its corners' derivatives are those of its other side. The triangle's own are not.
+        // In a quad that is folded over in uv, the derivatives at a corner can have the opposite orientation.
         jet.p_u = across(s.own_u);
         jet.p_v = across(s.own_v);
         if (!outward()) return Jet<T>{.sigma = 0};

@@ -8,21 +8,21 @@
 
 namespace bake {
 
-/// One (T, sign) per corner, T unit and perpendicular to the corner's normal, B = sign * cross(N, T) along +v.
+/// One (T, sign) per corner: T is a unit vector perpendicular to the normal N; B = sign * cross(N, T) points along +v.
 /// All arrays have one value per corner; face f has corners [face_begin[f], face_begin[f + 1]), three or four of them.
-/// Corners whose position, normal and uv are exactly equal share a vertex. Degenerate triangles (two equal positions,
-/// or no area in uv) borrow the space of a neighbour at the same vertex, and give (1, 0, 0, -1) where there is none, as
-/// the reference does; (1, 0, 0, sign) where dp/du runs along the normal. Finite for any input without NaN.
+/// Corners whose position, normal and uv are exactly equal share a vertex. As in the reference, degenerate triangles
+/// (two equal positions, or no area in uv) use the tangents of another triangle at the same vertex, or (1, 0, 0, -1) if
+/// there is none; (1, 0, 0, sign) if dp/du is parallel to the normal. The result is finite for any input without NaN.
 std::vector<Vec4f> corner_tangents(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                                    std::span<const Vec2f> uvs, std::span<const std::uint32_t> face_begin);
 
-/// The same for a mesh: `normals` holds one unit normal per corner (see corner_normals); triangles and quads go in as
-/// they are, larger polygons as the triangles given (a corner keeps the tangent of the first triangle that has it).
-/// Faces with a corner without uv are left out: their corners get (1, 0, 0, +1).
+/// The same for a mesh. `normals` has one unit normal per corner (see corner_normals). Triangles and quads are used as
+/// they are; of a larger polygon its `triangles` are used, and a corner gets the tangent of the first triangle that has
+/// it. Faces with a corner without uv are skipped: their corners get (1, 0, 0, +1).
 std::vector<Vec4f> corner_tangents(const Mesh& mesh, const std::vector<Triangle>& triangles,
                                    std::span<const Vec3f> normals);
 
-/// Gives the mesh tangents of its triangles and of its own normals, and normals where it has none; nothing without uvs.
+/// Adds tangents to a mesh, and normals where it has none. Does nothing if the mesh has no uvs.
 void add_tangents(Mesh& mesh);
 
 } // namespace bake

@@ -1,7 +1,7 @@
 // Triangles of a UV chart on an integer grid, and the texels that they cover.
 //
 // Corners are snapped to a grid of about 2^30 steps across the unit square, which is finer than the rounding of float
-// uvs. From there on, whether a triangle covers a texel is decided in integers, without rounding. Triangles inside the
+// uvs. After that, whether a triangle covers a texel is decided in integers, without rounding. Triangles inside the
 // unit square need 64 bits, others 128.
 #pragma once
 #include "bake/mesh/triangulate.h"
@@ -63,8 +63,8 @@ inline bool inside_square(const GridBox& box, const TexelGrid& grid) noexcept {
     return box.x0 >= 0 && box.y0 >= 0 && box.x1 <= grid.step * grid.width && box.y1 <= grid.step * grid.height;
 }
 
-/// Whether the closed triangle (which may be a segment or a point) and the closed unit square have a point in common: true
-/// unless a side of one of them separates them.
+/// Whether the closed triangle (which may be a segment or a point) and the closed unit square have a point in common:
+/// true unless a side of one of them separates them.
 inline bool touches_square(const GridTriangle& c, const GridBox& box, const TexelGrid& grid) noexcept {
     const std::int64_t right = grid.step * grid.width, bottom = grid.step * grid.height;
     if (box.x1 < 0 || box.y1 < 0 || box.x0 > right || box.y0 > bottom) return false;
@@ -132,8 +132,8 @@ template <class I> I floored(I a, I b, bool& exact) noexcept { // b > 0
     return quotient - (rest < 0);
 }
 
-/// The texels of row y whose centre is in or on the triangle. With `reach`: those whose square touches the half-planes of
-/// all three edges. `owned`, if not null, receives the texels whose centre belongs to this triangle alone.
+/// The texels of row y whose centre is in or on the triangle. With `reach`: those whose square touches the half-planes
+/// of all three edges. `owned`, if not null, receives the texels whose centre belongs to this triangle alone.
 template <class I>
 TexelSpan span_of(const TexelTriangle<I>& shape, const TexelGrid& grid, int y, bool reach, TexelSpan* owned = nullptr) {
     const I step = grid.step, half = step / 2, center = I(y) * step + half;

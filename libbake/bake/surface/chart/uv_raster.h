@@ -6,10 +6,10 @@
 namespace bake {
 
 /// Point on a triangle: position = (1 - b1 - b2) corner[0] + b1 corner[1] + b2 corner[2].
-/// Members are not initialised, so that creating an image does not write it twice.
+/// Members are not initialised, because initialising a large image takes time.
 struct TexelHit {
-    std::uint32_t triangle; ///< index in the triangles given, no_index where the texel is empty
-    float b1, b2;           ///< 0 where the texel is empty
+    std::uint32_t triangle; ///< index of the triangle, no_index if the texel is empty
+    float b1, b2;           ///< 0 if the texel is empty
 };
 
 struct UvRaster {
@@ -22,13 +22,13 @@ struct UvRaster {
     std::int64_t degenerate = 0;     ///< triangles without area in uv, which cover nothing
 };
 
-/// Rasters the unit square [0,1]^2 of the UV chart at width x height texels; no image when either is below 1.
-/// A texel whose centre lies in or on a triangle gets that triangle and its exact barycentrics; where several claim it
-/// the lowest face wins, so the result does not depend on the number of threads. A texel whose centre lies in none but
-/// whose square touches a triangle gets the nearest point of the nearest such triangle (lowest face on ties): charts
-/// are conservative at their borders. A centre on an edge that faces share is inside one of them only, so that faces
-/// side by side do not overlap. Faces that have a corner without uv are skipped; triangles come in the order of faces.
-/// Corners are snapped to a grid of 2^30 steps per unit; uvs are clamped to +-10^8.
+/// Rasterises the unit square [0,1]^2 of the UV chart to width x height texels; the image is empty if either is below
+/// 1. A texel whose centre lies in or on a triangle gets that triangle and its exact barycentrics. If several faces
+/// contain the centre, the lowest face is used, so that the result does not depend on the number of threads. A texel
+/// whose centre lies in no triangle, but whose square touches one, gets the nearest point of the nearest such triangle
+/// (of the lowest face on ties): rasterisation is conservative at chart borders. A centre on a shared edge counts as
+/// inside only one of the faces, so that adjacent faces do not overlap. Faces with a corner without uv are skipped.
+/// `triangles` are in the order of faces. Corners are snapped to 2^30 steps per unit; uvs are clamped to +-10^8.
 UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height);
 
 } // namespace bake

@@ -1,5 +1,5 @@
-// Where everything of a tessellated surface is stored: the segments of all edges and cells, and from them every index of
-// the mesh.
+// Layout of a tessellated surface: the segments of all edges and cells, and the indices of the mesh that follow
+// from them.
 //
 // Points are numbered vertices first, then those inside edges (along the edge), then those inside cells. The normal and
 // the uv of a point have its number. Where sides differ, the first group has that number and the normals and uvs of the

@@ -1,4 +1,4 @@
-// A surface as a mesh to write: normals, tangents and curvatures at its corners, and the patch and parameters of each.
+// Converts a surface to a mesh for writing: normals, tangents, curvatures, and the patch and parameters of each corner.
 #pragma once
 #include "bake/mesh/triangulate.h"
 #include "bake/surface/patch/base_surface.h"
@@ -10,7 +10,7 @@ class Progress;
 /// What a BaseSurface was made from.
 enum class SurfaceKind { mesh, limit, shape };
 
-/// What is wrong at a point.
+/// Why quantities do not exist at a point.
 enum class Degenerate : unsigned char {
     none,
     pole,           ///< p_u x p_v is 0, but there is a normal: the limit, or that of the meridian
@@ -18,7 +18,7 @@ enum class Degenerate : unsigned char {
     no_chart,       ///< a normal, but no area in uv: p_u and p_v do not exist
 };
 
-/// Everything about one point, with respect to the uv chart.
+/// The quantities of one point, with respect to the uv chart.
 struct SurfaceValues {
     Vec3d p{0}, n{0}, p_u{0}, p_v{0};
     double sigma = 0; ///< -1 on mirrored charts, 0 without chart
@@ -29,7 +29,7 @@ struct SurfaceValues {
 /// (`has_uv` false) no_chart is not reported.
 SurfaceValues surface_values(const SurfacePoint& point, bool has_uv) noexcept;
 
-/// Where a triangle of the mesh lies: all three corners are points of one patch.
+/// Patch and parameters of a triangle of the mesh. Its three corners are in one patch.
 struct TrianglePlace {
     std::uint32_t patch;
     Vec2d st[3];
@@ -52,9 +52,9 @@ struct SurfaceMesh {
     std::vector<std::uint32_t> corner_sample; ///< corners
 };
 
-/// Meshes and shapes keep their faces; of a limit surface every patch becomes rate x rate quads or rate^2 triangles. With unit normals, MikkTSpace tangents where there are uvs,
-/// and the attributes mean_curvature and gauss_curvature. At a degenerate corner normal and curvatures are those of a
-/// point 1/1024 of the way to the middle of the patch, so that a sphere has its curvature at the poles too.
+/// Meshes and shapes keep their faces; each patch of a limit surface becomes rate x rate quads or rate^2 triangles. Has
+/// unit normals, MikkTSpace tangents if there are uvs, and the attributes mean_curvature and gauss_curvature. At a
+/// degenerate corner they are those of a point 1/1024 of the way to the middle of the patch, e.g. at a sphere's pole.
 /// Throws Error{Refusal::unsuitable} for more corners than a mesh can have.
 SurfaceMesh surface_mesh(const BaseSurface& surface, SurfaceKind kind, int rate = 1, Progress* progress = nullptr);
 

@@ -1,5 +1,5 @@
-// How one patch becomes faces: a lattice inside, and strips of triangles between the lattice and sides that have other
-// rates.
+// Splits one patch into faces: a lattice inside, and strips of triangles between the lattice and sides that have
+// other rates.
 //
 //   quad      corners (0,0) (1,0) (1,1) (0,1), sides from each to the next
 //   triangle  corners (0,0) (1,0) (0,1)
