@@ -2,6 +2,7 @@
 // allocated once and every piece knows its place in them (and what a negative index is relative to); the second reads.
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/obj.h"
@@ -336,13 +337,13 @@ void allocate(const Counts& total, Mesh& mesh) {
     const std::int64_t arrays = 7, grain = total.positions + total.corners < 65536 ? arrays : 1;
     for_rows(arrays, grain, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t array = begin; array < end; ++array) switch (array) {
-            case 0: mesh.corner_position.resize(total.corners); break;
-            case 1: mesh.corner_uv.resize(total.uvs ? total.corners : 0); break;
-            case 2: mesh.corner_normal.resize(total.normals ? total.corners : 0); break;
-            case 3: mesh.positions.resize(total.positions); break;
-            case 4: mesh.normals.resize(total.normals); break;
-            case 5: mesh.uvs.resize(total.uvs); break;
-            default: mesh.face_begin.resize(total.faces + 1); break;
+            case 0: resize_in_pages(mesh.corner_position, total.corners); break;
+            case 1: resize_in_pages(mesh.corner_uv, total.uvs ? total.corners : 0); break;
+            case 2: resize_in_pages(mesh.corner_normal, total.normals ? total.corners : 0); break;
+            case 3: resize_in_pages(mesh.positions, total.positions); break;
+            case 4: resize_in_pages(mesh.normals, total.normals); break;
+            case 5: resize_in_pages(mesh.uvs, total.uvs); break;
+            default: resize_in_pages(mesh.face_begin, total.faces + 1); break;
             }
     });
 }

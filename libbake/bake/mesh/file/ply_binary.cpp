@@ -1,4 +1,5 @@
 #include "bake/base/error.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/ply_body.h"
@@ -204,7 +205,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
                        const PlyLayout& layout, std::uint64_t vertices, const std::string& path, PlyBody& body) {
     const auto faces = std::size_t(element.rows);
     Mesh& mesh = body.mesh;
-    mesh.face_begin.resize(faces + 1);
+    resize_in_pages(mesh.face_begin, faces + 1);
     // Where a row starts is known only from the row before: one thread finds the blocks, all read them.
     std::vector<Block> blocks;
     std::size_t corners = 0;
@@ -222,7 +223,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
         mesh.face_begin[f + 1] = std::uint32_t(corners);
     }
     if (corners >= no_index) throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 corners; split the mesh");
-    mesh.corner_position.resize(corners);
+    resize_in_pages(mesh.corner_position, corners);
     if (layout.texcoord >= 0) body.texcoord.resize(corners);
 
     for_rows(std::int64_t(faces), grain, [&](std::int64_t begin, std::int64_t last) {
