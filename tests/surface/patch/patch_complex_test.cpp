@@ -153,7 +153,7 @@ TEST_SUITE("stability") {
                     std::isfinite(glm::length(point.jet.p_u) + glm::length(point.jet.n_u) + glm::length(point.jet.n)));
             }
         CHECK(at(base, 7, 0.2, 0.2).jet.sigma == 0);
-        CHECK(glm::length(at(base, 7, 0.2, 0.2).jet.n) == docApprox(1)); // the limit normal, so that it can move
+        CHECK(glm::length(at(base, 7, 0.2, 0.2).jet.n) == doctest::Approx(1)); // the limit normal, so that it can move
         CHECK(angle_deg(at(base, 1, 0.5, 0.5).jet.n, {0, 0, 1}) < 1e-6);
     }
 
@@ -167,7 +167,7 @@ TEST_SUITE("stability") {
     }
 }
 
-TEST_SUITE("real" * docskip(no_shared_data())) {
+TEST_SUITE("real" * doctest::skip(no_shared_data())) {
 
     TEST_CASE("patch_complex: Spot is a closed complex of genus 0, cage and triangles; its edges agree") {
         for (const char* name : {"spot_control_mesh.obj", "spot_quadrangulated.obj", "spot_triangulated.obj"}) {
