@@ -4,6 +4,7 @@
 #include "picture/openimageio.h"
 #include "picture/png_bytes.h"
 #include <cmath>
+#include <cstring>
 #include <random>
 
 using namespace bake;
@@ -130,6 +131,30 @@ TEST_SUITE("unit") {
         for (std::size_t i = 0; i < image.size(); ++i)
             most = std::max(most, std::abs(back.data()[i] - image.data()[i]));
         CHECK(most <= 0.51f / 65535);
+    }
+
+    TEST_CASE("png: the first row of a group of blocks is filtered against the last row of the group before it") {
+        // Each value is half of the one before it plus noise. Filtering by the average is best where the row above is 0
+        // (the values' deviation from it is .87 of that from the left neighbour), and filtering by the row above is best
+        // in every later row, because all rows are the same.
+        std::mt19937 random(2);
+        Image<float> row(4500, 1, 1);
+        for (int x = 0, value = 128; x < row.width(); ++x) {
+            value = value / 2 + 32 + int(random() % 64);
+            row.at(x, 0) = float(value) / 255;
+        }
+        const Folder folder;
+        const std::string path = folder / "a.png";
+        const int height = 1900; // 8.5 MB; a group has 8 MiB
+        ImageWriter writer(path, row.width(), height, 1, {.depth = Depth::u8});
+        for (int y = 0; y < height; ++y) writer.write(row.data(), 1);
+        writer.finish();
+        const Image<float> back = read_image(path);
+        int wrong = 0;
+        for (int y = 0; y < height; ++y)
+            wrong += std::memcmp(back.row(y), back.row(0), row.size() * sizeof(float)) != 0;
+        CHECK(wrong == 0);
+        CHECK(std::abs(back.at(17, 0) - row.at(17, 0)) < 1e-6f);
     }
 
     TEST_CASE("png: rows that repeat cost a small part of what noise does") {

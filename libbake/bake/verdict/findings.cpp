@@ -117,6 +117,19 @@ bool printable(const std::string& name) {
 
 bool is_lossy(const ImageCheck& c) { return c.info.format == "jpeg"; }
 
+struct NormalCounts {
+    double not_unit, mean_length; ///< part of the texels that are more than 2 % off unit length; mean length of all
+    std::size_t inward;           ///< normals that point into the surface
+};
+/// `not_unit_rule` and `inward_rule` say what follows from normals of either kind.
+void warn_of_normals(const NormalCounts& c, const std::string& not_unit_rule, const std::string& inward_rule,
+                     Findings& out) {
+    if (c.not_unit > 0.1)
+        out.warnings.push_back(percent(c.not_unit) + " of the normals are more than 2 % off unit length (mean " +
+                               number(c.mean_length) + ")" + not_unit_rule);
+    add_if(out.warnings, c.inward, "normal|that point into the surface", inward_rule);
+}
+
 void add_image_notes(const ImageCheck& c, Findings& out) {
     if (c.looks == Looks::grey && c.colour_channels == 3 && c.tint > 0)
         out.notes.push_back("grey, but its channels differ by up to " + number(c.tint) +
@@ -176,13 +189,9 @@ Findings judge(const ImageReport& report) {
             "only " + std::to_string(c.grey.levels) + " levels in use, in [" + number(c.grey.min) + ", " +
             number(c.grey.max) +
             "]: slopes are quantised; export the height normalised, with 16 bits, or use `dequantise`");
-    if (c.looks == Looks::normal_map) {
-        if (c.not_unit > 0.1)
-            out.warnings.push_back(percent(c.not_unit) + " of the normals are more than 2 % off unit length (mean " +
-                                   number(c.normal_length) + "); normalise them before use");
-        add_if(out.warnings, share_of(c.inward, c.info.width, c.info.height), "normal|that point into the surface",
-               "blue below half");
-    }
+    if (c.looks == Looks::normal_map)
+        warn_of_normals({c.not_unit, c.normal_length, share_of(c.inward, c.info.width, c.info.height)},
+                        "; normalise them before use", "blue below half", out);
     add_image_notes(c, out);
     return out;
 }
@@ -205,11 +214,8 @@ Findings judge(const PairReport& report) {
     if (c.directx)
         out.warnings.push_back(
             "DirectX green: y points down in the normal map; bake with `directx` to match, or flip its green");
-    if (c.not_unit > 0.1)
-        out.warnings.push_back(percent(c.not_unit) + " of the normals are more than 2 % off unit length (mean " +
-                               number(c.normal_length) + "): normalised before use");
-    add_if(out.warnings, share_of(c.inward, report.normal_width, report.normal_height),
-           "normal|that point into the surface", "blue at or below half, which has no slope");
+    warn_of_normals({c.not_unit, c.normal_length, share_of(c.inward, report.normal_width, report.normal_height)},
+                    ": normalised before use", "blue at or below half, which has no slope", out);
     if (report.height_width != report.normal_width || report.height_height != report.normal_height)
         out.warnings.push_back("sizes differ: compared at " + std::to_string(c.width) + " x " +
                                std::to_string(c.height));

@@ -19,6 +19,23 @@ bool has_shape(const SkyFormatEntry& format, int width, int height) noexcept {
     return std::int64_t(width) * format.rows == std::int64_t(height) * format.columns;
 }
 
+/// Whether a picture can have the shape of both formats; a strip may also lie on its side.
+consteval bool share_shape(const SkyFormatEntry& a, const SkyFormatEntry& b) {
+    const bool lies = (a.layout == CubeLayout::strip) != (b.layout == CubeLayout::strip);
+    return a.columns * b.rows == a.rows * b.columns || (lies && a.columns * b.columns == a.rows * b.rows);
+}
+consteval bool are_distinct_shapes() {
+    for (std::size_t i = 0; i < sky_formats.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (sky_formats[i].known_by_shape && sky_formats[j].known_by_shape &&
+                share_shape(sky_formats[i], sky_formats[j]))
+                return false;
+    return true;
+}
+static_assert(are_distinct_shapes(),
+              "sky_formats: two entries of the same shape cannot both be known_by_shape, because "
+              "the second would never be chosen");
+
 const SkyFormatEntry& format_of(const std::string& file, const Image<float>& image, const ImageInfo& info) {
     const int w = image.width(), h = image.height();
     std::string alike;
