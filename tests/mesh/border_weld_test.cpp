@@ -3,7 +3,7 @@
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/weld.h"
 #include "mesh/file/mesh_files.h"
-#include <numeric>
+#include <set>
 
 using namespace bake;
 using namespace bake_tests;
@@ -61,18 +61,21 @@ TEST_SUITE("unit") {
         Mesh reversed = mesh;
         reversed.corner_position.clear();
         for (std::size_t f = mesh.faces(); f-- > 0;)
-            for (int k = 0; k < 4; ++k) reversed.corner_position.push_back(mesh.corner_position[4 * f + std::size_t(k + 2) % 4]);
+            for (int k = 0; k < 4; ++k)
+                reversed.corner_position.push_back(mesh.corner_position[4 * f + std::size_t(k + 2) % 4]);
         weld_borders(mesh, 1e-4, "t.obj");
         weld_borders(reversed, 1e-4, "t.obj");
         for (std::size_t f = 0; f < mesh.faces(); ++f)
             for (std::size_t k = 0; k < 4; ++k)
-                CHECK(reversed.corner_position[4 * (mesh.faces() - 1 - f) + k] == mesh.corner_position[4 * f + (k + 2) % 4]);
+                CHECK(reversed.corner_position[4 * (mesh.faces() - 1 - f) + k] ==
+                      mesh.corner_position[4 * f + (k + 2) % 4]);
     }
 
     TEST_CASE("weld_borders: points that touch without an edge, sides of the same direction and insides stay apart") {
         // Two quads that touch at one corner, and two quads one above the other.
-        Mesh mesh = read_text("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 1e-5\nv 2 1 0\nv 2 2 0\nv 1 2 0\n"
-                                       "v 0 0 1e-5\nv 1 0 1e-5\nv 1 1 1.1e-5\nv 0 1 1e-5\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n");
+        Mesh mesh = read_text("t.obj",
+                              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 1e-5\nv 2 1 0\nv 2 2 0\nv 1 2 0\n"
+                              "v 0 0 1e-5\nv 1 0 1e-5\nv 1 1 1.1e-5\nv 0 1 1e-5\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n");
         const auto corners = mesh.corner_position;
         CHECK(weld_borders(mesh, 1e-4, "t.obj").edges == 0);
         CHECK(mesh.corner_position == corners);

@@ -1,6 +1,6 @@
 // Meshes far from zero: their positions keep the digits that the file has.
-#include "bake/mesh/origin.h"
 #include "bake/mesh/check/mesh_distance.h"
+#include "bake/mesh/origin.h"
 #include "mesh/file/mesh_files.h"
 #include "oracle/surfaces.h"
 
@@ -69,11 +69,13 @@ TEST_SUITE("unit") {
         CHECK(mesh.positions[0].x == 0.1f);
     }
 
-    TEST_CASE("read_mesh: OBJ and PLY with coordinates of a map grid, in several pieces of the file and in every PLY format") {
+    TEST_CASE("read_mesh: OBJ and PLY with coordinates of a map grid, in several pieces of the file and in every PLY "
+              "format") {
         std::string obj, rows;
         const int count = 40000;
         for (int i = 0; i < count; ++i) {
-            const std::string p = "448262." + std::to_string(100000 + i) + " 120.25 5411932." + std::to_string(200000 + 7 * i);
+            const std::string p =
+                "448262." + std::to_string(100000 + i) + " 120.25 5411932." + std::to_string(200000 + 7 * i);
             obj += "v " + p + "\n";
             rows += p + "\n";
         }
@@ -95,8 +97,9 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("read_mesh: 32-bit positions far from zero have lost their digits, which a note says") {
-        std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        std::string bytes =
+            "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
         const float values[] = {1e6f, 0, 0, 1e6f + 1, 0, 0, 1e6f, 1, 0};
         bytes.append(reinterpret_cast<const char*>(values), sizeof values);
         bytes += char(3);

@@ -41,12 +41,12 @@ TEST_SUITE("unit") {
 
     TEST_CASE("read_mesh: within a smoothing group normals are averaged, wherever in the file its faces stand") {
         // Groups 1 (z), 2 (y) and 1 again (x): the sides along x and z are smooth to each other, those along y are flat.
-        const Mesh mesh = cube([](int f) { return f % 2 ? std::string() : "s " + std::string(f == 2 ? "2" : "1") + "\n"; });
+        const Mesh mesh =
+            cube([](int f) { return f % 2 ? std::string() : "s " + std::string(f == 2 ? "2" : "1") + "\n"; });
         for (std::size_t c = 0; c < 24; ++c) {
             const Vec3f n = normal(mesh, c), p = mesh.positions[mesh.corner_position[c]];
             const bool y = c / 4 == 2 || c / 4 == 3;
-            const Vec3f expected =
-                y ? axes[c / 4] : Vec3f(Vec3f(p.x * 2 - 1, 0, p.z * 2 - 1) * float(std::sqrt(0.5)));
+            const Vec3f expected = y ? axes[c / 4] : Vec3f(Vec3f(p.x * 2 - 1, 0, p.z * 2 - 1) * float(std::sqrt(0.5)));
             CHECK(glm::distance(n, expected) < 1e-6f);
         }
         // The two faces along y that meet at no edge share no normal.
@@ -66,13 +66,15 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("read_mesh: corners with vn keep it, the others follow their group") {
-        const Mesh mesh = cube([](int f) { return f == 0 ? std::string("s off\n") : std::string(); }, "vn 1 2 3\n", "//1");
+        const Mesh mesh =
+            cube([](int f) { return f == 0 ? std::string("s off\n") : std::string(); }, "vn 1 2 3\n", "//1");
         for (std::size_t c = 0; c < 24; ++c)
             CHECK(glm::distance(normal(mesh, c), c < 8 ? Vec3f(1, 2, 3) : axes[c / 4]) < 1e-6f);
     }
 
     TEST_CASE("read_mesh: smoothing groups and faces without area, polygons and many pieces of the file") {
-        CHECK(read_text("t.obj", "s off\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n").corner_normal[0] == no_index);
+        CHECK(read_text("t.obj", "s off\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n").corner_normal[0] ==
+              no_index);
         std::string text = "s off\n";
         const int faces = 30000; // more than one piece
         for (int i = 0; i < faces; ++i) {

@@ -14,7 +14,8 @@ std::string ascii(const std::string& quality, const std::string& tangent) {
     for (const char* name : {"x", "y", "z", "s", "t", "tx", "ty", "tz", "tw", "quality", "flow_0", "flow_1"})
         text += std::string("property float ") + name + "\n";
     text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    text += "0 0 0 0 0 1 0 0 1 .5 1 2\n1 0 0 1 0 1 0 0 " + tangent + " " + quality + " 3 4\n0 1 0 0 1 1 0 0 1 .25 5 6\n";
+    text +=
+        "0 0 0 0 0 1 0 0 1 .5 1 2\n1 0 0 1 0 1 0 0 " + tangent + " " + quality + " 3 4\n0 1 0 0 1 1 0 0 1 .25 5 6\n";
     return text + "3 0 1 2\n";
 }
 
@@ -47,7 +48,8 @@ TEST_SUITE("unit") {
         CHECK(whole.attributes.size() == 2);
         CHECK(whole.tangents.size() == 3);
         CHECK(whole.notes.empty());
-        for (const char* bad : {"nan", "-nan", "NaN", "inf", "-inf", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#INF", "1e99"}) {
+        for (const char* bad :
+             {"nan", "-nan", "NaN", "inf", "-inf", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#INF", "1e99"}) {
             const Mesh mesh = read_text("t.ply", ascii(bad, "1"));
             REQUIRE(mesh.attributes.size() == 1);
             CHECK(mesh.attributes[0].name == "flow");
@@ -82,17 +84,19 @@ TEST_SUITE("unit") {
                                    {"tex_u", "tex_v"},
                                    {"tx", "ty"},
                                    {"U", "V"}}) {
-            std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+            std::string text =
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
             for (const std::string name : {u, v}) text += "property float " + name + "\n";
             const std::string rest = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
             const Mesh mesh = read_text("t.ply", text + rest + "0 0 0 0 0\n1 0 0 .5 0\n0 1 0 0 .25\n3 0 1 2\n");
             CHECK(mesh.uvs == std::vector<Vec2f>{{0, 0}, {.5f, 0}, {0, .25f}});
             CHECK(mesh.attributes.empty());
         }
-        const Mesh both = read_text("t.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                             "property float z\nproperty float u1\nproperty float v1\nproperty float u\n"
-                                             "property float v\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                             "end_header\n0 0 0 9 9 0 0\n1 0 0 9 9 1 0\n0 1 0 9 9 0 1\n3 0 1 2\n");
+        const Mesh both =
+            read_text("t.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                               "property float z\nproperty float u1\nproperty float v1\nproperty float u\n"
+                               "property float v\nelement face 1\nproperty list uchar int vertex_indices\n"
+                               "end_header\n0 0 0 9 9 0 0\n1 0 0 9 9 1 0\n0 1 0 9 9 0 1\n3 0 1 2\n");
         CHECK(both.uvs == std::vector<Vec2f>{{0, 0}, {1, 0}, {0, 1}});
         CHECK(both.attributes.size() == 2);
     }

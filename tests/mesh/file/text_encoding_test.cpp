@@ -6,11 +6,13 @@ using namespace bake_tests;
 
 namespace {
 
-const std::string obj = "# H\xc3\xbcgel \xf0\x9f\x8f\x94\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-                        "g gro\xc3\x9f\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+const std::string obj =
+    "# H\xc3\xbcgel \xf0\x9f\x8f\x94\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "g gro\xc3\x9f\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 /// UTF-8 to units of `width` bytes.
 std::string encoded(const std::string& text, int width, bool big, bool mark) {
