@@ -45,8 +45,8 @@ struct ReliefFile {
 /// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
 ReliefFile load_relief(const DisplaceArgs& args, double size);
 
-/// Reads the camera file if --camera names one.
-DisplaceOptions resolve_options(const DisplaceArgs& args, double size);
+/// Reads the camera file if --camera names one. `origin` is that of the mesh.
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin);
 
 /// "2G", "1.5GiB", "500M" or bytes. Throws Error{Refusal::usage}.
 std::uint64_t parse_bytes(const std::string& flag, const std::string& text);

@@ -45,12 +45,13 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet || common.json);
     const BaseSurface base = make_base(args);
     DisplaceOutcome o;
+    for (const std::string& line : base.mesh().notes) note(common, args.surface.name() + ": " + line);
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
     const ReliefFile file = load_relief(args, o.size);
-    const DisplaceOptions options = resolve_options(args, o.size);
+    const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     o.max_error = options.rates.error;
     o.described = file.described;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;

@@ -43,6 +43,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     const Loaded loaded = load(args);
     watch.lap("read");
+    for (const std::string& line : loaded.surface.mesh().notes) note(common, title + ": " + line);
 
     if (!args.out.empty()) const OutputFile writable(args.out);
     SurfaceMapOptions options{.padding = args.padding};
@@ -61,6 +62,10 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         progress.start("maps", options.height);
         maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
         watch.lap("maps");
+        const Vec3d& origin = mesh.mesh.origin;
+        if (origin != Vec3d(0) && std::count(quantities.begin(), quantities.end(), MapQuantity::position))
+            note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,
+                                origin.y, origin.z));
     }
     progress.finish();
     if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));

@@ -4,6 +4,7 @@
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/origin.h"
 #include <map>
 #include <tuple>
 
@@ -52,7 +53,9 @@ void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bo
     throw_if_interrupted();
     Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v}];
     if (!shape) {
-        scene.shapes.push_back(make_shape(read_mesh(entry.file, {.flip_v = entry.flip_v}), {.flat = entry.flat}));
+        Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v});
+        move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+        scene.shapes.push_back(make_shape(std::move(mesh), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
     }
     const Material& material = *scene.materials[entry.material + 1];

@@ -1,4 +1,5 @@
 // Warnings and notes of the reports.
+#include "bake/base/text.h"
 #include "bake/verdict/inspect.h"
 #include <algorithm>
 #include <cmath>
@@ -32,8 +33,14 @@ void add_if(std::vector<std::string>& list, std::size_t count, const std::string
     if (count > 0) list.push_back(counted(count, what) + ": " + rest);
 }
 
+/// With two digits, not below the value.
+std::string rounded_up(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+    return format("%.2g", std::ceil(value / unit + 0.01) * unit);
+}
+
 void judge_topology(const MeshCheck& c, Findings& out) {
-    const Topology& t = c.welded;
+    const Connectivity& t = c.welded;
     add_if(out.warnings, t.nonmanifold_edges, "non-manifold edge",
            "shared by three faces or more; normals and subdivision are undefined there");
     if (t.nonmanifold_edges == 0)
@@ -59,6 +66,10 @@ void judge_topology(const MeshCheck& c, Findings& out) {
                             " repeat another position; according to the indices there are " +
                             counted(c.topology.boundary_edges, "boundary edge") + " and " +
                             counted(c.topology.components, "component"));
+    if (c.gaps.edges > 0)
+        out.notes.push_back("borders nearly touch: " + counted(c.gaps.edges, "boundary edge") +
+                            " lie on others, up to " + number(c.gaps.widest) +
+                            " apart; displace and surface join them if `weld` is " + rounded_up(c.gaps.widest));
     if (c.faces_without_normal == c.faces)
         out.notes.push_back("no normals: smooth normals are computed from the faces");
     else

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/mesh/gltf/io.h"
+#include "bake/mesh/origin.h"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -38,8 +39,11 @@ MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) 
     report.check = check_mesh(mesh, triangles, options.mesh);
     report.uv = check_uvs(mesh, triangles, options.uv);
     report.audited = options.audit;
+    report.origin = mesh.origin;
     if (options.audit) report.audit = audit(mesh, triangles);
+    report.audit.first_place += mesh.origin;
     report.findings = judge(report);
+    report.findings.notes.insert(report.findings.notes.end(), mesh.notes.begin(), mesh.notes.end());
     return report;
 }
 
@@ -48,8 +52,13 @@ DistanceReport inspect_distance(const std::string& path, const std::string& othe
     report.file = path;
     report.other = other_path;
     report.limit = options.limit;
-    const Mesh mesh = read_mesh(path), other = read_mesh(other_path);
+    const Mesh mesh = read_mesh(path);
+    Mesh other = read_mesh(other_path);
+    move_origin(other, mesh.origin);
     report.distance = mesh_distance(mesh, triangulate(mesh), other, triangulate(other), options.distance);
+    for (Vec3d* place : {&report.distance.there.farthest, &report.distance.there.nearest,
+                         &report.distance.back.farthest, &report.distance.back.nearest})
+        *place += mesh.origin;
     report.findings = judge(report);
     return report;
 }

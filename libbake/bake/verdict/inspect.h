@@ -39,6 +39,7 @@ struct MeshReport {
     std::string file;
     std::optional<GltfParts> gltf;
     MeshCheck check;
+    Vec3d origin{0}; ///< of the mesh: to be added to the box of `check`
     UvCheck uv;
     bool audited = false;
     MeshAudit audit;

@@ -15,7 +15,7 @@ void add(Json& json, const Findings& findings) {
     json["warnings"] = findings.warnings;
 }
 
-Json topology(const Topology& t) {
+Json topology(const Connectivity& t) {
     return {{"edges", t.edges},
             {"boundary_edges", t.boundary_edges},
             {"boundary_loops", t.boundary_loops},
@@ -105,8 +105,9 @@ std::string to_json(const MeshReport& report) {
                         {"images", gltf->images},
                         {"missing_images", gltf->missing_images},
                         {"tangents", gltf->tangents}};
-    json["min"] = {c.box.min.x, c.box.min.y, c.box.min.z};
-    json["max"] = {c.box.max.x, c.box.max.y, c.box.max.z};
+    const Vec3d min = report.origin + Vec3d(c.box.min), max = report.origin + Vec3d(c.box.max);
+    json["min"] = {min.x, min.y, min.z};
+    json["max"] = {max.x, max.y, max.z};
     json["diagonal"] = c.diagonal;
     json["area"] = c.area;
     json["topology"] = topology(c.welded);

@@ -91,7 +91,7 @@ std::string normal_row(const char* name, const NormalDeviation& there, const Nor
 
 std::string to_text(const MeshReport& report) {
     const MeshCheck& c = report.check;
-    const Topology& t = c.welded;
+    const Connectivity& t = c.welded;
     std::string text = report.file + "\n";
     text += row("mesh", format("%zu positions, %zu faces (%s), %zu corners, %zu triangles", c.positions, c.faces,
                                face_sizes(c).c_str(), c.corners, c.triangles));
@@ -102,8 +102,11 @@ std::string to_text(const MeshReport& report) {
                                 plural(gltf->normal_textures, "normal texture", "normal textures") + ", " +
                                 plural(gltf->images, "image", "images") +
                                 (gltf->tangents ? ", tangents of its own" : ", no tangents"));
-    text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x,
-                                 c.box.min.y, c.box.min.z, c.box.max.x, c.box.max.y, c.box.max.z, c.diagonal, c.area));
+    const Vec3d min = report.origin + Vec3d(c.box.min), max = report.origin + Vec3d(c.box.max);
+    const int digits = report.origin == Vec3d(0) ? 5 : 12; // of a mesh far from zero the first digits are all equal
+    text +=
+        row("bounds", format("(%.*g %.*g %.*g) to (%.*g %.*g %.*g), diagonal %.5g, area %.5g", digits, min.x, digits,
+                             min.y, digits, min.z, digits, max.x, digits, max.y, digits, max.z, c.diagonal, c.area));
     text += row("topology", plural(t.components, "component", "components") +
                                 format(" (%zu closed), ", t.closed_components) +
                                 plural(t.boundary_edges, "boundary edge", "boundary edges") + " in " +

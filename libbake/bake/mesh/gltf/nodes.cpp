@@ -65,8 +65,8 @@ std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes,
         if (nodes[i].mesh >= 0) {
             GltfPlacement place{i, {}};
             for (std::size_t k = 0; k < 16; ++k) {
-                place.to_world[k] = float(to_world[k]);
-                if (!std::isfinite(place.to_world[k])) refuse(visit.node, "has a transform that is not finite");
+                place.to_world[k] = to_world[k];
+                if (!std::isfinite(float(to_world[k]))) refuse(visit.node, "has a transform that is not finite");
             }
             out.push_back(place);
         }

@@ -25,7 +25,7 @@ struct GltfSourceNode {
 /// A node that has a mesh.
 struct GltfPlacement {
     std::size_t node;
-    std::array<float, 16> to_world;
+    Transform to_world;
 };
 
 /// The nodes with meshes, each before its descendants. Throws Error{Refusal::unreadable} for a child that does not

@@ -33,7 +33,7 @@ Mesh make_arrays(const PatchLayout& layout, const Mesh& base) {
             if (!base.face_group.empty()) resize_in_pages(mesh.face_group, layout.faces);
         }
     });
-    mesh.materials = base.materials, mesh.groups = base.groups;
+    mesh.materials = base.materials, mesh.groups = base.groups, mesh.origin = base.origin;
     return mesh;
 }
 
