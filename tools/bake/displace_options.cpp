@@ -126,8 +126,8 @@ void check_usage(const DisplaceArgs& args) {
     if (!args.max_memory.empty()) parse_bytes("--max-memory", args.max_memory);
 }
 
-BaseSurface make_base(const DisplaceArgs& args) {
-    BaseSurface surface = read_surface(surface_input(args));
+BaseSurface make_base(const DisplaceArgs& args, std::vector<std::string>& notes) {
+    BaseSurface surface = read_surface(surface_input(args), notes);
     if (surface.mesh().corner_uv.empty())
         throw Error(Refusal::unsuitable,
                     args.surface.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");

@@ -33,8 +33,9 @@ void check_usage(const DisplaceArgs& args);
 /// The level of a refinement or limit surface for which the user gives no rate.
 inline constexpr int default_levels = 3;
 
-/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface.
-BaseSurface make_base(const DisplaceArgs& args);
+/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface. `notes` receives those
+/// of read_mesh().
+BaseSurface make_base(const DisplaceArgs& args, std::vector<std::string>& notes);
 
 /// The relief, and how its file is described.
 struct ReliefFile {

@@ -18,7 +18,9 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
     if (input.uv != glm::clamp(input.uv, 0.0, 1.0))
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
     const HeightTexture height = load_height(args.map.height);
-    const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
+    std::vector<std::string> notes;
+    const Mesh mesh = read_mesh(args.map.mesh, args.map.read, &notes);
+    note_all(common, args.map.mesh, notes);
     input.mesh = &mesh;
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);

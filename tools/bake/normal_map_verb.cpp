@@ -39,19 +39,21 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     const HeightTexture height = load_height(args.height);
     Mesh mesh;
-    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
+    std::vector<std::string> mesh_notes;
+    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read, &mesh_notes);
     watch.lap("read");
     const NormalMapOptions options = resolve_options(args, height, mesh);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
     NormalMapResult result;
+    result.mesh_notes = std::move(mesh_notes);
     if (args.mesh.empty()) {
         const Vec2d given = args.extent.empty() ? Vec2d(0) : parse_pair("--extent", args.extent);
         const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
         check_steepness(args.amplitude, options.height_options.amplitude, std::min(extent.x, extent.y));
         result = bake_plane(height, options, extent, depth, progress);
     } else {
-        const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height);
+        const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
         result = bake_mesh(height, target, options, depth, progress);
     }
@@ -62,6 +64,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     writer.finish();
     watch.lap("write");
     print(args, height, result, options, watch, common.json);
+    note_all(common, args.mesh, result.mesh_notes);
     warn(common, args, result.report);
     if (args.mesh.empty() && args.amplitude.empty())
         note(common, "amplitude 1: white lies as high above black as the picture is wide; --amplitude sets it");

@@ -11,14 +11,16 @@ namespace {
 struct Loaded {
     BaseSurface surface;
     SurfaceKind kind;
-    int rate = 1;     ///< cells along the edges of a cage's patches
-    std::string what; ///< one line, such as "torus; 96 x 48 cells"
+    int rate = 1;                     ///< cells along the edges of a cage's patches
+    std::string what;                 ///< one line, such as "torus; 96 x 48 cells"
+    std::vector<std::string> notes{}; ///< of reading the mesh
 };
 
 Loaded load(const SurfaceArgs& args) {
     constexpr int default_rate = 4;
     const std::pair<int, int> cells = args.resolution.empty() ? std::pair(0, 0) : parse_resolution(args.resolution);
-    BaseSurface surface = read_surface(args.surface, cells);
+    std::vector<std::string> notes;
+    BaseSurface surface = read_surface(args.surface, notes, cells);
     const std::size_t faces = surface.mesh().faces(), patches = surface.complex().patches.size();
     if (!args.surface.shape.empty()) {
         const ParametricSurface shape(args.surface.shape);
@@ -28,12 +30,13 @@ Loaded load(const SurfaceArgs& args) {
         return {std::move(surface), SurfaceKind::shape, 1, what};
     }
     if (!args.surface.scheme)
-        return {std::move(surface), SurfaceKind::mesh, 1, args.surface.mesh + format(": mesh, %zu faces", faces)};
+        return {std::move(surface), SurfaceKind::mesh, 1, args.surface.mesh + format(": mesh, %zu faces", faces),
+                notes};
     const int rate = cells.first ? cells.first : default_rate;
     const std::string what =
         format(": %s limit of a cage of %zu faces, %zu patches of %d x %d cells",
                *args.surface.scheme == Scheme::catmark ? "Catmull-Clark" : "Loop", faces, patches, rate, rate);
-    return {std::move(surface), SurfaceKind::limit, rate, args.surface.mesh + what};
+    return {std::move(surface), SurfaceKind::limit, rate, args.surface.mesh + what, notes};
 }
 
 int run(const SurfaceArgs& args, const CommonArgs& common) {
@@ -45,7 +48,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     watch.lap("read");
 
     if (!args.out.empty()) const OutputFile writable(args.out);
-    SurfaceMapOptions options{.padding = args.padding};
+    SurfaceMapOptions options{.padding = args.padding, .tile = args.tile};
     std::tie(options.width, options.height) = parse_size(args.size);
     std::vector<MapQuantity> quantities;
     if (!args.maps.empty()) quantities = parse_maps(args.maps);
@@ -73,6 +76,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
         if (!args.out.empty()) object["out"] = args.out;
         for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
+        if (!loaded.notes.empty()) object["mesh_notes"] = loaded.notes;
         if (!maps.empty()) object["texels"] = to_json(report);
         object["seconds"] = watch.to_json();
         std::printf("%s\n", object.dump(2).c_str());
@@ -81,6 +85,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     print(loaded.what, mesh, summary);
     if (!maps.empty()) print(report, options);
     std::printf("%s\n", watch.to_text().c_str());
+    note_all(common, title, loaded.notes);
     warn(common, title, report);
     return 0;
 }

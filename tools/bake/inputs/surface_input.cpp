@@ -26,19 +26,20 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (!input.mesh.empty() && !input.shape.empty()) throw usage("--shape: stands instead of a mesh; give one of them");
     if (!input.shape.empty() && input.scheme)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
-    if (!input.shape.empty() && input.reading.flip_v)
-        throw usage("--flip-v: applies to mesh files; leave it out with --shape");
+    if (!input.shape.empty() && (input.reading.flip_v || input.reading.uv_set >= 0))
+        throw usage(std::string(input.reading.flip_v ? "--flip-v" : "--uv-set") +
+                    ": applies to mesh files; leave it out with --shape");
     if (!input.scheme && input.uv_smoothing != UvSmoothing::inside)
         throw usage("--uv-smoothing: applies to --subdivide catmark and loop; leave it out");
 }
 
-BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
+BaseSurface read_surface(const SurfaceInput& input, std::vector<std::string>& notes, std::pair<int, int> cells) {
     if (!input.shape.empty()) {
         const ParametricSurface shape(input.shape);
         if (cells.first == 0) cells = shape.default_resolution();
         return BaseSurface(shape, cells.first, cells.second);
     }
-    Mesh mesh = read_mesh(input.mesh, input.reading);
+    Mesh mesh = read_mesh(input.mesh, input.reading, &notes);
     if (!input.scheme) return BaseSurface(std::move(mesh));
     if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);
