@@ -33,7 +33,8 @@ void check_usage(const DisplaceArgs& args);
 /// The level of a refinement or limit surface for which the user gives no rate.
 inline constexpr int default_levels = 3;
 
-/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface.
+/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface. `notes` receives those
+/// of read_mesh().
 BaseSurface make_base(const DisplaceArgs& args);
 
 /// The relief, and how its file is described.

@@ -18,6 +18,7 @@ struct DisplaceOutcome {
     DisplaceReport report;
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
+    std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
 void print(const DisplaceArgs& args, const DisplaceOutcome& outcome);

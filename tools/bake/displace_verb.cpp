@@ -43,9 +43,9 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     OutputFile(args.out); // a file that cannot be written is refused before the work
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
-    const BaseSurface base = make_base(args);
     DisplaceOutcome o;
-    for (const std::string& line : base.mesh().notes) note(common, args.surface.name() + ": " + line);
+    const BaseSurface base = make_base(args);
+    o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();

@@ -12,6 +12,7 @@ struct NormalMapResult {
     std::optional<FilterAdvice> advice;
     double tilt_deg = 0;
     Filter filter = Filter::central;
+    std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
 /// The result as text or as one JSON object.

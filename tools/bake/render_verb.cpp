@@ -67,6 +67,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     encode(image, depth, settings.exposure);
     write_image(args.out, image, {.depth = depth});
     watch.lap("write");
+    for (const std::string& line : scene.notes) note(common, line);
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples too bright to store are black; dim the lights");
     report(args, scene, stats, watch, common.json);

@@ -11,8 +11,8 @@ namespace {
 struct Loaded {
     BaseSurface surface;
     SurfaceKind kind;
-    int rate = 1;     ///< cells along the edges of a cage's patches
-    std::string what; ///< one line, such as "torus; 96 x 48 cells"
+    int rate = 1;                     ///< cells along the edges of a cage's patches
+    std::string what;                 ///< one line, such as "torus; 96 x 48 cells"
 };
 
 Loaded load(const SurfaceArgs& args) {
@@ -43,10 +43,9 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     const Loaded loaded = load(args);
     watch.lap("read");
-    for (const std::string& line : loaded.surface.mesh().notes) note(common, title + ": " + line);
 
     if (!args.out.empty()) const OutputFile writable(args.out);
-    SurfaceMapOptions options{.padding = args.padding};
+    SurfaceMapOptions options{.padding = args.padding, .tile = args.tile};
     std::tie(options.width, options.height) = parse_size(args.size);
     std::vector<MapQuantity> quantities;
     if (!args.maps.empty()) quantities = parse_maps(args.maps);
@@ -78,6 +77,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
         if (!args.out.empty()) object["out"] = args.out;
         for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
+        if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
         if (!maps.empty()) object["texels"] = to_json(report);
         object["seconds"] = watch.to_json();
         std::printf("%s\n", object.dump(2).c_str());
@@ -86,6 +86,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     print(loaded.what, mesh, summary);
     if (!maps.empty()) print(report, options);
     std::printf("%s\n", watch.to_text().c_str());
+    note_all(common, title, loaded.surface.mesh().notes);
     warn(common, title, report);
     return 0;
 }

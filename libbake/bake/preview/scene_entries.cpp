@@ -49,11 +49,15 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     return material;
 }
 
-void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bool>, Shape*>& loaded, Scene& scene) {
+/// Shapes by their file and all options of reading.
+using ShapeCache = std::map<std::tuple<std::string, bool, bool, int>, Shape*>;
+
+void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
     throw_if_interrupted();
-    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v}];
+    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v, entry.uv_set}];
     if (!shape) {
-        Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v});
+        Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
+        for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
         move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
         scene.shapes.push_back(make_shape(std::move(mesh), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
@@ -113,7 +117,7 @@ Scene load(const SceneEntries& entries) {
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
         scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
-    std::map<std::tuple<std::string, bool, bool>, Shape*> shapes;
+    ShapeCache shapes;
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
 

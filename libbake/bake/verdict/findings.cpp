@@ -77,6 +77,24 @@ void judge_topology(const MeshCheck& c, Findings& out) {
                "other faces have normals; theirs are computed from the faces");
 }
 
+void judge_tiles(const UvCheck& uv, Findings& out) {
+    switch (uv.tiles.placement) {
+    case ChartPlacement::as_they_are: break;
+    case ChartPlacement::one_tile:
+        out.notes.push_back("the charts lie in one tile, " + names(uv.tiles.tiles) + ": a bake takes them modulo 1");
+        break;
+    case ChartPlacement::modulo_1:
+        out.notes.push_back("the charts lie in tiles " + names(uv.tiles.tiles) +
+                            " and do not overlap modulo 1: a bake takes them modulo 1");
+        break;
+    case ChartPlacement::several:
+        out.warnings.push_back("the charts lie in several tiles (" + names(uv.tiles.tiles) +
+                               ") and overlap modulo 1: a bake takes one tile, which `tile` names");
+        add_if(out.warnings, uv.outside_faces, "face|outside the UDIM tiles", "u below 0 or above 10, or v below 0");
+        add_if(out.warnings, uv.crossing_faces, "face|across the border of a UDIM tile", "baked only inside the tile");
+    }
+}
+
 void judge_uvs(const MeshReport& report, Findings& out) {
     const UvCheck& uv = report.uv;
     if (report.check.faces_without_uv == report.check.faces) {
@@ -90,8 +108,7 @@ void judge_uvs(const MeshReport& report, Findings& out) {
         out.warnings.push_back(
             "overlapping uvs: " + percent(uv.overlap) +
             " of the covered area belongs to more than one face; the first of them in the file is baked");
-    add_if(out.warnings, uv.outside_faces, "face|outside the UDIM tiles", "u below 0 or above 10, or v below 0");
-    add_if(out.warnings, uv.crossing_faces, "face|across the border of a UDIM tile", "baked only inside the tile");
+    judge_tiles(uv, out);
     add_if(out.notes, uv.mirrored_triangles, "mirrored triangle",
            "relief and tangents are correct (sigma = -1), text is mirrored");
     if (2 * uv.mirrored_triangles > report.check.triangles)
@@ -168,6 +185,7 @@ Findings judge(const MeshReport& report) {
     judge_topology(report.check, out);
     judge_uvs(report, out);
     if (const auto& gltf = report.gltf) {
+        out.notes.insert(out.notes.end(), gltf->notes.begin(), gltf->notes.end());
         add_if(out.warnings, gltf->missing_images, "missing image", "the textures that use it are missing too");
         if (gltf->normal_textures > 0 && !gltf->tangents)
             out.notes.push_back(

@@ -14,12 +14,14 @@ namespace {
 Mesh read_parts(const std::string& path, const InspectOptions& options, std::optional<GltfParts>& parts) {
     if (mesh_format(path) != MeshFormat::gltf) return read_mesh(path, options.read);
     Gltf gltf = read_gltf(path, {.flip_v = !options.read.flip_v});
+    take_texture_uvs(gltf, path, {.uv_set = options.read.uv_set, .flip_v = !options.read.flip_v});
     parts.emplace();
     parts->nodes = gltf.nodes.size();
     parts->images = gltf.images.size();
     for (const GltfImage& image : gltf.images) parts->missing_images += image.bytes.empty() ? 1 : 0;
     for (const GltfMaterial& material : gltf.materials) parts->normal_textures += material.normal ? 1 : 0;
     parts->tangents = !gltf.mesh.tangents.empty();
+    parts->notes = gltf.notes;
     return flatten(std::move(gltf));
 }
 

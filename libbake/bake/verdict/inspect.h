@@ -33,6 +33,7 @@ struct GltfParts {
     std::size_t normal_textures = 0; ///< materials with a normal texture
     std::size_t images = 0, missing_images = 0;
     bool tangents = false;
+    std::vector<std::string> notes; ///< what reading applied: skins, morph targets, instances, uv sets, transforms
 };
 
 struct MeshReport {

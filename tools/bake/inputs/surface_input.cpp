@@ -31,8 +31,9 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (!input.mesh.empty() && !input.shape.empty()) throw usage("--shape: stands instead of a mesh; give one of them");
     if (!input.shape.empty() && input.scheme)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
-    if (!input.shape.empty() && input.reading.flip_v)
-        throw usage("--flip-v: applies to mesh files; leave it out with --shape");
+    if (!input.shape.empty() && (input.reading.flip_v || input.reading.uv_set >= 0))
+        throw usage(std::string(input.reading.flip_v ? "--flip-v" : "--uv-set") +
+                    ": applies to mesh files; leave it out with --shape");
     if (!input.shape.empty() && !input.weld.empty())
         throw usage("--weld: applies to mesh files; leave it out with --shape");
     if (!input.weld.empty()) parse_length("--weld", input.weld);

@@ -15,7 +15,8 @@ struct SurfaceInput {
     const std::string& name() const { return shape.empty() ? mesh : shape; }
 };
 
-/// Adds the mesh, --shape, --uv-smoothing, --weld and --flip-v. Each verb adds --subdivide with the choices that it has.
+/// Adds the mesh, --shape, --uv-smoothing, --weld, --flip-v and --uv-set. Each verb adds --subdivide with the choices
+/// that it has.
 void add_surface_input(CLI::App& sub, SurfaceInput& input);
 
 /// Throws Error{Refusal::usage} for options that contradict each other, before any file is read.

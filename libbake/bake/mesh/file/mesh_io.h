@@ -6,6 +6,7 @@ namespace bake {
 
 struct MeshOptions {
     bool flip_v = false; ///< flips v of files that break the rule of their format (up in OBJ and PLY, down in glTF)
+    int uv_set = -1;     ///< set of uvs (TEXCOORD_n); -1: for glTF as in take_texture_uvs(), else set 0
 };
 
 /// Reads a mesh. The ending of the name selects the format: .obj, .ply, .gltf or .glb.
@@ -24,8 +25,9 @@ struct MeshOptions {
 /// Throws Error{Refusal::unreadable}, naming file, line (OBJ, ascii PLY) and reason: index 0 or out of range, a face of
 /// fewer than three corners, an invalid tag, NaN or Inf, counts larger than the file can hold, a truncated file, an
 /// unknown format. Throws Error{Refusal::unsuitable} for a file without faces, with 2^32 - 1 or more positions, uvs,
-/// normals or corners, or larger than the available memory.
+/// normals or corners, or larger than the available memory, and for a mesh without the set of uvs in the options.
 /// Memory: the file and the mesh. The mesh or the refusal does not depend on the number of threads.
+/// Mesh::notes has one line, without the path, for each thing that reading applied and that the mesh does not show.
 Mesh read_mesh(const std::string& path, const MeshOptions& options = {});
 
 /// Formats of mesh files. gltf: .gltf and .glb; read_gltf() also returns their materials and nodes.

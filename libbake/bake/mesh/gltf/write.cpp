@@ -235,6 +235,11 @@ void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, cons
     json info = {{"index", place_of(layout.root["textures"], std::move(source))}};
     if (texture->uv_set != 0) info["texCoord"] = texture->uv_set;
     if (scale && texture->scale != 1) info[scale] = texture->scale;
+    if (const GltfTransform& t = texture->transform; !(t == GltfTransform())) {
+        info["extensions"]["KHR_texture_transform"] = {
+            {"offset", {t.offset_u, t.offset_v}}, {"rotation", t.rotation}, {"scale", {t.scale_u, t.scale_v}}};
+        layout.root["extensionsUsed"] = {"KHR_texture_transform"};
+    }
     to[key] = std::move(info);
 }
 
