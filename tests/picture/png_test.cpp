@@ -160,7 +160,8 @@ TEST_SUITE("oracle") {
         for (const int channels : {1, 2, 3, 4})
             for (const Depth depth : {Depth::u8, Depth::u16}) {
                 const std::string path = folder / "a.png";
-                write_image(path, waves(61, 47, channels), {.depth = depth, .srgb = channels == 3});
+                write_image(path, waves(61, 47, channels),
+                            {.depth = depth, .colour = channels == 3 ? ColourSpace::srgb : ColourSpace::automatic});
                 ImageInfo info;
                 CHECK(same(read_image(path, &info), by_openimageio(folder, path)));
                 CHECK(info.srgb_tagged == (channels == 3));

@@ -184,6 +184,7 @@ Findings judge(const ImageReport& report) {
                "blue below half");
     }
     add_image_notes(c, out);
+    out.notes.insert(out.notes.end(), c.info.notes.begin(), c.info.notes.end());
     return out;
 }
 
