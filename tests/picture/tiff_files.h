@@ -93,7 +93,8 @@ void write_tiff(const std::string& path, const std::vector<TiffPicture>& picture
     TIFFClose(tiff);
 }
 inline void write_tiff(const std::string& path, const TiffPicture& picture, const char* mode = "w") {
-    write_tiff(path, {picture}, [](TIFF*) {}, mode);
+    write_tiff(
+        path, {picture}, [](TIFF*) {}, mode);
 }
 
 /// Levels without a pattern, the least and the largest among them.

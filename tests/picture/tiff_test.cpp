@@ -79,15 +79,20 @@ TEST_SUITE("oracle") {
         const std::string path = folder / "a.tif";
         struct {
             int bits, format;
-        } const depths[] = {{1, 1},  {2, 1},  {4, 1},  {8, 1}, {12, 1}, {16, 1}, {24, 1},
-                            {32, 1}, {8, 2}, {16, 2}, {32, 2}};
+        } const depths[] = {{1, 1},  {2, 1},  {4, 1}, {8, 1},  {12, 1}, {16, 1},
+                            {24, 1}, {32, 1}, {8, 2}, {16, 2}, {32, 2}};
         for (const auto& [bits, format] : depths)
             for (const int photometric : {PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_MINISWHITE})
                 for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE})
                     for (const bool tiled : {false, true}) {
                         if (format == 2 && photometric == PHOTOMETRIC_MINISWHITE) continue;
-                        TiffPicture p{.width = 37, .height = 21, .bits = bits, .format = format,
-                                      .photometric = photometric, .compression = compression, .tiled = tiled};
+                        TiffPicture p{.width = 37,
+                                      .height = 21,
+                                      .bits = bits,
+                                      .format = format,
+                                      .photometric = photometric,
+                                      .compression = compression,
+                                      .tiled = tiled};
                         p.levels = some_levels(37 * 21, bits);
                         write_tiff(path, p);
                         check_levels(path, p);
@@ -101,12 +106,21 @@ TEST_SUITE("oracle") {
         for (const bool planes : {false, true})
             for (const bool tiled : {false, true})
                 for (const int bits : {4, 8, 16, 32})
-                    pictures.push_back({.width = 37, .height = 21, .per_texel = 3, .bits = bits,
-                                        .photometric = PHOTOMETRIC_RGB, .tiled = tiled, .planes = planes});
+                    pictures.push_back({.width = 37,
+                                        .height = 21,
+                                        .per_texel = 3,
+                                        .bits = bits,
+                                        .photometric = PHOTOMETRIC_RGB,
+                                        .tiled = tiled,
+                                        .planes = planes});
         for (const int predictor : {1, 3})
             for (const int compression : {COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE})
-                pictures.push_back({.width = 37, .height = 21, .bits = 32, .format = SAMPLEFORMAT_IEEEFP,
-                                    .compression = compression, .predictor = predictor});
+                pictures.push_back({.width = 37,
+                                    .height = 21,
+                                    .bits = 32,
+                                    .format = SAMPLEFORMAT_IEEEFP,
+                                    .compression = compression,
+                                    .predictor = predictor});
         pictures.push_back({.width = 37, .height = 21, .bits = 32, .format = SAMPLEFORMAT_IEEEFP});
         pictures.push_back({.width = 37, .height = 21, .bits = 64, .format = SAMPLEFORMAT_IEEEFP});
         pictures.push_back(
@@ -116,7 +130,8 @@ TEST_SUITE("oracle") {
             p.levels = some_levels(std::size_t(p.width * p.height * p.per_texel), p.bits);
             for (std::size_t i = 0; i < p.levels.size() && p.format == SAMPLEFORMAT_IEEEFP; ++i) {
                 const double value = double(i) * 0.37 - 50;
-                p.levels[i] = p.bits == 32 ? std::bit_cast<std::uint32_t>(float(value)) : std::bit_cast<std::uint64_t>(value);
+                p.levels[i] =
+                    p.bits == 32 ? std::bit_cast<std::uint32_t>(float(value)) : std::bit_cast<std::uint64_t>(value);
             }
             for (const char* mode : {"wl", "wb", "w8"}) {
                 CAPTURE(std::string(mode));

@@ -72,7 +72,7 @@ bool has_palette(const std::string& format, const std::string& head) {
     const std::size_t palette = 14 + std::size_t(byte(14)), steps = (std::size_t(1) << byte(28)) - 1;
     for (std::size_t i = 0; i <= steps && palette + 4 * i + 2 < head.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            if (byte(palette + 4 * i + c) != 255 * i / steps) return true;
+            if (std::size_t(byte(palette + 4 * i + c)) != 255 * i / steps) return true;
     return false;
 }
 
