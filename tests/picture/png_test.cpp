@@ -83,6 +83,32 @@ TEST_SUITE("unit") {
         CHECK(grey.at(0, 0, 0) == doctest::Approx(7 / 255.0));
     }
 
+    TEST_CASE("png: a position on a page moves no texel, an orientation in eXIf is told, a palette too") {
+        const Folder folder;
+        const std::string path = folder / "a.png";
+        ImageInfo info;
+        const std::string offset = big_endian(1) + big_endian(std::uint32_t(-1)) + std::string(1, '\0');
+        write_file(path, png_bytes(2, 1, 8, 0, {"\x10\x20"}, png_chunk("oFFs", offset)));
+        Image<float> image = read_image(path, &info);
+        CHECK(image.at(0, 0) == doctest::Approx(16 / 255.0));
+        CHECK(image.at(1, 0) == doctest::Approx(32 / 255.0));
+        CHECK(info.notes.empty());
+
+        const std::string exif("MM\0*\0\0\0\10\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0", 26);
+        write_file(path, png_bytes(2, 1, 8, 0, {"\x10\x20"}, png_chunk("eXIf", exif)));
+        CHECK(read_image(path, &info).width() == 2);
+        REQUIRE(info.notes.size() == 1);
+        CHECK(info.notes[0].find("orientation 6") != std::string::npos);
+
+        write_file(path, png_bytes(2, 1, 1, 3, {"\x40"}, png_chunk("PLTE", std::string("\0\0\0\xff\xff\xff", 6))));
+        read_image(path, &info);
+        CHECK_FALSE(info.palette); // a ramp of greys
+        write_file(path, png_bytes(2, 1, 1, 3, {"\x40"}, png_chunk("PLTE", std::string("\xff\xff\xff\0\0\0", 6))));
+        image = read_image(path, &info);
+        CHECK(info.palette);
+        CHECK(image.at(0, 0) == 1);
+    }
+
     TEST_CASE("png: damage is refused, unless every texel is what it was") {
         const Folder folder;
         const std::string path = folder / "a.png", rows = std::string("\x01\x02", 2);
@@ -185,7 +211,8 @@ TEST_SUITE("oracle") {
         for (const int channels : {1, 2, 3, 4})
             for (const Depth depth : {Depth::u8, Depth::u16}) {
                 const std::string path = folder / "a.png";
-                write_image(path, waves(61, 47, channels), {.depth = depth, .srgb = channels == 3});
+                write_image(path, waves(61, 47, channels),
+                            {.depth = depth, .colour = channels == 3 ? ColourSpace::srgb : ColourSpace::automatic});
                 ImageInfo info;
                 CHECK(same(read_image(path, &info), by_openimageio(folder, path)));
                 CHECK(info.srgb_tagged == (channels == 3));

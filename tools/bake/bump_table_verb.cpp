@@ -33,7 +33,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     const Depth depth = resolve(args);
     Stopwatch watch;
     Progress progress(common.quiet);
-    const HeightTexture height = load_height(args.height);
+    const HeightTexture height = load_height(args.height, common);
     watch.lap("read");
     const BumpTable table(height, args.options, args.layout);
     BumpTableReport report{.height = height, .table = table};

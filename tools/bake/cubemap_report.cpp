@@ -36,7 +36,7 @@ bool has_seams(const EnvironmentReport& report) { return report.checked && !repo
 
 std::vector<std::string> cubemap_notes(const CubemapArgs& args, const EnvironmentReport& report,
                                        const EnvironmentWritten& written) {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = report.notes;
     if (report.format == SkyFormat::faces && report.naming.empty())
         notes.push_back("the names do not say which file is which face; taken in the order px nx py ny pz nz");
     if (report.mended.texels > 0)

@@ -134,13 +134,14 @@ BaseSurface make_base(const DisplaceArgs& args) {
     return surface;
 }
 
-ReliefFile load_relief(const DisplaceArgs& args, double size) {
+ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common) {
     ReliefFile file;
     ImageInfo info;
     if (args.vector) {
         file.relief.values = read_vectors(args, info, file.described);
+        print_notes(common, args.height.path, info);
     } else {
-        HeightTexture height = load_height(args.height);
+        HeightTexture height = load_height(args.height, common);
         info = height.info;
         file.described = describe_levels(height);
         file.relief.values = std::move(height.values);

@@ -44,7 +44,7 @@ struct ReliefFile {
     bool default_amplitude = false;
 };
 /// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
-ReliefFile load_relief(const DisplaceArgs& args, double size);
+ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common);
 
 /// Reads the camera file if --camera names one. `origin` is that of the mesh.
 DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin);

@@ -50,7 +50,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
-    const ReliefFile file = load_relief(args, o.size);
+    const ReliefFile file = load_relief(args, o.size, common);
     const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     o.max_error = options.rates.error;
     o.described = file.described;

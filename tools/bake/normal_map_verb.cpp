@@ -37,7 +37,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
-    const HeightTexture height = load_height(args.height);
+    const HeightTexture height = load_height(args.height, common);
     Mesh mesh;
     if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
     watch.lap("read");

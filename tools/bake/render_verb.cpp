@@ -59,13 +59,15 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
     watch.lap("load");
+    for (const std::string& line : scene.notes) note(common, line);
     Progress progress(common.quiet || common.json);
     RenderStats stats;
     Image<float> image = render(scene, scene.settings, &stats, &progress);
     progress.finish();
     watch.lap("render");
     encode(image, depth, settings.exposure);
-    write_image(args.out, image, {.depth = depth});
+    const bool shown = depth == Depth::u8 || depth == Depth::u16;
+    write_image(args.out, image, {.depth = depth, .colour = shown ? ColourSpace::srgb : ColourSpace::automatic});
     watch.lap("write");
     for (const std::string& line : scene.notes) note(common, line);
     if (stats.bad_samples > 0)

@@ -30,22 +30,23 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
     return texture;
 }
 
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache) {
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
+                                        std::vector<std::string>& notes) {
     auto material = std::make_unique<Material>();
     material->name = entry.name;
     material->bsdf = entry.bsdf;
     material->reflect = entry.reflect;
     if (!entry.albedo.empty())
         material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,
-                                  [&] { return read_albedo(entry.albedo, entry.albedo_space); });
+                                  [&] { return read_albedo(entry.albedo, entry.albedo_space, &notes); });
     if (!entry.bump_table.empty())
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
-                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale); });
+                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale, &notes); });
     if (!entry.normal_map.empty())
-        material->normal_map = cached(cache,
-                                      (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) +
-                                          " " + entry.normal_map,
-                                      [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
+        material->normal_map = cached(
+            cache,
+            (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
+            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes); });
     return material;
 }
 
@@ -69,11 +70,13 @@ void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
     add_instance(scene, *shape, material, entry.placement);
 }
 
-Cube load_sky(const SkyEntry& entry) {
-    if (entry.image.empty()) return read_cube(entry.faces, entry.space);
+Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
+    if (entry.image.empty()) return read_cube(entry.faces, entry.space, &notes);
     ReadEnvironmentOptions options;
     options.radiance = {.space = entry.space, .allow_negative = true};
-    Environment sky = read_environment({entry.image}, options);
+    EnvironmentReport report;
+    Environment sky = read_environment({entry.image}, options, &report);
+    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
     if (!sky.is_cube() || sky.edge_samples)
         sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
                            {Samples::one});
@@ -111,12 +114,14 @@ Scene load(const SceneEntries& entries) {
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
     scene.sky.scale = entries.sky.scale;
-    if (has_sky) scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky); });
+    if (has_sky)
+        scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
-        scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
+        scene.materials.push_back(
+            at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
     ShapeCache shapes;
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });

@@ -27,6 +27,11 @@ template <std::size_t N> Image<float> pick(const Image<float>& source, const std
     return picked;
 }
 
+void tell(const std::string& file, const ImageInfo& info, std::vector<std::string>* notes) {
+    for (const std::string& line : info.notes)
+        if (notes) notes->push_back(file + ": " + line);
+}
+
 Texture shared(Image<float>&& image) { return std::make_shared<const Image<float>>(std::move(image)); }
 
 int wrap(int i, int n) noexcept { return i < 0 ? i + n : i >= n ? i - n : i; }
@@ -59,19 +64,21 @@ template <class Vec> Vec lookup(const Image<float>& image, const Vec2f& uv) noex
 
 } // namespace
 
-Texture read_albedo(const std::string& file, ColourSpace space) {
+Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std::string>* notes) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
     require_finite(image, file);
-    if (is_srgb(space, info)) srgb_to_linear(image, info.alpha_channel);
+    linearise(image, space, info);
+    tell(file, info, notes);
     return shared(image.channels() >= 3 ? pick<3>(image, {0, 1, 2}) : pick<3>(image, {0, 0, 0}));
 }
 
-Texture read_bump_table(const std::string& file, float scale) {
+Texture read_bump_table(const std::string& file, float scale, std::vector<std::string>* notes) {
     ImageInfo info;
     const Image<float> image = read_image(file, &info);
+    tell(file, info, notes);
     const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
-    const bool integers = info.type == SampleType::u8 || info.type == SampleType::u16 || info.type == SampleType::u32;
+    const bool integers = is_integer(info.type);
     const std::optional<SlopeCode> code = integers ? slope_code(info.description) : std::nullopt;
     if (integers && !code)
         refuse("holds unsigned integers and does not state the slope of a level; bake the table by bump-table");
@@ -94,8 +101,11 @@ Texture read_bump_table(const std::string& file, float scale) {
     return shared(std::move(table));
 }
 
-Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx) {
-    const Image<float> image = read_image(file);
+Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx,
+                        std::vector<std::string>* notes) {
+    ImageInfo info;
+    const Image<float> image = read_image(file, &info);
+    tell(file, info, notes);
     if (image.channels() < 3)
         throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
                                              " channel(s); a normal map has red, green and blue");

@@ -222,6 +222,7 @@ Findings judge(const ImageReport& report) {
         warn_of_normals({c.not_unit, c.normal_length, share_of(c.inward, c.info.width, c.info.height)},
                         "; normalise them before use", "blue below half", out);
     add_image_notes(c, out);
+    out.notes.insert(out.notes.end(), c.info.notes.begin(), c.info.notes.end());
     return out;
 }
 

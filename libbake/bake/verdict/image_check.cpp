@@ -163,6 +163,8 @@ void measure_grey(const Image<float>& image, ImageCheck& check) {
     const int bits = check.channels.front().true_bits;
     if (bits > 0) {
         check.grey_step = 1 / (std::ldexp(1.0, bits) - 1);
+    } else if (const double level = level_step(check.info); level > 0) {
+        check.grey_step = level;
     } else if (const double largest = std::max(std::abs(check.grey.min), std::abs(check.grey.max)); largest > 0) {
         // The step between floats just below the largest value.
         check.grey_step =

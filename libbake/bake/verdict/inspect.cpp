@@ -81,7 +81,8 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
     report.height_file = height_path;
     report.normal_file = normal_path;
     const HeightTexture height = read_height(height_path, options.height_channel);
-    const Image<float> normals = read_image(normal_path);
+    ImageInfo normal_info;
+    const Image<float> normals = read_image(normal_path, &normal_info);
     if (normals.channels() < 3)
         throw Error(Refusal::unsuitable,
                     normal_path + ": has " + std::to_string(normals.channels()) +
@@ -94,6 +95,8 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
     report.normal_height = normals.height();
     report.check = check_pair(height.values, normals);
     report.findings = judge(report);
+    for (const std::string& line : height.info.notes) report.findings.notes.push_back(height_path + ": " + line);
+    for (const std::string& line : normal_info.notes) report.findings.notes.push_back(normal_path + ": " + line);
     return report;
 }
 

@@ -56,8 +56,13 @@ void add_height_options(CLI::App& sub, HeightInput& input) {
     add_height_reading_options(sub, input);
 }
 
-HeightTexture load_height(const HeightInput& input) {
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info) {
+    for (const std::string& line : info.notes) note(common, file + ": " + line);
+}
+
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     HeightTexture height = read_height(input.path, input.grey);
+    print_notes(common, input.path, height.info);
     if (input.invert) invert(height);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;

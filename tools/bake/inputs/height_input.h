@@ -27,8 +27,10 @@ CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& gr
 void add_height_reading_options(CLI::App& sub, HeightInput& input);
 /// The same and --filter, for verbs that take slopes from texels.
 void add_height_options(CLI::App& sub, HeightInput& input);
-/// Reads the texture, inverted and dequantised as asked.
-HeightTexture load_height(const HeightInput& input);
+/// Reads the texture, inverted and dequantised as asked, and prints what reading it has to tell.
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common);
+/// Prints what reading a picture has to tell.
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info);
 
 /// "uint8 height, 231 levels".
 std::string describe_levels(const HeightTexture& height);

@@ -118,6 +118,7 @@ void read_six(const FaceFiles& found, const ReadEnvironmentOptions& options, Env
     report.files = found.files;
     report.naming = found.naming;
     report.type = faces.first.type;
+    report.notes = std::move(faces.notes);
     for (const BadTexels& bad : faces.mended) report.mended += bad;
     check_seams(sky, options, report);
 }
@@ -129,6 +130,7 @@ void read_picture(const std::string& file, const ReadEnvironmentOptions& options
     const SkyFormatEntry& format =
         options.from == SkyFormat::automatic ? format_of(file, image, info) : entry_of(options.from);
     report.type = info.type;
+    for (const std::string& line : info.notes) report.notes.push_back(file + ": " + line);
     report.format = format.format;
     if (format.projection) {
         check_projection(file, image, format);

@@ -160,6 +160,8 @@ Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& 
             refuse("is " + std::to_string(face.width()) + "x" + std::to_string(face.height()) +
                    "; a face of the sky must be square");
         if (i == 0) first = info;
+        for (const std::string& line : info.notes)
+            if (report) report->notes.push_back(files[i] + ": " + line);
         if (face.width() != cube.size())
             refuse("is " + std::to_string(face.width()) + " texels wide, but " + files[0] + " is " +
                    std::to_string(cube.size()) + "; the six faces must be of one size");
@@ -182,8 +184,10 @@ Image<float> to_rgb(const Image<float>& image) {
     return rgb;
 }
 
-Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space) {
-    Cube cube = read_faces(files, {.space = space, .allow_negative = true});
+Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space, std::vector<std::string>* notes) {
+    FacesReport report;
+    Cube cube = read_faces(files, {.space = space, .allow_negative = true}, &report);
+    if (notes) notes->insert(notes->end(), report.notes.begin(), report.notes.end());
     if (cube.channels() < 3)
         throw Error(Refusal::unsuitable, files[0] + ": has " + std::to_string(cube.channels()) +
                                              " channel(s); a face of the sky needs red, green and blue");

@@ -39,7 +39,8 @@ std::array<std::string, 6> cube_files(const std::string& pattern);
 /// Findings of read_faces.
 struct FacesReport {
     std::array<BadTexels, 6> mended;
-    ImageInfo first; ///< of px
+    ImageInfo first;                ///< of px
+    std::vector<std::string> notes; ///< of reading the files, each with a file's name
 };
 
 /// Reads six faces with the channels they have, one to four. Throws Error naming the file: unreadable; unsuitable for a
@@ -48,7 +49,9 @@ Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& 
                 FacesReport* report = nullptr);
 
 /// Reads six faces for the preview: three channels, finite. Throws as read_faces, and for fewer than three channels.
-Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);
+/// `notes` receives what reading the files has to tell.
+Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic,
+               std::vector<std::string>* notes = nullptr);
 
 /// The first three channels; grey gives three equal ones.
 Image<float> to_rgb(const Image<float>& image);

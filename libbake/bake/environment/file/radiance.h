@@ -6,11 +6,6 @@
 
 namespace bake {
 
-/// How the values of a colour picture are stored.
-enum class ColourSpace { automatic, srgb, linear }; ///< automatic: sRGB for 8-bit and sRGB-tagged files
-/// Whether a file read by this rule must be decoded.
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept;
-
 /// Texels with values that cannot be radiance or that a file cannot hold.
 struct BadTexels {
     std::int64_t nan = 0, infinite = 0, negative = 0, over = 0; ///< texels; one with several faults counts in each
@@ -42,8 +37,9 @@ struct RadianceOptions {
     BadPolicy bad = BadPolicy::refuse;
     bool allow_negative = false; ///< accepts the small negative values of filters that ring
 };
-/// Reads a picture of one to four channels as linear radiance. Throws as read_image, and Error{Refusal::unsuitable} for
-/// more channels and by the policy. `found`: the bad texels, all mended.
+/// Reads a picture as linear radiance: its grey or its colours, and alpha. Throws as read_image, and
+/// Error{Refusal::unsuitable} for more than four channels of which the file does not say which are colour, and by the
+/// policy. `found`: the bad texels, all mended.
 Image<float> read_radiance(const std::string& file, const RadianceOptions& options = {}, ImageInfo* info = nullptr,
                            BadTexels* found = nullptr);
 

@@ -27,7 +27,7 @@ std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, 
     switch (grey) {
     case Grey::mean:
         if (colours.empty()) throw missing("colour");
-        if (colours.size() > 3) colours.resize(3);
+        colours.resize(std::min(colours.size(), std::size_t(info.colours > 0 ? info.colours : 3)));
         for (const int c : colours) weights[c] = 1;
         break;
     case Grey::luma:
@@ -94,9 +94,7 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
     const std::vector<float> levels = used_levels(picture, channel);
     const bool many = levels.size() > most_levels;
     height.levels = many ? most_levels + 1 : int(levels.size());
-    const int bits = height.info.bits;
-    const double stored =
-        height.info.type == SampleType::u8 || height.info.type == SampleType::u16 ? 1.0 / (std::exp2(bits) - 1) : 0.0;
+    const double stored = level_step(height.info);
     // A 16-bit file with at most 256 levels is an 8-bit height. No step is smaller than that of the type.
     height.step = many ? stored : std::max(stored, smallest_step(levels));
 }
@@ -149,9 +147,9 @@ HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& 
             }
         });
     }
-    const SampleType type = height.info.type;
-    if (type != SampleType::u8 && type != SampleType::u16 && type != SampleType::u32)
-        refuse_bad_values(path, height.values);
+    if (!is_integer(height.info.type)) refuse_bad_values(path, height.values);
+    if (height.info.palette)
+        height.info.notes.push_back("is a picture of palette colours: the height is the grey of each colour");
     return height;
 }
 
