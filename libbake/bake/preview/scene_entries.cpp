@@ -4,6 +4,7 @@
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
 #include "bake/mesh/file/mesh_io.h"
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -15,7 +16,9 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
     try {
         return work();
     } catch (const Error& error) {
-        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + error.what());
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '`', '"'); // fields of options are keys of the scene
+        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + message);
     }
 }
 
@@ -62,11 +65,14 @@ void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bo
     add_instance(scene, *shape, material, entry.placement);
 }
 
-Cube load_sky(const SkyEntry& entry) {
-    if (entry.image.empty()) return read_cube(entry.faces, entry.space);
-    ReadEnvironmentOptions options;
-    options.radiance = {.space = entry.space, .allow_negative = true};
-    Environment sky = read_environment({entry.image}, options);
+Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
+    std::vector<std::string> inputs = {entry.image};
+    if (entry.image.empty()) inputs.assign(entry.faces.begin(), entry.faces.end());
+    const ReadEnvironmentOptions options{
+        .space = entry.space, .bad = entry.bad, .by_name = false, .check_seams = false};
+    EnvironmentReport report;
+    Environment sky = read_environment(inputs, options, &report);
+    for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
     if (!sky.is_cube() || sky.edge_samples)
         sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
                            {Samples::one});
@@ -104,7 +110,8 @@ Scene load(const SceneEntries& entries) {
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
     scene.sky.scale = entries.sky.scale;
-    if (has_sky) scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky); });
+    if (has_sky)
+        scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1

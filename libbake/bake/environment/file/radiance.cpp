@@ -108,9 +108,8 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     const int channels = image.channels();
     switch (policy) {
     case BadPolicy::refuse:
-        throw Error(Refusal::unsuitable,
-                    file + ": holds texels that are no radiance: " + to_text(bad, largest) +
-                        "; mend the picture, or let bake cubemap do it with `bad` zero or `bad` clamp");
+        throw Error(Refusal::unsuitable, file + ": holds texels that are no radiance: " + to_text(bad, largest) +
+                                             "; mend the picture, or set `bad` to zero or clamp");
     case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
     case BadPolicy::clamp:
         each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); });
@@ -119,24 +118,15 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     return bad;
 }
 
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out,
-                           BadTexels* found) {
+Image<float> read_radiance(const std::string& file, ColourSpace space, ImageInfo* info_out) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
     if (image.channels() > 4)
         throw Error(Refusal::unsuitable,
                     file + ": has " + std::to_string(image.channels()) +
                         " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
-    if (is_srgb(options.space, info)) srgb_to_linear(image, info.alpha_channel);
-    BadTexels bad;
-    if (options.allow_negative) {
-        bad = find_bad(image, 3.4e38f, info.alpha_channel);
-        if (bad.nan + bad.infinite + bad.over > 0) bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    } else {
-        bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    }
+    if (is_srgb(space, info)) srgb_to_linear(image, info.alpha_channel);
     if (info_out) *info_out = std::move(info);
-    if (found) *found = bad;
     return image;
 }
 

@@ -1,4 +1,5 @@
-// Radiance from picture files: linear, and without values that are impossible for radiance.
+// Radiance from picture files: linear colour, and values that are impossible for radiance found and replaced. mend_sky.h
+// has the policy for them.
 #pragma once
 #include "bake/picture/image_io.h"
 #include <cstdint>
@@ -21,10 +22,11 @@ struct BadTexels {
     /// Adds counts found later in reading order.
     BadTexels& operator+=(const BadTexels& later) noexcept;
 };
+inline constexpr float largest_float = 3.4e38f;
 /// Values above `largest` count as over. Alpha is ignored.
-BadTexels find_bad(const Image<float>& image, float largest = 3.4e38f, int alpha_channel = -1);
+BadTexels find_bad(const Image<float>& image, float largest = largest_float, int alpha_channel = -1);
 /// "3 NaN, 1 infinite, 2 negative, 4 above 65504; first at column 5, row 7 (-2.5)"
-std::string to_text(const BadTexels& bad, float largest = 3.4e38f);
+std::string to_text(const BadTexels& bad, float largest = largest_float);
 
 /// How bad texels are treated.
 enum class BadPolicy {
@@ -34,17 +36,12 @@ enum class BadPolicy {
 };
 /// Finds bad texels and treats them by the policy. Messages begin with `file`. Infinite values are clamped to at most 65504,
 /// the largest half float: nearly all infinite values in files are half floats that overflowed.
-BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = 3.4e38f,
+BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = largest_float,
                int alpha_channel = -1);
 
-struct RadianceOptions {
-    ColourSpace space = ColourSpace::automatic;
-    BadPolicy bad = BadPolicy::refuse;
-    bool allow_negative = false; ///< accepts the small negative values of filters that ring
-};
-/// Reads a picture of one to four channels as linear radiance. Throws as read_image, and Error{Refusal::unsuitable} for
-/// more channels and by the policy. `found`: the bad texels, all mended.
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options = {}, ImageInfo* info = nullptr,
-                           BadTexels* found = nullptr);
+/// Reads a picture of one to four channels as linear colour, with all its values. Throws as read_image, and
+/// Error{Refusal::unsuitable} for more channels.
+Image<float> read_radiance(const std::string& file, ColourSpace space = ColourSpace::automatic,
+                           ImageInfo* info = nullptr);
 
 } // namespace bake
