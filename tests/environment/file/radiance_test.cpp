@@ -80,6 +80,12 @@ TEST_SUITE("unit") {
         image.at(0, 0, 3) = -1;
         CHECK(find_bad(image, 65504, 3).texels == 0);
         CHECK(find_bad(image, 65504).texels == 1);
+        for (const BadPolicy policy : {BadPolicy::zero, BadPolicy::clamp}) {
+            image.at(1, 0, 3) = inf; // no file may hold that
+            CHECK(mend(image, policy, "sky.exr", 65504, 3).infinite == 1);
+            CHECK(image.at(1, 0, 3) == 1);
+            CHECK(image.at(0, 0, 3) == -1);
+        }
     }
 
     TEST_CASE("radiance: a file is read with all its values, which mend_sky judges") {

@@ -13,11 +13,16 @@ constexpr float half_largest = 65504.0f;
 
 bool is_bad(float value, float largest) noexcept { return !(value >= 0 && value <= largest); }
 
+/// Alpha may have any finite value.
+bool is_bad(const float* texel, int c, int alpha, float largest) noexcept {
+    return c == alpha ? !std::isfinite(texel[c]) : is_bad(texel[c], largest);
+}
+
 void count(BadTexels& bad, const float* texel, int channels, int alpha, float largest, int x, int y) noexcept {
     bool nan = false, infinite = false, negative = false, over = false;
     for (int c = 0; c < channels; ++c) {
         const float value = texel[c];
-        if (c == alpha || !is_bad(value, largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
         if (bad.x < 0) bad.x = x, bad.y = y, bad.value = value;
         nan |= std::isnan(value);
         infinite |= std::isinf(value);
@@ -33,15 +38,20 @@ void count(BadTexels& bad, const float* texel, int channels, int alpha, float la
 
 void zero_texel(float* texel, int channels, int alpha, float largest) noexcept {
     bool faulty = false;
-    for (int c = 0; c < channels; ++c) faulty |= c != alpha && is_bad(texel[c], largest);
+    for (int c = 0; c < channels; ++c) faulty |= is_bad(texel, c, alpha, largest);
     if (!faulty) return;
     for (int c = 0; c < channels; ++c)
         if (c != alpha) texel[c] = 0;
+        else if (!std::isfinite(texel[c])) texel[c] = 1;
 }
 
 void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept {
     for (int c = 0; c < channels; ++c) {
-        if (c == alpha || !is_bad(texel[c], largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
+        if (c == alpha) {
+            texel[c] = 1;
+            continue;
+        }
         const float most = std::isinf(texel[c]) ? std::min(largest, half_largest) : largest;
         texel[c] = texel[c] > 0 ? most : 0; // NaN gives 0
     }
