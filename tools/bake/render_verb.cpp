@@ -58,6 +58,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     if (args.spp > 0) settings.spp = args.spp;
     OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
+    for (const std::string& line : scene.notes) note(common, line);
     watch.lap("load");
     for (const std::string& line : scene.notes) note(common, line);
     Progress progress(common.quiet || common.json);

@@ -5,6 +5,7 @@
 #include "bake/environment/resample/resample.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/origin.h"
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -16,7 +17,9 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
     try {
         return work();
     } catch (const Error& error) {
-        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + error.what());
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '`', '"'); // fields of options are keys of the scene
+        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + message);
     }
 }
 
@@ -71,12 +74,13 @@ void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
 }
 
 Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
-    if (entry.image.empty()) return read_cube(entry.faces, entry.space, &notes);
-    ReadEnvironmentOptions options;
-    options.radiance = {.space = entry.space, .allow_negative = true};
+    std::vector<std::string> inputs = {entry.image};
+    if (entry.image.empty()) inputs.assign(entry.faces.begin(), entry.faces.end());
+    const ReadEnvironmentOptions options{
+        .space = entry.space, .bad = entry.bad, .by_name = false, .check_seams = false};
     EnvironmentReport report;
-    Environment sky = read_environment({entry.image}, options, &report);
-    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+    Environment sky = read_environment(inputs, options, &report);
+    for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
     if (!sky.is_cube() || sky.edge_samples)
         sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
                            {Samples::one});
