@@ -134,7 +134,7 @@ BaseSurface make_base(const DisplaceArgs& args) {
     return surface;
 }
 
-ReliefFile load_relief(const DisplaceArgs& args, double size) {
+ReliefFile load_relief(const DisplaceArgs& args, const CommonArgs& common, double size) {
     ReliefFile file;
     ImageInfo info;
     if (args.vector) {
@@ -142,6 +142,7 @@ ReliefFile load_relief(const DisplaceArgs& args, double size) {
     } else {
         HeightTexture height = load_height(args.height);
         info = height.info;
+        file.notes = note_doubts(common, args.height, height);
         file.described = describe_levels(height);
         file.relief.values = std::move(height.values);
     }

@@ -49,10 +49,11 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
-    const ReliefFile file = load_relief(args, o.size);
+    const ReliefFile file = load_relief(args, common, o.size);
     const DisplaceOptions options = resolve_options(args, o.size);
     o.max_error = options.rates.error;
     o.described = file.described;
+    o.notes = file.notes;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.default_amplitude = file.default_amplitude;
     watch.lap("height");

@@ -56,6 +56,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         result = bake_mesh(height, target, options, depth, progress);
     }
     result.filter = resolve_filter(options.filter, height);
+    result.notes = note_doubts(common, args.height, height);
     progress.finish();
     watch.lap("bake");
     writer.write(result.map.data(), result.map.height());

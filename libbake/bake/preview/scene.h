@@ -49,6 +49,8 @@ struct Scene {
     Camera camera;
     Sky sky;
     RenderSettings settings;
+    std::vector<std::string>
+        notes;              ///< what was found in the scene's files beside what they were read for, one line each
     std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 

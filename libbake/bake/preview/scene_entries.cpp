@@ -29,7 +29,8 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
     return texture;
 }
 
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache) {
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
+                                        std::vector<std::string>& notes) {
     auto material = std::make_unique<Material>();
     material->name = entry.name;
     material->bsdf = entry.bsdf;
@@ -40,11 +41,13 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     if (!entry.bump_table.empty())
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
                                       [&] { return read_bump_table(entry.bump_table, entry.bump_scale); });
+    std::string note;
     if (!entry.normal_map.empty())
-        material->normal_map = cached(cache,
-                                      (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) +
-                                          " " + entry.normal_map,
-                                      [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
+        material->normal_map = cached(
+            cache,
+            (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
+            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &note); });
+    if (!note.empty()) notes.push_back(note);
     return material;
 }
 
@@ -109,7 +112,8 @@ Scene load(const SceneEntries& entries) {
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
-        scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
+        scene.materials.push_back(
+            at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
     std::map<std::tuple<std::string, bool, bool>, Shape*> shapes;
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
