@@ -143,6 +143,7 @@ ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& 
     } else {
         HeightTexture height = load_height(args.height, common);
         info = height.info;
+        file.notes = note_doubts(common, args.height, height);
         file.described = describe_levels(height);
         file.relief.values = std::move(height.values);
     }

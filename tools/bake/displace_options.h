@@ -42,6 +42,7 @@ struct ReliefFile {
     Relief relief;
     std::string described; ///< "8-bit height, 231 levels"
     bool default_amplitude = false;
+    std::vector<std::string> notes; ///< doubts about the height
 };
 /// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
 ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common);

@@ -54,6 +54,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     o.max_error = options.rates.error;
     o.described = file.described;
+    o.notes = file.notes;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.default_amplitude = file.default_amplitude;
     watch.lap("height");

@@ -57,6 +57,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     }
     result.mesh_notes = mesh.notes;
     result.filter = resolve_filter(options.filter, height);
+    result.notes = note_doubts(common, args.height, height);
     progress.finish();
     watch.lap("bake");
     writer.write(result.map.data(), result.map.height());

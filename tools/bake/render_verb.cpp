@@ -41,11 +41,12 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
                     watch.total(), watch.seconds("load"), seconds);
         return;
     }
-    const nlohmann::json result = {
+    nlohmann::json result = {
         {"out", args.out},           {"width", settings.width},          {"height", settings.height},
         {"spp", settings.spp},       {"triangles", triangles},           {"rays", stats.rays},
         {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
         {"render_seconds", seconds}, {"seconds", watch.total()}};
+    if (!scene.notes.empty()) result["notes"] = scene.notes;
     std::printf("%s\n", result.dump(2).c_str());
 }
 

@@ -25,6 +25,19 @@ Mesh read_parts(const std::string& path, const InspectOptions& options, std::opt
     return flatten(std::move(gltf));
 }
 
+/// The grey as an option of a bake; empty for the default.
+std::string option_name(Grey grey) {
+    switch (grey) {
+    case Grey::r: return "r";
+    case Grey::g: return "g";
+    case Grey::b: return "b";
+    case Grey::a: return "a";
+    case Grey::luma: return "luma";
+    case Grey::mean: break;
+    }
+    return "";
+}
+
 } // namespace
 
 bool named_like_a_mesh(const std::string& path) {
@@ -81,22 +94,25 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
     report.height_file = height_path;
     report.normal_file = normal_path;
     const HeightTexture height = read_height(height_path, options.height_channel);
-    ImageInfo normal_info;
-    const Image<float> normals = read_image(normal_path, &normal_info);
-    if (normals.channels() < 3)
-        throw Error(Refusal::unsuitable,
-                    normal_path + ": has " + std::to_string(normals.channels()) +
-                        " channels, a normal map has three; give the normal map as the second file");
+    ImageInfo info;
+    const Image<float> normals = read_image(normal_path, &info);
+    if (normals.channels() < 2)
+        throw Error(Refusal::unsuitable, normal_path +
+                                             ": has one channel, a normal map has two or three; give the normal "
+                                             "map as the second file");
     if (!std::all_of(normals.data(), normals.data() + normals.size(), [](float v) { return v - v == 0; }))
         throw Error(Refusal::unsuitable, normal_path + ": has NaN or Inf values; export it again");
+    report.normal_values = guess_normal_values(normals, info);
     report.height_width = height.values.width();
     report.height_height = height.values.height();
     report.normal_width = normals.width();
     report.normal_height = normals.height();
-    report.check = check_pair(height.values, normals);
+    report.check = check_pair(height.values, decode_normals(normals, report.normal_values));
+    report.recipe = pair_recipe(report.check, double(report.height_height) / report.height_width);
+    report.height_channel = option_name(options.height_channel);
     report.findings = judge(report);
     for (const std::string& line : height.info.notes) report.findings.notes.push_back(height_path + ": " + line);
-    for (const std::string& line : normal_info.notes) report.findings.notes.push_back(normal_path + ": " + line);
+    for (const std::string& line : info.notes) report.findings.notes.push_back(normal_path + ": " + line);
     return report;
 }
 
