@@ -1,11 +1,11 @@
-// What a PNG says of its colours.
+// The encoding of colours that a PNG file states.
 #pragma once
 #include "bake/picture/colour.h"
 #include <png.h>
 
 namespace bake {
 
-/// To be called before the header is read: has chunks kept that libpng does not know.
+/// Makes libpng keep the chunks that it does not know. Call it before the header is read.
 void keep_colour_chunks(png_structp png);
 
 /// By the first of: cICP, sRGB, an ICC profile (by its curves, whatever its name), gAMA.
