@@ -128,6 +128,7 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                              {"no_tangents", r.no_tangents}};
     if (args.measure || !args.max_error.empty()) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
+    if (!o.notes.empty()) object["notes"] = o.notes;
     if (o.audit) object["audit"] = to_json(*o.audit);
     if (!o.mesh_notes.empty()) object["mesh_notes"] = o.mesh_notes;
     return object;

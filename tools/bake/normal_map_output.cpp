@@ -36,6 +36,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                              {"step_tilt_deg", result.tilt_deg},
                              {"error_budget", bake::to_json(result.budget)}};
     if (!result.mesh_notes.empty()) object["mesh_notes"] = result.mesh_notes;
+    if (!result.notes.empty()) object["notes"] = result.notes;
     if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},

@@ -37,16 +37,14 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
-    const HeightTexture height = load_height(args.height);
+    const HeightTexture height = load_height(args.height, common);
     Mesh mesh;
-    std::vector<std::string> mesh_notes;
-    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read, &mesh_notes);
+    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
     watch.lap("read");
     const NormalMapOptions options = resolve_options(args, height, mesh);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
     NormalMapResult result;
-    result.mesh_notes = std::move(mesh_notes);
     if (args.mesh.empty()) {
         const Vec2d given = args.extent.empty() ? Vec2d(0) : parse_pair("--extent", args.extent);
         const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
@@ -57,7 +55,9 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         watch.lap("surface, tangents, raster");
         result = bake_mesh(height, target, options, depth, progress);
     }
+    result.mesh_notes = mesh.notes;
     result.filter = resolve_filter(options.filter, height);
+    result.notes = note_doubts(common, args.height, height);
     progress.finish();
     watch.lap("bake");
     writer.write(result.map.data(), result.map.height());

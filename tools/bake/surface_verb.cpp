@@ -13,14 +13,12 @@ struct Loaded {
     SurfaceKind kind;
     int rate = 1;                     ///< cells along the edges of a cage's patches
     std::string what;                 ///< one line, such as "torus; 96 x 48 cells"
-    std::vector<std::string> notes{}; ///< of reading the mesh
 };
 
 Loaded load(const SurfaceArgs& args) {
     constexpr int default_rate = 4;
     const std::pair<int, int> cells = args.resolution.empty() ? std::pair(0, 0) : parse_resolution(args.resolution);
-    std::vector<std::string> notes;
-    BaseSurface surface = read_surface(args.surface, notes, cells);
+    BaseSurface surface = read_surface(args.surface, cells);
     const std::size_t faces = surface.mesh().faces(), patches = surface.complex().patches.size();
     if (!args.surface.shape.empty()) {
         const ParametricSurface shape(args.surface.shape);
@@ -30,13 +28,12 @@ Loaded load(const SurfaceArgs& args) {
         return {std::move(surface), SurfaceKind::shape, 1, what};
     }
     if (!args.surface.scheme)
-        return {std::move(surface), SurfaceKind::mesh, 1, args.surface.mesh + format(": mesh, %zu faces", faces),
-                notes};
+        return {std::move(surface), SurfaceKind::mesh, 1, args.surface.mesh + format(": mesh, %zu faces", faces)};
     const int rate = cells.first ? cells.first : default_rate;
     const std::string what =
         format(": %s limit of a cage of %zu faces, %zu patches of %d x %d cells",
                *args.surface.scheme == Scheme::catmark ? "Catmull-Clark" : "Loop", faces, patches, rate, rate);
-    return {std::move(surface), SurfaceKind::limit, rate, args.surface.mesh + what, notes};
+    return {std::move(surface), SurfaceKind::limit, rate, args.surface.mesh + what};
 }
 
 int run(const SurfaceArgs& args, const CommonArgs& common) {
@@ -64,6 +61,10 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         progress.start("maps", options.height);
         maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
         watch.lap("maps");
+        const Vec3d& origin = mesh.mesh.origin;
+        if (origin != Vec3d(0) && std::count(quantities.begin(), quantities.end(), MapQuantity::position))
+            note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,
+                                origin.y, origin.z));
     }
     progress.finish();
     if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
@@ -76,7 +77,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
         if (!args.out.empty()) object["out"] = args.out;
         for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
-        if (!loaded.notes.empty()) object["mesh_notes"] = loaded.notes;
+        if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
         if (!maps.empty()) object["texels"] = to_json(report);
         object["seconds"] = watch.to_json();
         std::printf("%s\n", object.dump(2).c_str());
@@ -85,7 +86,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     print(loaded.what, mesh, summary);
     if (!maps.empty()) print(report, options);
     std::printf("%s\n", watch.to_text().c_str());
-    note_all(common, title, loaded.notes);
+    note_all(common, title, loaded.surface.mesh().notes);
     warn(common, title, report);
     return 0;
 }

@@ -28,8 +28,9 @@ struct MeshEntry {
 
 struct SkyEntry {
     std::array<std::string, 6> faces; ///< in the order of CubeFace; all empty if `image` is given
-    std::string image;                ///< one picture of the whole sky, in a layout of read_environment()
+    std::string image;                ///< one input of read_environment(): a picture, or a pattern of six faces
     ColourSpace space = ColourSpace::automatic;
+    BadPolicy bad = BadPolicy::refuse;
     float scale = 1;
     int line = 0;
 };

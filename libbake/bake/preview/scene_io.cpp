@@ -41,7 +41,7 @@ void read_camera(const Section& in, SceneEntries& scene) {
 }
 
 void read_sky(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"faces", "image", "scale", "colour-space"});
+    allow_only(in, {"faces", "image", "scale", "colour-space", "bad"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -53,10 +53,9 @@ void read_sky(const Section& in, SceneEntries& scene) {
     if (image) {
         read_path(in, "image", scene.sky.image);
     } else if (faces->is_string()) {
-        std::string pattern;
-        read_path(in, "faces", pattern);
+        read_path(in, "faces", scene.sky.image);
         try {
-            scene.sky.faces = cube_files(pattern);
+            cube_files(scene.sky.image); // refuses what is no pattern
         } catch (const Error& error) {
             refuse(in.file, scene.sky.line, error.what());
         }
@@ -71,6 +70,8 @@ void read_sky(const Section& in, SceneEntries& scene) {
     }
     read(in, "scale", scene.sky.scale, 0);
     read_colour_space(in, "colour-space", scene.sky.space);
+    read_choice<BadPolicy>(in, "bad", scene.sky.bad,
+                           {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
 }
 
 void read_light(const Section& in, SceneEntries& scene) {

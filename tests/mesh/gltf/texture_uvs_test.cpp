@@ -39,7 +39,8 @@ struct Read {
 Read read(const std::string& text, const MeshOptions& options = {}) {
     const TemporaryFolder folder;
     Read out;
-    out.mesh = read_mesh(folder.write("t.gltf", text), options, &out.notes);
+    out.mesh = read_mesh(folder.write("t.gltf", text), options);
+    out.notes = out.mesh.notes;
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include "inputs/surface_input.h"
+#include "bake/mesh/border_weld.h"
 #include "bake/mesh/weld.h"
 
 namespace bake {
@@ -17,6 +18,10 @@ void add_surface_input(CLI::App& sub, SurfaceInput& input) {
         sub, "--uv-smoothing", input.uv_smoothing,
         {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
         "Of a cage: which uvs are smoothed with the surface; inside: all except the charts' borders");
+    sub.add_option("--weld", input.weld,
+                   "Join borders that touch within this distance: object units, or 0.001% of the diagonal [not joined]")
+        ->check(not_empty())
+        ->type_name("DISTANCE");
     add_mesh_options(sub, input.reading);
 }
 
@@ -29,17 +34,24 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (!input.shape.empty() && (input.reading.flip_v || input.reading.uv_set >= 0))
         throw usage(std::string(input.reading.flip_v ? "--flip-v" : "--uv-set") +
                     ": applies to mesh files; leave it out with --shape");
+    if (!input.shape.empty() && !input.weld.empty())
+        throw usage("--weld: applies to mesh files; leave it out with --shape");
+    if (!input.weld.empty()) parse_length("--weld", input.weld);
     if (!input.scheme && input.uv_smoothing != UvSmoothing::inside)
         throw usage("--uv-smoothing: applies to --subdivide catmark and loop; leave it out");
 }
 
-BaseSurface read_surface(const SurfaceInput& input, std::vector<std::string>& notes, std::pair<int, int> cells) {
+BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
     if (!input.shape.empty()) {
         const ParametricSurface shape(input.shape);
         if (cells.first == 0) cells = shape.default_resolution();
         return BaseSurface(shape, cells.first, cells.second);
     }
-    Mesh mesh = read_mesh(input.mesh, input.reading, &notes);
+    Mesh mesh = read_mesh(input.mesh, input.reading);
+    if (!input.weld.empty()) {
+        const Amplitude weld = parse_length("--weld", input.weld);
+        weld_borders(mesh, weld.value * (weld.percent ? diagonal(bounds(mesh)) : 1), input.mesh);
+    }
     if (!input.scheme) return BaseSurface(std::move(mesh));
     if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);

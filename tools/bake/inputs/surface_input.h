@@ -10,11 +10,13 @@ struct SurfaceInput {
     std::optional<Scheme> scheme; ///< set: the mesh is a cage, and the surface is its limit
     UvSmoothing uv_smoothing = UvSmoothing::inside;
     MeshOptions reading;
+    std::string weld; ///< empty: none; a length, or per cent of the diagonal
 
     const std::string& name() const { return shape.empty() ? mesh : shape; }
 };
 
-/// Adds the mesh, --shape, --uv-smoothing, --flip-v and --uv-set. Each verb adds --subdivide with the choices that it has.
+/// Adds the mesh, --shape, --uv-smoothing, --weld, --flip-v and --uv-set. Each verb adds --subdivide with the choices
+/// that it has.
 void add_surface_input(CLI::App& sub, SurfaceInput& input);
 
 /// Throws Error{Refusal::usage} for options that contradict each other, before any file is read.
@@ -23,8 +25,7 @@ void check_usage(const SurfaceInput& input, const std::string& verb);
 /// A shape gets `cells` patches along u and v (0: as many as show the shape). A cage's equal positions are welded: PLY
 /// and glTF store one vertex per distinct uv or normal, and a cage of such vertices would fall apart along its seams.
 /// OBJ indexes positions separately, so equal positions in it are separate vertices by intent. Throws
-/// Error{Refusal::unsuitable} for a cage that has no limit surface. `notes` receives those of read_mesh().
-BaseSurface read_surface(const SurfaceInput& input, std::vector<std::string>& notes,
-                         std::pair<int, int> cells = {0, 0});
+/// Error{Refusal::unsuitable} for a cage that has no limit surface.
+BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells = {0, 0});
 
 } // namespace bake

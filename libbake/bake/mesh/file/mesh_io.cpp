@@ -17,17 +17,19 @@ Error unknown_format(Refusal refusal, const std::string& path) {
                               " is not a mesh format known here; use .obj, .ply, .gltf or .glb");
 }
 
-Mesh read_gltf_mesh(const std::string& path, const MeshOptions& options, std::vector<std::string>* notes) {
+Mesh read_gltf_mesh(const std::string& path, const MeshOptions& options) {
     Gltf gltf = read_gltf(path, {.flip_v = !options.flip_v});
     take_texture_uvs(gltf, path, {.uv_set = options.uv_set, .flip_v = !options.flip_v});
-    if (notes) *notes = gltf.notes;
-    return flatten(std::move(gltf));
+    std::vector<std::string> notes = std::move(gltf.notes);
+    Mesh mesh = flatten(std::move(gltf));
+    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
+    mesh.notes = std::move(notes);
+    return mesh;
 }
 
-Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& options,
-                 std::vector<std::string>* notes) {
+Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& options) {
     try {
-        if (format == MeshFormat::gltf) return read_gltf_mesh(path, options, notes);
+        if (format == MeshFormat::gltf) return read_gltf_mesh(path, options);
         Mesh mesh = format == MeshFormat::obj ? read_obj(path) : read_ply(path);
         if (options.uv_set >= 0) take_uv_set(mesh, options.uv_set, path);
         for (Vec2f& uv : mesh.uvs)
@@ -48,10 +50,10 @@ MeshFormat mesh_format(const std::string& path) {
                                              : MeshFormat::unknown;
 }
 
-Mesh read_mesh(const std::string& path, const MeshOptions& options, std::vector<std::string>* notes) {
+Mesh read_mesh(const std::string& path, const MeshOptions& options) {
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown) throw unknown_format(Refusal::unreadable, path);
-    Mesh mesh = read_format(format, path, options, notes);
+    Mesh mesh = read_format(format, path, options);
     if (mesh.faces() == 0)
         throw Error(Refusal::unsuitable, path + ": has no faces (" + std::to_string(mesh.positions.size()) +
                                              " points); export it as a polygon mesh");

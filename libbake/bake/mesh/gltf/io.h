@@ -58,7 +58,7 @@ struct GltfMaterial {
 struct GltfNode {
     std::string name;
     std::size_t first_face = 0, end_face = 0;
-    float to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    double to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
     bool operator==(const GltfNode&) const = default;
 };

@@ -55,8 +55,8 @@ struct Walk {
 void place(Walk& walk, std::size_t node, const Transform& to_world) {
     GltfPlacement place{node, {}};
     for (std::size_t k = 0; k < 16; ++k) {
-        place.to_world[k] = float(to_world[k]);
-        if (!std::isfinite(place.to_world[k])) walk.refuse(int(node), "has a transform that is not finite");
+        place.to_world[k] = to_world[k];
+        if (!std::isfinite(float(to_world[k]))) walk.refuse(int(node), "has a transform that is not finite");
     }
     walk.out.placed.push_back(place);
 }

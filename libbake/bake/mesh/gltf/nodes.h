@@ -38,7 +38,7 @@ std::vector<GltfSourceNode> nodes_of(const GltfSource& source, std::vector<int>&
 /// A node that has a mesh, or an instance of it.
 struct GltfPlacement {
     std::size_t node;
-    std::array<float, 16> to_world;
+    Transform to_world;
 };
 
 struct GltfPlacements {
