@@ -200,9 +200,11 @@ std::string to_text(const DistanceReport& report) {
     std::string text = report.file + " against " + report.other + "\n";
     text += row("hausdorff", format("%.6g to %.6g (%.3g to %.3g of the diagonal %.5g)", d.lower, d.upper,
                                     d.lower * part, d.upper * part, d.diagonal));
-    text += row("farthest", format("(%.5g %.5g %.5g) from (%.5g %.5g %.5g) %s", worst.farthest.x, worst.farthest.y,
-                                   worst.farthest.z, worst.nearest.x, worst.nearest.y, worst.nearest.z,
-                                   &worst == &d.there ? "of the other" : "of the first"));
+    const int digits = glm::length(worst.farthest) > 10 * d.diagonal ? 12 : 5; // far from zero the first are all equal
+    text += row("farthest",
+                format("(%.*g %.*g %.*g) from (%.*g %.*g %.*g) %s", digits, worst.farthest.x, digits, worst.farthest.y,
+                       digits, worst.farthest.z, digits, worst.nearest.x, digits, worst.nearest.y, digits,
+                       worst.nearest.z, &worst == &d.there ? "of the other" : "of the first"));
     text += row("there", format("mean %.6g, rms %.6g, max %.6g to %.6g", d.there.mean, d.there.rms, d.there.lower,
                                 d.there.upper));
     text += row("back",

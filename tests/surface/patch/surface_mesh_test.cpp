@@ -160,8 +160,8 @@ TEST_SUITE("stability") {
         const SurfaceSummary sphere = summarise(of_shape("sphere", 12, 6));
         REQUIRE(sphere.degenerate.size() == 2);
         CHECK(sphere.degenerate[0].what == Degenerate::pole);
-        CHECK(glm::length(sphere.degenerate[0].p - Vec3f(0, -1, 0)) < 1e-6f);
-        CHECK(glm::length(sphere.degenerate[1].p - Vec3f(0, 1, 0)) < 1e-6f);
+        CHECK(glm::length(sphere.degenerate[0].p - Vec3d(0, -1, 0)) < 1e-6);
+        CHECK(glm::length(sphere.degenerate[1].p - Vec3d(0, 1, 0)) < 1e-6);
         CHECK(sphere.degenerate[1].uv.y == 1);
         CHECK(sphere.length_u.min > 0); // poles do not count
         const SurfaceSummary cone = summarise(of_shape("cone:R=1,h=2", 12, 6));

@@ -152,6 +152,8 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
                         " points lie beyond what a mesh can hold (3.4e38); take a smaller `amplitude`");
     normals_from_faces(out.mesh, tally.without_normal);
     out.report = report_of(plan, tally);
+    if (out.report.seam_mismatch > 0) out.report.seam_worst += base.mesh().origin;
+    out.report.fold_worst += base.mesh().origin;
     if (options.measure_error) {
         const CellError error = plan_error(surface, blend, plan.rates);
         out.report.error_max = error.max();

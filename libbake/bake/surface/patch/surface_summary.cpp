@@ -29,7 +29,8 @@ SurfaceSummary summarise(const SurfaceMesh& surface) {
         out.area += area;
         for (int k = 0; k < 3; ++k) {
             const SurfaceSample& s = surface.samples[surface.corner_sample[triangle.corner[k]]];
-            x.add(p(k).x, area), y.add(p(k).y, area), z.add(p(k).z, area);
+            const Vec3d at = mesh.origin + p(k);
+            x.add(at.x, area), y.add(at.y, area), z.add(at.z, area);
             const bool plane = s.degenerate == Degenerate::none || s.degenerate == Degenerate::no_chart;
             if (plane) mean.add(s.mean, area), gauss.add(s.gauss, area);
             if (s.degenerate == Degenerate::none && !mesh.corner_uv.empty())
@@ -59,7 +60,7 @@ SurfaceSummary summarise(const SurfaceMesh& surface) {
             if (what == Degenerate::none || (here & bit)) continue;
             here |= bit;
             const std::uint32_t uv = mesh.corner_uv.empty() ? no_index : mesh.corner_uv[c];
-            const Vec3f& p = mesh.positions[mesh.corner_position[c]];
+            const Vec3d p = mesh.origin + Vec3d(mesh.positions[mesh.corner_position[c]]);
             out.degenerate.push_back({what, p, uv == no_index ? Vec2f(0) : mesh.uvs[uv], f});
         }
     return out;

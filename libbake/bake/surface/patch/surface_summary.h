@@ -11,7 +11,7 @@ struct ValueRange {
 
 struct DegeneratePoint {
     Degenerate what;
-    Vec3f p;
+    Vec3d p;  ///< absolute, as x, y and z of SurfaceSummary
     Vec2f uv; ///< zero without uvs
     std::size_t face;
 };
