@@ -29,7 +29,7 @@ std::string seams_note(const EnvironmentReport& report, bool fix) {
     const OrientationCheck& check = report.orientation;
     const int open = check.open_given(), left = check.open_best();
     if (!check.wrong && open > 0) return open_text(check) + "; no arrangement of the faces was found that closes them";
-    if (!check.wrong) return fix ? "all seams match as given; there is nothing to fix" : "";
+    if (!check.wrong) return fix ? "no arrangement was found whose seams match better; the faces are as given" : "";
     std::string how = to_text(check.closes, report.files);
     if (is_mirror_image(check.closes)) how += " (seams cannot tell this from six faces that are all mirrored)";
     const std::string effect = open == 0   ? "the seams match better"

@@ -7,7 +7,7 @@
 namespace bake {
 namespace {
 
-constexpr float moved_cost = 0.5f, mirrored_cost = 0.5f;
+constexpr float moved_cost = 0.5f, mirrored_cost = 1.5f;
 /// Arrangements whose costs differ by less are equally good.
 constexpr float same_cost = 1e-4f;
 
@@ -109,14 +109,22 @@ int count_open(const std::array<double, 12>& ratios) noexcept {
     return int(std::count_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio > open_seam; }));
 }
 
-bool closes_what_it_moves(const OrientationCheck& check) noexcept {
+/// Whether the seams of the faces that `closes` moves show that it is right: each of them closes, or becomes four times
+/// better, and on average their ratios fall by a quarter.
+bool is_shown(const OrientationCheck& check) noexcept {
     const Orientation& o = check.closes;
     const auto moved = [&](int k) { return o.source[k] != k || o.turns[k] != 0 || o.mirrored[k]; };
+    double gain = 0;
+    int count = 0;
     for (int i = 0; i < 12; ++i) {
         const Seam& seam = seams()[i];
-        if ((moved(seam.a.face) || moved(seam.b.face)) && check.best_seams[i] > open_seam) return false;
+        if (!moved(seam.a.face) && !moved(seam.b.face)) continue;
+        const double before = check.given_seams[i], after = check.best_seams[i];
+        if (after > open_seam && after > before / 4) return false;
+        gain += std::log(std::max(before, 1.0) / std::max(after, 1.0));
+        ++count;
     }
-    return true;
+    return count > 0 && gain / count > std::log(1 / 0.75);
 }
 
 Image<float> mirrored(const Image<float>& face) {
@@ -134,6 +142,13 @@ bool Orientation::as_given() const noexcept { return *this == Orientation{}; }
 int OrientationCheck::open_given() const noexcept { return count_open(given_seams); }
 int OrientationCheck::open_best() const noexcept { return count_open(best_seams); }
 
+bool OrientationCheck::visible() const noexcept {
+    int open[6] = {};
+    for (int i = 0; i < 12; ++i)
+        if (given_seams[i] > open_seam) ++open[seams()[i].a.face], ++open[seams()[i].b.face];
+    return *std::max_element(open, open + 6) >= 3;
+}
+
 OrientationCheck check_orientation(const Cube& cube) {
     OrientationCheck check;
     const SideRatios sides = compare_sides(cube);
@@ -144,7 +159,7 @@ OrientationCheck check_orientation(const Cube& cube) {
     check.best_seams = ratios_of(sides, check.closes);
     check.given = check.best = mean_seam_ratio(cube);
     if (check.closes.as_given()) return check;
-    check.wrong = closes_what_it_moves(check);
+    check.wrong = is_shown(check);
     check.best = mean_seam_ratio(reorient(cube, check.closes));
     return check;
 }
