@@ -76,6 +76,18 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("environment_io: a DDS cube map without all six faces is refused, because the others would be black") {
+        const Folder folder;
+        test::write_file(folder / "five.dds", dds_cube(8, false, 5));
+        try {
+            read_as(folder / "five.dds");
+            FAIL("not refused");
+        } catch (const Error& error) {
+            CHECK(error.refusal == Refusal::unsuitable);
+            CHECK(std::string(error.what()).find("+x -x +y -y +z only") != std::string::npos);
+        }
+    }
+
     TEST_CASE("environment_io: files tagged by OpenEXR have samples on the edges") {
         const Folder folder;
         Image<float> wide(16, 8, 3), strip(4, 24, 3);

@@ -37,9 +37,10 @@ Cube smooth_behind(int n) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 const Vec3d d = glm::normalize(cube_direction(CubePoint<double>{face, (x + 0.5) / n, (y + 0.5) / n}));
-                const double detail = std::clamp((d.z + 0.45) / 0.5, 0.0, 1.0), noise = (x * 7 + y * 13) % 5 / 5.0;
+                const double detail = std::clamp((d.z + 0.45) / 0.5, 0.0, 1.0),
+                             lines = std::sin(11 * d.x + 1) * std::sin(9 * d.y + 2) * std::cos(10 * d.z);
                 for (int c = 0; c < 3; ++c)
-                    cube[face].at(x, y, c) = float(0.3 + 0.02 * d.x + 0.06 * d.y + 0.4 * detail * noise);
+                    cube[face].at(x, y, c) = float(0.3 + 0.02 * d.x + 0.06 * d.y + 0.2 * detail * lines);
             }
     return cube;
 }

@@ -22,7 +22,9 @@ struct Orientation {
 inline constexpr double open_seam = 2.5;
 
 struct OrientationCheck {
-    double given = 0, best = 0; ///< mean_seam_ratio of the faces as given, and as `closes` arranges them
+    /// Seam ratios of the faces as given, and as `closes` arranges them: the mean step across the seams over the mean step
+    /// between neighbouring texels of the whole sky, at most about 1 if all faces match.
+    double given = 0, best = 0;
     std::array<double, 12> given_seams{}, best_seams{}; ///< ratios, in the order of seams()
     /// The most probable arrangement: the one with the smallest sum of log(ratio^2) over the seams, ratios below 1 counted
     /// as 1, plus 0.5 for each face that is not as given and 1.5 for each that is mirrored. Among all 720 permutations of
