@@ -19,7 +19,7 @@ struct CubemapArgs {
     ReadEnvironmentOptions reading;
     ResampleOptions resampling;
     double yaw = 0, pitch = 0, roll = 0;
-    bool mips = false, linear = false;
+    bool mips = false, linear = false, srgb = false;
     std::string irradiance, roughness;
     Specular specular = Specular::none;
     EnvironmentTarget target;

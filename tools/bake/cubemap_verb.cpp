@@ -28,6 +28,7 @@ int wanted_edge(const EnvironmentTarget& target) {
 
 Environment capture_sky(const CubemapArgs& args, const CommonArgs& common, Progress& progress) {
     const Scene scene = load(read_scene(args.capture));
+    for (const std::string& line : scene.notes) note(common, line);
     const int edge = wanted_edge(args.target);
     RenderStats stats;
     Environment sky;

@@ -17,8 +17,9 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
     input.uv = parse_pair("--uv", args.uv, false);
     if (input.uv != glm::clamp(input.uv, 0.0, 1.0))
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
-    const HeightTexture height = load_height(args.map.height);
+    const HeightTexture height = load_height(args.map.height, common);
     const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
+    note_all(common, args.map.mesh, mesh.notes);
     input.mesh = &mesh;
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);

@@ -22,6 +22,7 @@ struct MeshEntry {
     Placement placement;
     bool flat = false;
     bool flip_v = false; ///< see MeshOptions
+    int uv_set = -1;     ///< see MeshOptions
     int line = 0;
 };
 

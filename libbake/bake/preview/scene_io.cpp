@@ -141,7 +141,7 @@ void read_material(const Section& in, SceneEntries& scene) {
 }
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v"});
+    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v", "uv-set"});
     MeshEntry m;
     m.line = line_of(in.table);
     if (!read_path(in, "file", m.file))
@@ -164,6 +164,7 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
             refuse(in, *in.table.get("scale"), "\"scale\" is 0, so the mesh has no surface; give a scale other than 0");
     read(in, "flat", m.flat);
     read(in, "flip-v", m.flip_v);
+    read(in, "uv-set", m.uv_set, 0, 99);
     scene.meshes.push_back(std::move(m));
 }
 

@@ -1,6 +1,7 @@
 #include "inputs/height_input.h"
 #include "bake/base/text.h"
 #include "bake/relief/height/dequantise.h"
+#include "bake/relief/height/height_notes.h"
 #include "inputs/choice.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -56,11 +57,25 @@ void add_height_options(CLI::App& sub, HeightInput& input) {
     add_height_reading_options(sub, input);
 }
 
-HeightTexture load_height(const HeightInput& input) {
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info) {
+    for (const std::string& line : info.notes) note(common, file + ": " + line);
+}
+
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     HeightTexture height = read_height(input.path, input.grey);
+    print_notes(common, input.path, height.info);
     if (input.invert) invert(height);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;
+}
+
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height) {
+    std::vector<std::string> notes = height_notes(height, input.wrap_u(), input.wrap_v());
+    for (std::string& line : notes) {
+        line = with_flags(input.path + ": " + line);
+        note(common, line);
+    }
+    return notes;
 }
 
 std::string describe_levels(const HeightTexture& height) {

@@ -27,8 +27,13 @@ CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& gr
 void add_height_reading_options(CLI::App& sub, HeightInput& input);
 /// The same and --filter, for verbs that take slopes from texels.
 void add_height_options(CLI::App& sub, HeightInput& input);
-/// Reads the texture, inverted and dequantised as asked.
-HeightTexture load_height(const HeightInput& input);
+/// Reads the texture, inverted and dequantised as asked, and prints what reading it has to tell.
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common);
+/// Prints what reading a picture has to tell.
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info);
+
+/// Prints a note for every reason to doubt that the picture is a height (height_notes()). Returns the notes as printed.
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height);
 
 /// "uint8 height, 231 levels".
 std::string describe_levels(const HeightTexture& height);

@@ -19,6 +19,23 @@ bool has_shape(const SkyFormatEntry& format, int width, int height) noexcept {
     return std::int64_t(width) * format.rows == std::int64_t(height) * format.columns;
 }
 
+/// Whether a picture can have the shape of both formats; a strip may also lie on its side.
+consteval bool share_shape(const SkyFormatEntry& a, const SkyFormatEntry& b) {
+    const bool lies = (a.layout == CubeLayout::strip) != (b.layout == CubeLayout::strip);
+    return a.columns * b.rows == a.rows * b.columns || (lies && a.columns * b.columns == a.rows * b.rows);
+}
+consteval bool are_distinct_shapes() {
+    for (std::size_t i = 0; i < sky_formats.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (sky_formats[i].known_by_shape && sky_formats[j].known_by_shape &&
+                share_shape(sky_formats[i], sky_formats[j]))
+                return false;
+    return true;
+}
+static_assert(are_distinct_shapes(),
+              "sky_formats: two entries of the same shape cannot both be known_by_shape, because "
+              "the second would never be chosen");
+
 /// Whether a file's tag names this format. Only OpenEXR's own files have its edge samples and its order of faces; other
 /// files with the same tag, such as DDS cube maps and textures in TIFF, are plain strips and lat-longs.
 bool is_tagged(const SkyFormatEntry& format, const ImageInfo& info) noexcept {
@@ -122,6 +139,7 @@ void read_six(const FaceFiles& found, const ReadEnvironmentOptions& options, Env
     report.format = SkyFormat::faces;
     report.files = found.files;
     report.naming = found.naming;
+    report.notes = first.notes;
     report.type = first.type;
     mend_and_check(sky, options, first.alpha_channel, report);
 }
@@ -133,6 +151,7 @@ void read_picture(const std::string& file, const ReadEnvironmentOptions& options
     const SkyFormatEntry& format =
         options.from == SkyFormat::automatic ? format_of(file, image, info) : entry_of(options.from);
     report.type = info.type;
+    for (const std::string& line : info.notes) report.notes.push_back(file + ": " + line);
     report.format = format.format;
     report.picture = file;
     if (format.projection) {
@@ -185,7 +204,7 @@ Environment read_environment(const std::vector<std::string>& inputs, const ReadE
 }
 
 std::vector<std::string> reading_notes(const EnvironmentReport& report, bool by_name) {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = report.notes;
     if (report.format == SkyFormat::faces && by_name && report.naming.empty())
         notes.push_back("the names do not say which file is which face; taken in the order px nx py ny pz nz");
     if (report.cross != CrossShape{}) notes.push_back(report.picture + ": " + cross_note(report));

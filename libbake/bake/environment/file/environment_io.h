@@ -34,6 +34,7 @@ struct EnvironmentReport {
     OrientationCheck orientation;
     bool fixed = false; ///< the faces were moved to orientation.closes
     SampleType type = SampleType::other;
+    std::vector<std::string> notes; ///< of reading the files, each with a file's name
 };
 
 /// Throws Error naming the file: as read_image, read_faces, name_faces; unsuitable when the picture does not have the

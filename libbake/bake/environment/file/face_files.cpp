@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace bake {
 namespace {
@@ -212,7 +213,9 @@ Cube read_faces(const std::array<std::string, 6>& files, ColourSpace space, Imag
         if (face.width() != face.height())
             refuse("is " + std::to_string(face.width()) + "x" + std::to_string(face.height()) +
                    "; a face of the sky must be square");
+        const std::vector<std::string> told = std::exchange(info.notes, {});
         if (i == 0) first = info;
+        for (const std::string& line : told) first.notes.push_back(files[i] + ": " + line);
         if (face.width() != cube.size())
             refuse("is " + std::to_string(face.width()) + " texels wide, but " + files[0] + " is " +
                    std::to_string(cube.size()) + "; the six faces must be of one size");

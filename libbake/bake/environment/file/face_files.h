@@ -35,7 +35,8 @@ inline bool is_face_pattern(const std::string& file) { return file.find("%s") !=
 /// Error{Refusal::usage} when the pattern does not contain exactly one `%s`.
 std::array<std::string, 6> cube_files(const std::string& pattern);
 
-/// Reads six faces with the channels they have, one to four, and all their values. `first`: the header of px. Throws Error
+/// Reads six faces with the channels they have, one to four, and all their values. `first`: the header of px, with the notes
+/// of all six files behind their names. Throws Error
 /// naming the file: unreadable; unsuitable for a face that is not square, or whose size, number of channels or sample type
 /// is not that of the first.
 Cube read_faces(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic,

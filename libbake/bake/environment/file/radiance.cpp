@@ -57,6 +57,24 @@ void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept 
     }
 }
 
+/// Leaves grey or colours and alpha, where the file says which these are.
+void drop_extra_channels(Image<float>& image, ImageInfo& info) {
+    const int alpha = info.alpha_channel, kept = info.colours + (alpha >= 0);
+    if (info.colours == 0 || kept >= image.channels()) return;
+    Image<float> fewer(image.width(), image.height(), kept);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            std::copy_n(&image.at(x, y), info.colours, &fewer.at(x, y));
+            if (alpha >= 0) fewer.at(x, y, info.colours) = image.at(x, y, alpha);
+        }
+    info.notes.push_back("has " + std::to_string(image.channels() - kept) +
+                         " channel(s) that are neither colour nor alpha, which are left out");
+    if (alpha >= 0) info.channels[std::size_t(info.colours)] = info.channels[std::size_t(alpha)];
+    info.channels.resize(std::size_t(kept));
+    if (alpha >= 0) info.alpha_channel = info.colours;
+    image = std::move(fewer);
+}
+
 template <class Work> void each_texel(Image<float>& image, Work&& work) {
     for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = int(begin); y < int(end); ++y)
@@ -65,11 +83,6 @@ template <class Work> void each_texel(Image<float>& image, Work&& work) {
 }
 
 } // namespace
-
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
-    if (space != ColourSpace::automatic) return space == ColourSpace::srgb;
-    return info.type == SampleType::u8 || info.srgb_tagged;
-}
 
 BadTexels& BadTexels::operator+=(const BadTexels& later) noexcept {
     if (x < 0) x = later.x, y = later.y, value = later.value;
@@ -131,11 +144,12 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
 Image<float> read_radiance(const std::string& file, ColourSpace space, ImageInfo* info_out) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
+    drop_extra_channels(image, info);
     if (image.channels() > 4)
         throw Error(Refusal::unsuitable,
                     file + ": has " + std::to_string(image.channels()) +
                         " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
-    if (is_srgb(space, info)) srgb_to_linear(image, info.alpha_channel);
+    linearise(image, space, info);
     if (info_out) *info_out = std::move(info);
     return image;
 }

@@ -7,11 +7,6 @@
 
 namespace bake {
 
-/// How the values of a colour picture are stored.
-enum class ColourSpace { automatic, srgb, linear }; ///< automatic: sRGB for 8-bit and sRGB-tagged files
-/// Whether a file read by this rule must be decoded.
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept;
-
 /// Texels with values that cannot be radiance or that a file cannot hold.
 struct BadTexels {
     std::int64_t nan = 0, infinite = 0, negative = 0, over = 0; ///< texels; one with several faults counts in each
@@ -39,8 +34,8 @@ enum class BadPolicy {
 BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = largest_float,
                int alpha_channel = -1);
 
-/// Reads a picture of one to four channels as linear colour, with all its values. Throws as read_image, and
-/// Error{Refusal::unsuitable} for more channels.
+/// Reads a picture as linear radiance: its grey or its colours, and alpha, with all their values. Throws as read_image, and
+/// Error{Refusal::unsuitable} for more than four channels of which the file does not say which are colour.
 Image<float> read_radiance(const std::string& file, ColourSpace space = ColourSpace::automatic,
                            ImageInfo* info = nullptr);
 

@@ -59,7 +59,8 @@ void report_over(const BadTexels& over, const EnvironmentTarget& target, const s
 }
 
 WriteOptions write_options(const EnvironmentTarget& target, bool mips) {
-    WriteOptions options{.depth = target.depth, .srgb = target.encode_srgb, .mips = mips};
+    WriteOptions options{
+        .depth = target.depth, .colour = target.encode_srgb ? ColourSpace::srgb : ColourSpace::linear, .mips = mips};
     if (picture_format(target.file) == PictureFormat::exr) options.environment = entry_of(target.to).tag;
     return options;
 }
