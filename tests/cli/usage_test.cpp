@@ -54,6 +54,15 @@ TEST_SUITE("cli") {
             CHECK_MESSAGE(help.out.find(option) != std::string::npos, std::string(option));
     }
 
+    TEST_CASE("usage: every verb has its page in docs, and the README links to it") {
+        const std::string readme = contents((own_meshes() / "../README.md").string());
+        for (const std::string& verb : verbs()) {
+            const std::string page = "docs/" + verb + ".md";
+            CHECK_MESSAGE(fs::exists(own_meshes() / ".." / page), page << " is missing");
+            CHECK_MESSAGE(readme.find("(" + page + ")") != std::string::npos, "README.md has no link to " << page);
+        }
+    }
+
     TEST_CASE("usage: messages of the library name fields of its options, and the command turns them into flags") {
         const fs::path sources = own_meshes() / "../libbake";
         for (const auto& entry : fs::recursive_directory_iterator(sources)) {
@@ -67,7 +76,8 @@ TEST_SUITE("cli") {
         }
         const Folder folder;
         fs::copy_file(dots, folder / "square.png");
-        check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4, "set --from to one of ball, probe, octahedral");
+        check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4,
+                      "set --from to one of ball, probe, octahedral");
         check_refused(folder, {"bump-table", "square.png", "--channel", "a", "-o", "a.exr"}, 4, "another --channel");
         check_refused(folder,
                       {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "100M", "-o", "a.ply"}, 4,

@@ -116,6 +116,7 @@ void print_json(const BumpTableArgs& args, const BumpTableReport& r, const Stopw
                              {"step_tilt_deg", r.tilt_deg},
                              {"error_budget", to_json(r.budget)},
                              {"seconds", watch.to_json()}};
+    if (!r.notes.empty()) result["notes"] = r.notes;
     if (r.advice) result["better_filter"] = to_json(*r.advice);
     if (r.code) result["bias"] = {{"range", r.code->range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
     std::printf("%s\n", result.dump(2).c_str());

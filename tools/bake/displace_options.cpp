@@ -143,6 +143,7 @@ ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& 
     } else {
         HeightTexture height = load_height(args.height, common);
         info = height.info;
+        file.notes = note_doubts(common, args.height, height);
         file.described = describe_levels(height);
         file.relief.values = std::move(height.values);
     }
@@ -160,7 +161,7 @@ ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& 
     return file;
 }
 
-DisplaceOptions resolve_options(const DisplaceArgs& args, double size) {
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin) {
     DisplaceOptions options;
     options.seam = args.seam;
     options.measure_error = args.measure || !args.max_error.empty();
@@ -175,7 +176,9 @@ DisplaceOptions resolve_options(const DisplaceArgs& args, double size) {
     if (!args.edge_px.empty()) {
         options.rates.rule = Rates::Rule::edge_size;
         options.rates.size = *parse_number(args.edge_px);
-        options.rates.measure = [camera = parse_camera("--camera", args.camera)](const Vec3d& a, const Vec3d& b) {
+        auto camera = parse_camera("--camera", args.camera);
+        camera.frame.position = Vec3f(Vec3d(camera.frame.position) - origin);
+        options.rates.measure = [camera](const Vec3d& a, const Vec3d& b) {
             return pixels_at_most(camera.frame, 0.5 * (a + b), glm::length(b - a), camera.height);
         };
     }

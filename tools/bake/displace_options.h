@@ -33,7 +33,8 @@ void check_usage(const DisplaceArgs& args);
 /// The level of a refinement or limit surface for which the user gives no rate.
 inline constexpr int default_levels = 3;
 
-/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface.
+/// Throws Error{Refusal::unsuitable} for a mesh without uvs and for a cage that has no limit surface. `notes` receives those
+/// of read_mesh().
 BaseSurface make_base(const DisplaceArgs& args);
 
 /// The relief, and how its file is described.
@@ -41,12 +42,13 @@ struct ReliefFile {
     Relief relief;
     std::string described; ///< "8-bit height, 231 levels"
     bool default_amplitude = false;
+    std::vector<std::string> notes; ///< doubts about the height
 };
 /// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
 ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common);
 
-/// Reads the camera file if --camera names one.
-DisplaceOptions resolve_options(const DisplaceArgs& args, double size);
+/// Reads the camera file if --camera names one. `origin` is that of the mesh.
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin);
 
 /// "2G", "1.5GiB", "500M" or bytes. Throws Error{Refusal::usage}.
 std::uint64_t parse_bytes(const std::string& flag, const std::string& text);

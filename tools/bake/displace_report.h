@@ -15,9 +15,11 @@ struct DisplaceOutcome {
     double max_error = 0; ///< the limit that the user gave, object units
     double amplitude = 0, midlevel = 0;
     bool default_amplitude = false;
+    std::vector<std::string> notes; ///< doubts about the height
     DisplaceReport report;
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
+    std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
 void print(const DisplaceArgs& args, const DisplaceOutcome& outcome);

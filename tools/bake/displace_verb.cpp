@@ -43,16 +43,18 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     OutputFile(args.out); // a file that cannot be written is refused before the work
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
-    const BaseSurface base = make_base(args);
     DisplaceOutcome o;
+    const BaseSurface base = make_base(args);
+    o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
     const ReliefFile file = load_relief(args, o.size, common);
-    const DisplaceOptions options = resolve_options(args, o.size);
+    const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     o.max_error = options.rates.error;
     o.described = file.described;
+    o.notes = file.notes;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.default_amplitude = file.default_amplitude;
     watch.lap("height");

@@ -19,6 +19,7 @@ int run(const ExplainArgs& args, const CommonArgs& common) {
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
     const HeightTexture height = load_height(args.map.height, common);
     const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
+    note_all(common, args.map.mesh, mesh.notes);
     input.mesh = &mesh;
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);

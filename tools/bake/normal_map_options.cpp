@@ -31,6 +31,7 @@ void add_normal_map_options(CLI::App& sub, NormalMapArgs& args) {
     add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}},
                       "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
+    add_tile_option(sub, args.tile);
     sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
@@ -44,6 +45,7 @@ void check_usage(const NormalMapArgs& args) {
         throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && !args.amplitude.empty() && parse_amplitude(args.amplitude).percent)
         throw usage("--amplitude " + args.amplitude + ": there is no bounding box without a mesh; give object units");
+    if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
     if (args.space == Space::object && args.directx)
@@ -63,6 +65,7 @@ NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture&
     options.space = args.space;
     options.directx = args.directx;
     options.padding = args.padding;
+    options.tile = args.tile;
     const Amplitude amplitude = args.amplitude.empty() ? Amplitude{} : parse_amplitude(args.amplitude);
     options.height_options = {.amplitude = amplitude.value * (amplitude.percent ? diagonal(bounds(mesh)) : 1),
                               .midlevel = args.midlevel,

@@ -13,7 +13,7 @@ struct NormalMapArgs {
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
-    int padding = 16;
+    int padding = 16, tile = 0;
     Depth depth = Depth::automatic;
 };
 

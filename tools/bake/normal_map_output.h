@@ -11,7 +11,9 @@ struct NormalMapResult {
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
     double tilt_deg = 0;
+    std::vector<std::string> notes; ///< doubts about the height
     Filter filter = Filter::central;
+    std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
 /// The result as text or as one JSON object.

@@ -51,17 +51,20 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
         check_steepness(args.amplitude, options.height_options.amplitude, std::min(extent.x, extent.y));
         result = bake_plane(height, options, extent, depth, progress);
     } else {
-        const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height);
+        const BakeTarget target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
         result = bake_mesh(height, target, options, depth, progress);
     }
+    result.mesh_notes = mesh.notes;
     result.filter = resolve_filter(options.filter, height);
+    result.notes = note_doubts(common, args.height, height);
     progress.finish();
     watch.lap("bake");
     writer.write(result.map.data(), result.map.height());
     writer.finish();
     watch.lap("write");
     print(args, height, result, options, watch, common.json);
+    note_all(common, args.mesh, result.mesh_notes);
     warn(common, args, result.report);
     if (args.mesh.empty() && args.amplitude.empty())
         note(common, "amplitude 1: white lies as high above black as the picture is wide; --amplitude sets it");

@@ -41,11 +41,12 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
                     watch.total(), watch.seconds("load"), seconds);
         return;
     }
-    const nlohmann::json result = {
+    nlohmann::json result = {
         {"out", args.out},           {"width", settings.width},          {"height", settings.height},
         {"spp", settings.spp},       {"triangles", triangles},           {"rays", stats.rays},
         {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
         {"render_seconds", seconds}, {"seconds", watch.total()}};
+    if (!scene.notes.empty()) result["notes"] = scene.notes;
     std::printf("%s\n", result.dump(2).c_str());
 }
 
@@ -58,6 +59,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     if (args.spp > 0) settings.spp = args.spp;
     OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
+    for (const std::string& line : scene.notes) note(common, line);
     watch.lap("load");
     for (const std::string& line : scene.notes) note(common, line);
     Progress progress(common.quiet || common.json);
@@ -69,6 +71,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     const bool shown = depth == Depth::u8 || depth == Depth::u16;
     write_image(args.out, image, {.depth = depth, .colour = shown ? ColourSpace::srgb : ColourSpace::automatic});
     watch.lap("write");
+    for (const std::string& line : scene.notes) note(common, line);
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples too bright to store are black; dim the lights");
     report(args, scene, stats, watch, common.json);

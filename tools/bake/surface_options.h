@@ -8,7 +8,7 @@ namespace bake {
 struct SurfaceArgs {
     SurfaceInput surface;
     std::string out, resolution, maps, maps_out, size = "1024";
-    int padding = SurfaceMapOptions{}.padding;
+    int padding = SurfaceMapOptions{}.padding, tile = 0;
 };
 
 void add_surface_options(CLI::App& sub, SurfaceArgs& args);

@@ -49,7 +49,7 @@ struct Scene {
     Camera camera;
     Sky sky;
     RenderSettings settings;
-    std::vector<std::string> notes; ///< what reading the pictures had to tell, each with a file's name
+    std::vector<std::string> notes; ///< of reading the files, with their names
     std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 

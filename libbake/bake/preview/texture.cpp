@@ -1,6 +1,5 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
-#include "bake/relief/map/normal_map.h"
 #include "bake/relief/map/slope_code.h"
 #include <algorithm>
 #include <array>
@@ -106,25 +105,23 @@ Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool d
     ImageInfo info;
     const Image<float> image = read_image(file, &info);
     tell(file, info, notes);
-    if (image.channels() < 3)
-        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
-                                             " channel(s); a normal map has red, green and blue");
-    Image<float> normals = pick<3>(image, {0, 1, 2});
+    if (image.channels() < 2)
+        throw Error(Refusal::unsuitable,
+                    file + ": has one channel; a normal map has red, green and blue, or x and y alone");
+    NormalValues values = guess_normal_values(image, info);
+    // An encoding that the scene states needs no word.
+    if (encoding != NormalEncoding::automatic) values.encoding = NormalEncoding::unorm;
+    std::string note = values.usual() ? "" : file + ": " + describe(values);
+    if (values.encoding == NormalEncoding::srgb_encoded || values.encoding == NormalEncoding::srgb_decoded) {
+        values.encoding = NormalEncoding::unorm;
+        note += "; they were taken as stored; export them as data, not as colour";
+    }
+    if (notes && !note.empty()) notes->push_back(std::move(note));
+    if (encoding != NormalEncoding::automatic) values.encoding = encoding;
+    Image<float> normals = decode_normals(image, values);
     require_finite(normals, file);
-    float* const begin = normals.data();
-    float* const end = begin + normals.size();
-    if (encoding == NormalEncoding::automatic) {
-        const bool below_zero = std::any_of(begin, end, [](float v) { return v < 0; });
-        encoding = below_zero ? NormalEncoding::signed_ : NormalEncoding::unorm;
-    }
-    for (float* t = begin; t < end; t += 3) {
-        if (encoding == NormalEncoding::unorm) {
-            const Vec3f decoded = decode_normal({t[0], t[1], t[2]}, directx);
-            t[0] = decoded.x, t[1] = decoded.y, t[2] = decoded.z;
-        } else if (directx) {
-            t[1] = -t[1];
-        }
-    }
+    if (directx)
+        for (std::size_t i = 1; i < normals.size(); i += 3) normals.data()[i] = -normals.data()[i];
     return shared(std::move(normals));
 }
 

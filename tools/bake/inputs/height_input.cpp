@@ -1,6 +1,7 @@
 #include "inputs/height_input.h"
 #include "bake/base/text.h"
 #include "bake/relief/height/dequantise.h"
+#include "bake/relief/height/height_notes.h"
 #include "inputs/choice.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -66,6 +67,15 @@ HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     if (input.invert) invert(height);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;
+}
+
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height) {
+    std::vector<std::string> notes = height_notes(height, input.wrap_u(), input.wrap_v());
+    for (std::string& line : notes) {
+        line = with_flags(input.path + ": " + line);
+        note(common, line);
+    }
+    return notes;
 }
 
 std::string describe_levels(const HeightTexture& height) {

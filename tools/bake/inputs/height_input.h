@@ -32,6 +32,9 @@ HeightTexture load_height(const HeightInput& input, const CommonArgs& common);
 /// Prints what reading a picture has to tell.
 void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info);
 
+/// Prints a note for every reason to doubt that the picture is a height (height_notes()). Returns the notes as printed.
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height);
+
 /// "uint8 height, 231 levels".
 std::string describe_levels(const HeightTexture& height);
 /// The tilt in degrees of one quantisation step over two texels of a surface `extent` long with `texels` along it.

@@ -13,11 +13,16 @@ constexpr float half_largest = 65504.0f;
 
 bool is_bad(float value, float largest) noexcept { return !(value >= 0 && value <= largest); }
 
+/// Alpha may have any finite value.
+bool is_bad(const float* texel, int c, int alpha, float largest) noexcept {
+    return c == alpha ? !std::isfinite(texel[c]) : is_bad(texel[c], largest);
+}
+
 void count(BadTexels& bad, const float* texel, int channels, int alpha, float largest, int x, int y) noexcept {
     bool nan = false, infinite = false, negative = false, over = false;
     for (int c = 0; c < channels; ++c) {
         const float value = texel[c];
-        if (c == alpha || !is_bad(value, largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
         if (bad.x < 0) bad.x = x, bad.y = y, bad.value = value;
         nan |= std::isnan(value);
         infinite |= std::isinf(value);
@@ -33,15 +38,20 @@ void count(BadTexels& bad, const float* texel, int channels, int alpha, float la
 
 void zero_texel(float* texel, int channels, int alpha, float largest) noexcept {
     bool faulty = false;
-    for (int c = 0; c < channels; ++c) faulty |= c != alpha && is_bad(texel[c], largest);
+    for (int c = 0; c < channels; ++c) faulty |= is_bad(texel, c, alpha, largest);
     if (!faulty) return;
     for (int c = 0; c < channels; ++c)
         if (c != alpha) texel[c] = 0;
+        else if (!std::isfinite(texel[c])) texel[c] = 1;
 }
 
 void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept {
     for (int c = 0; c < channels; ++c) {
-        if (c == alpha || !is_bad(texel[c], largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
+        if (c == alpha) {
+            texel[c] = 1;
+            continue;
+        }
         const float most = std::isinf(texel[c]) ? std::min(largest, half_largest) : largest;
         texel[c] = texel[c] > 0 ? most : 0; // NaN gives 0
     }
@@ -121,9 +131,8 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     const int channels = image.channels();
     switch (policy) {
     case BadPolicy::refuse:
-        throw Error(Refusal::unsuitable,
-                    file + ": holds texels that are no radiance: " + to_text(bad, largest) +
-                        "; mend the picture, or let bake cubemap do it with `bad` zero or `bad` clamp");
+        throw Error(Refusal::unsuitable, file + ": holds texels that are no radiance: " + to_text(bad, largest) +
+                                             "; mend the picture, or set `bad` to zero or clamp");
     case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
     case BadPolicy::clamp:
         each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); });
@@ -132,8 +141,7 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     return bad;
 }
 
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out,
-                           BadTexels* found) {
+Image<float> read_radiance(const std::string& file, ColourSpace space, ImageInfo* info_out) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
     drop_extra_channels(image, info);
@@ -141,16 +149,8 @@ Image<float> read_radiance(const std::string& file, const RadianceOptions& optio
         throw Error(Refusal::unsuitable,
                     file + ": has " + std::to_string(image.channels()) +
                         " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
-    linearise(image, options.space, info);
-    BadTexels bad;
-    if (options.allow_negative) {
-        bad = find_bad(image, 3.4e38f, info.alpha_channel);
-        if (bad.nan + bad.infinite + bad.over > 0) bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    } else {
-        bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    }
+    linearise(image, space, info);
     if (info_out) *info_out = std::move(info);
-    if (found) *found = bad;
     return image;
 }
 

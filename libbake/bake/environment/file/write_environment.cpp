@@ -15,6 +15,8 @@ namespace bake {
 namespace {
 
 constexpr float half_largest = 65504;
+/// The largest float that is rounded to a finite half float: resampling may exceed half_largest by a rounding error.
+constexpr float rounds_to_half = 65519.996f;
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
@@ -40,7 +42,7 @@ void encode(Image<float>& rows, int top, const EnvironmentTarget& target, const 
             EnvironmentWritten& written) {
     if (target.depth == Depth::u8 || target.depth == Depth::u16) return encode_integers(rows, target, written);
     if (target.depth != Depth::half) return;
-    BadTexels found = find_bad(rows, half_largest);
+    BadTexels found = find_bad(rows, rounds_to_half);
     if (found.over == 0) return;
     found.y += top;
     over += found;
@@ -173,14 +175,36 @@ Image<float> level_picture(const Environment& sky, int k, const EnvironmentTarge
     return height < picture.height() ? reduced(picture, height) : std::move(picture);
 }
 
+float largest_of(const Image<float>& image) noexcept {
+    std::vector<float> rows(image.height(), 0.0f);
+    for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y)
+            rows[y] = *std::max_element(image.row(y), image.row(y) + std::size_t(image.width()) * image.channels());
+    });
+    return *std::max_element(rows.begin(), rows.end());
+}
+float largest_of(const Cube& cube) noexcept {
+    float largest = 0;
+    for (const Image<float>& face : cube.faces) largest = std::max(largest, largest_of(face));
+    return largest;
+}
+
+/// Completes a target. Half floats that nobody asked for become floats if they cannot hold `largest`.
+EnvironmentTarget complete_for(const EnvironmentTarget& wanted, int edge, float largest) {
+    EnvironmentTarget target = complete_target(wanted, edge);
+    const bool automatic = wanted.depth == Depth::automatic && target.depth == Depth::half;
+    if (automatic && largest > half_largest) target.depth = Depth::float32;
+    return target;
+}
+
 void check_levels(const std::vector<Cube>& levels, const EnvironmentTarget& target) {
     if (levels.size() < 2 || target.to == SkyFormat::faces) return;
     if (!entry_of(target.to).mips) {
         std::string able;
         for (const SkyFormatEntry& format : sky_formats)
             if (format.mips) able += (able.empty() ? "" : ", ") + std::string(format.name);
-        throw usage(target.file + ": " + name(target.to) + " cannot be written with mip levels; set `to` to one of " +
-                    able);
+        throw usage(target.file + ": " + name(target.to) +
+                    " cannot be written with mip levels; give one of these formats in `to`: " + able);
     }
     if (!std::has_single_bit(unsigned(levels[0].size())))
         throw usage(target.file + ": mip levels of six faces of " + std::to_string(levels[0].size()) +
@@ -221,7 +245,9 @@ EnvironmentTarget complete_target(EnvironmentTarget target, int edge) {
 
 EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTarget& wanted,
                                      const ResampleOptions& options, Progress* progress) {
-    const EnvironmentTarget target = complete_target(wanted, sky.face_edge());
+    // Resampling gives no value beyond those of the source.
+    const float largest = sky.is_cube() ? largest_of(sky.cube) : largest_of(sky.picture);
+    const EnvironmentTarget target = complete_for(wanted, sky.face_edge(), largest);
     const SkyFormatEntry& format = entry_of(target.to);
     if (format.projection)
         return write_picture(target, to_picture(sky, *format.projection, target.size, height_of(format, target.size),
@@ -232,7 +258,9 @@ EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTa
 }
 
 EnvironmentWritten write_levels(std::vector<Cube> levels, const EnvironmentTarget& wanted, Progress* progress) {
-    const EnvironmentTarget target = complete_target(wanted, levels[0].size());
+    float largest = 0;
+    for (const Cube& level : levels) largest = std::max(largest, largest_of(level));
+    const EnvironmentTarget target = complete_for(wanted, levels[0].size(), largest);
     check_levels(levels, target);
     const bool mips = levels.size() > 1, six = target.to == SkyFormat::faces;
     while (mips && levels.back().size() > 1) levels.push_back(next_mip(levels.back()));
