@@ -14,13 +14,13 @@ struct DisplaceOutcome {
     double edge = 0;      ///< mean edge of the result
     double max_error = 0; ///< the limit that the user gave, object units
     double amplitude = 0, midlevel = 0;
-    bool default_amplitude = false;
+    std::string amplitude_note; ///< as in ReliefFile
     DisplaceReport report;
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
 };
 
-void print(const DisplaceArgs& args, const DisplaceOutcome& outcome);
+std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& outcome);
 nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& outcome);
 /// A note for everything in the result that the user probably did not want.
 void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutcome& outcome);

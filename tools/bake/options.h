@@ -16,7 +16,4 @@ namespace bake {
 /// How a mesh is read, given the same way by every verb that reads one.
 void add_mesh_options(CLI::App& sub, MeshOptions& options);
 
-using HeightArgs = HeightInput;
-inline std::pair<int, int> parse_size(const std::string& text) { return parse_size("--size", text); }
-
 } // namespace bake

@@ -82,6 +82,7 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
     report.normal_width = normals.width();
     report.normal_height = normals.height();
     report.check = check_pair(height.values, normals);
+    report.directx = options.directx;
     report.findings = judge(report);
     return report;
 }

@@ -23,6 +23,7 @@ struct InspectOptions {
     MeshCheckOptions mesh;
     UvCheckOptions uv;
     Grey height_channel = Grey::mean; ///< pairs: channel of the height
+    std::optional<bool> directx;      ///< pairs: whether green is expected to point down; none: nothing is expected
     MeshDistanceOptions distance;
     double limit = 0; ///< distances: warn if the upper bound is larger; 0 for no limit
 };
@@ -56,7 +57,10 @@ struct PairReport {
     std::string height_file, normal_file;
     int height_width = 0, height_height = 0, normal_width = 0, normal_height = 0;
     PairCheck check;
+    std::optional<bool> directx; ///< what InspectOptions expects of the green
     Findings findings;
+    /// The green is not what is expected, or unknown.
+    bool unexpected() const noexcept;
 };
 
 struct DistanceReport {

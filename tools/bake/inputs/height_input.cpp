@@ -7,9 +7,8 @@
 
 namespace bake {
 
-void add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
-    sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
-        ->required()
+CLI::Option* add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
+    return sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
         ->check(not_empty());
 }
 
@@ -56,11 +55,48 @@ void add_height_options(CLI::App& sub, HeightInput& input) {
     add_height_reading_options(sub, input);
 }
 
+void add_relief_options(CLI::App& sub, HeightInput& input) {
+    add_length_option(sub, "--amplitude", input.amplitude,
+                      "Height of white above black: object units, or a per cent of the mesh's diagonal, without a mesh "
+                      "of the picture's width [1%; 1 for float files, whose values are lengths]",
+                      false);
+    add_number_option(sub, "--midlevel", input.midlevel, -1e12, 1e12,
+                      "Value that lies on the surface [0.5; 0 for float files]");
+}
+
 HeightTexture load_height(const HeightInput& input) {
     HeightTexture height = read_height(input.path, input.grey);
     if (input.invert) invert(height);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;
+}
+
+namespace {
+bool holds_lengths(const ImageInfo& file) { return file.type == SampleType::half || file.type == SampleType::float32; }
+} // namespace
+
+HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole) {
+    const Length by_default = holds_lengths(file) ? Length{1, false} : Length{0.01, true};
+    return {.amplitude = input.amplitude.value_or(by_default).in_units(whole.length),
+            .midlevel = input.midlevel.value_or(holds_lengths(file) ? 0 : 0.5),
+            .wrap_u = input.wrap_u(),
+            .wrap_v = input.wrap_v()};
+}
+
+std::string default_amplitude_note(const HeightInput& input, const ImageInfo& file, const HeightOptions& used,
+                                   const Whole& whole) {
+    if (input.amplitude) return "";
+    return format("amplitude %g, ", used.amplitude) +
+           (holds_lengths(file) ? "because the values of a float file are taken as lengths"
+                                : std::string("1 % of ") + whole.name) +
+           "; --amplitude sets it";
+}
+
+void check_steepness(const HeightInput& input, double amplitude, double length) {
+    if (std::abs(amplitude) > 1e9 * length)
+        throw Error(Refusal::usage,
+                    "--amplitude " + input.amplitude.value_or(Length{}).text +
+                        format(": is more than 1e9 times the %g over which it rises; write less", length));
 }
 
 std::string describe_levels(const HeightTexture& height) {

@@ -2,7 +2,7 @@
 #pragma once
 #include "bake/relief/height/height.h"
 #include "bake/relief/height/slope_filter.h"
-#include "verb.h"
+#include "inputs/number_option.h"
 #include <optional>
 
 namespace bake {
@@ -14,21 +14,42 @@ struct HeightInput {
     std::optional<Wrap> along_u, along_v;
     bool invert = false, dequantise = false;
     Filter filter = Filter::automatic;
+    std::optional<Length> amplitude; ///< none: see height_options()
+    std::optional<double> midlevel;
 
     Wrap wrap_u() const { return along_u.value_or(wrap); }
     Wrap wrap_v() const { return along_v.value_or(wrap); }
 };
 
-/// Adds the path under this name ("--height", or "grey" for a positional one), which is required.
-void add_height_path(CLI::App& sub, const std::string& name, HeightInput& input);
+/// Adds the path under this name: "--height", or "grey" for a positional one.
+CLI::Option* add_height_path(CLI::App& sub, const std::string& name, HeightInput& input);
 /// Adds an option for the grey that is taken from a picture.
 CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& grey, const std::string& help);
 /// Adds --wrap, --wrap-u, --wrap-v, --channel, --invert and --dequantise.
 void add_height_reading_options(CLI::App& sub, HeightInput& input);
 /// The same and --filter, for verbs that take slopes from texels.
 void add_height_options(CLI::App& sub, HeightInput& input);
+/// Adds --amplitude and --midlevel.
+void add_relief_options(CLI::App& sub, HeightInput& input);
 /// Reads the texture, inverted and dequantised as asked.
 HeightTexture load_height(const HeightInput& input);
+
+/// The length that an amplitude in per cent refers to.
+struct Whole {
+    double length;
+    const char* name; ///< "the bounding box's diagonal"
+};
+inline Whole diagonal_of(double length) { return {length, "the bounding box's diagonal"}; }
+inline Whole width_of(double length) { return {length, "the picture's width"}; }
+
+/// What the values of the height mean. Unless given: an integer file has an amplitude of 1 % of the whole and its midlevel
+/// at 0.5; the values of a float file are lengths, with amplitude 1 and midlevel 0.
+HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole);
+/// Which amplitude stood in for one that the user did not give; empty if the user gave it.
+std::string default_amplitude_note(const HeightInput& input, const ImageInfo& file, const HeightOptions& used,
+                                   const Whole& whole);
+/// Refuses slopes that floats cannot hold: an amplitude above 1e9 times the length over which it rises.
+void check_steepness(const HeightInput& input, double amplitude, double length);
 
 /// "uint8 height, 231 levels".
 std::string describe_levels(const HeightTexture& height);

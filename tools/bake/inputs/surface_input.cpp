@@ -1,5 +1,6 @@
 #include "inputs/surface_input.h"
 #include "bake/mesh/weld.h"
+#include "inputs/file_kind.h"
 
 namespace bake {
 namespace {
@@ -24,6 +25,7 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (input.mesh.empty() && input.shape.empty())
         throw usage(verb + ": neither a mesh nor a --shape is named; give one of them");
     if (!input.mesh.empty() && !input.shape.empty()) throw usage("--shape: stands instead of a mesh; give one of them");
+    if (!input.mesh.empty()) expect_mesh(input.mesh);
     if (!input.shape.empty() && input.scheme)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
     if (!input.shape.empty() && input.reading.flip_v)
