@@ -350,10 +350,71 @@ TEST_SUITE("stability") {
         Image<float> bright(16, 8, 1);
         for (std::size_t i = 0; i < bright.size(); ++i) bright.data()[i] = 1e6f;
         write_image(folder / "bright.tif", bright, {.depth = Depth::float32});
-        refused(folder, "bright.tif -o b_%s.exr", 4, "65504");
+        refused(folder, "bright.tif -o b_%s.exr --depth half", 4, "65504");
         CHECK(cubemap_json(folder, "bright.tif -o b_%s.tif")["over_half"]["texels"] == 0);
-        CHECK(cubemap_json(folder, "bright.tif -o c_%s.exr --bad clamp")["over_half"]["over"] == 6 * 16);
+        CHECK(cubemap_json(folder, "bright.tif -o c_%s.exr --depth half --bad clamp")["over_half"]["over"] == 6 * 16);
         CHECK(read_image(folder / "c_px.exr").at(1, 1) == 65504);
+    }
+
+    TEST_CASE(
+        "cubemap: radiance that half floats cannot hold is written as float, with a note, in every kind of file") {
+        const Folder folder;
+        Image<float> bright(32, 16, 1);
+        for (std::size_t i = 0; i < bright.size(); ++i) bright.data()[i] = i < 32 ? 1e6f : 1;
+        write_image(folder / "bright.tif", bright, {.depth = Depth::float32});
+        for (const char* how : {"-o b_%s.exr", "--to latlong -o b.exr", "-o b.exr", "--mips -o m_%s.exr",
+                                "--irradiance direct --size 4 -o i_%s.exr"}) {
+            const Run run = cubemap(folder, std::string("bright.tif ") + how);
+            CAPTURE(how);
+            CHECK(run.code == 0);
+            CHECK(run.err.find("written as float") != std::string::npos);
+        }
+        CHECK(read_image_info(folder / "b_py.exr").type == SampleType::float32);
+        CHECK(read_image(folder / "b_py.exr").at(4, 4) > 65504);
+        // The largest half itself, and what resampling adds to it by rounding, fits.
+        for (std::size_t i = 0; i < bright.size(); ++i) bright.data()[i] = i < 64 ? 65504 : 1;
+        write_image(folder / "fits.tif", bright, {.depth = Depth::float32});
+        CHECK(cubemap(folder, "fits.tif --yaw 7 --size 24 -o f_%s.exr").err == "");
+        CHECK(read_image_info(folder / "f_py.exr").type == SampleType::half);
+        CHECK(read_image(folder / "f_py.exr").at(12, 12) == 65504);
+    }
+
+    TEST_CASE("cubemap: tiny negative values become 0 with a note, larger ones are refused, and render does the same") {
+        const Folder folder;
+        Image<float> sky(64, 32, 3);
+        for (std::size_t i = 0; i < sky.size(); ++i) sky.data()[i] = 0.5f;
+        sky.at(30, 10, 2) = -0.1f;
+        write_image(folder / "ringing.tif", sky, {.depth = Depth::float32});
+        const Run run = cubemap(folder, "ringing.tif --to latlong -o a.tif");
+        CHECK(run.code == 0);
+        CHECK(run.err.find("1 texels with negative values") != std::string::npos);
+        CHECK(read_image(folder / "a.tif").at(30, 10, 2) == 0);
+        CHECK(read_image(folder / "a.tif").at(30, 10, 1) == 0.5f);
+        CHECK(cubemap(folder, "ringing.tif --to latlong -o a.tif --quiet").err == "");
+        for (int x = 0; x < 64; ++x) sky.at(x, 10, 2) = -0.1f;
+        write_image(folder / "negative.tif", sky, {.depth = Depth::float32});
+        refused(folder, "negative.tif -o a_%s.tif", 4, "64 negative");
+        const auto render = [&](const std::string& keys) {
+            write_file(folder / "s.toml", "[render]\nsize = 4\nspp = 1\n[sky]\n" + keys);
+            return run_bake(folder, {"render", "s.toml", "-o", "s.png"});
+        };
+        const Run told = render("image = \"ringing.tif\"\n");
+        CHECK(told.code == 0);
+        CHECK(told.err.find("1 texels with negative values") != std::string::npos);
+        CHECK(render("image = \"negative.tif\"\n").code == 4);
+        CHECK(render("image = \"negative.tif\"\nbad = \"clamp\"\n").code == 0);
+    }
+
+    TEST_CASE("cubemap: messages are plain words") {
+        const Folder folder;
+        write_faces(folder, "s_%s.tif", 4);
+        const std::string mips = cubemap(folder, "s_%s.tif --mips --to hcross -o a.tif").err;
+        CHECK(mips.find("give one of these formats in --to: faces, latlong, strip") != std::string::npos);
+        const std::string missing = cubemap(folder, "s_px.tif s_nx.tif s_py.tif s_ny.tif s_pz.tif -o a.tif").err;
+        CHECK(missing.find("the face nz is missing") != std::string::npos);
+        write_flat(folder / "bad.tif", 8, 4, -1);
+        const std::string bad = cubemap(folder, "bad.tif -o a_%s.tif").err;
+        CHECK(bad.find("set --bad to zero or clamp") != std::string::npos);
     }
 
     TEST_CASE("cubemap: an interrupted or failing run leaves the old files as they were") {

@@ -76,6 +76,15 @@ TEST_SUITE("cli") {
         CHECK(run >= 35);
     }
 
+    TEST_CASE("usage: every verb has its page in docs, and the README links to it") {
+        const std::string readme = contents((own_meshes() / "../README.md").string());
+        for (const std::string& verb : verbs()) {
+            const std::string page = "docs/" + verb + ".md";
+            CHECK_MESSAGE(fs::exists(own_meshes() / ".." / page), page << " is missing");
+            CHECK_MESSAGE(readme.find("(" + page + ")") != std::string::npos, "README.md has no link to " << page);
+        }
+    }
+
     TEST_CASE("usage: messages of the library name fields of its options, and the command turns them into flags") {
         const fs::path sources = own_meshes() / "../libbake";
         for (const auto& entry : fs::recursive_directory_iterator(sources)) {

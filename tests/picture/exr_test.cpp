@@ -22,6 +22,27 @@ TEST_SUITE("oracle") {
     }
 }
 
+TEST_SUITE("unit") {
+    TEST_CASE("exr: of several layers the main one is read, and the others are told") {
+        const Folder folder;
+        const std::string path = folder / "a.exr";
+        Image<float> image(3, 2, 5);
+        for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = float(i);
+        write_image(path, image,
+                    {.depth = Depth::float32,
+                     .channels = {"ViewLayer.Combined.R", "ViewLayer.Combined.G", "ViewLayer.Combined.B",
+                                  "ViewLayer.Combined.A", "ViewLayer.Depth.Z"}});
+        ImageInfo info;
+        const Image<float> back = read_image(path, &info);
+        CHECK(info.channels == std::vector<std::string>{"R", "G", "B", "A"});
+        CHECK(info.alpha_channel == 3);
+        REQUIRE(info.notes.size() == 1);
+        CHECK(info.notes[0].find("ViewLayer.Depth.Z") != std::string::npos);
+        for (int c = 0; c < 4; ++c) CHECK(back.at(2, 1, c) == image.at(2, 1, c));
+        CHECK(run_bake(folder, {"cubemap", "a.exr", "--from", "latlong", "-o", "out.exr"}).code == 4); // 3 : 2
+    }
+}
+
 TEST_SUITE("real" * doctest::skip(no_shared_data())) {
     TEST_CASE("exr: real files are read as OpenImageIO reads them") {
         const Folder folder;

@@ -4,6 +4,7 @@
 #include "picture/openimageio.h"
 #include "picture/png_bytes.h"
 #include <cmath>
+#include <cstring>
 #include <random>
 
 using namespace bake;
@@ -82,6 +83,32 @@ TEST_SUITE("unit") {
         CHECK(grey.at(0, 0, 0) == doctest::Approx(7 / 255.0));
     }
 
+    TEST_CASE("png: a position on a page moves no texel, an orientation in eXIf is told, a palette too") {
+        const Folder folder;
+        const std::string path = folder / "a.png";
+        ImageInfo info;
+        const std::string offset = big_endian(1) + big_endian(std::uint32_t(-1)) + std::string(1, '\0');
+        write_file(path, png_bytes(2, 1, 8, 0, {"\x10\x20"}, png_chunk("oFFs", offset)));
+        Image<float> image = read_image(path, &info);
+        CHECK(image.at(0, 0) == doctest::Approx(16 / 255.0));
+        CHECK(image.at(1, 0) == doctest::Approx(32 / 255.0));
+        CHECK(info.notes.empty());
+
+        const std::string exif("MM\0*\0\0\0\10\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0", 26);
+        write_file(path, png_bytes(2, 1, 8, 0, {"\x10\x20"}, png_chunk("eXIf", exif)));
+        CHECK(read_image(path, &info).width() == 2);
+        REQUIRE(info.notes.size() == 1);
+        CHECK(info.notes[0].find("orientation 6") != std::string::npos);
+
+        write_file(path, png_bytes(2, 1, 1, 3, {"\x40"}, png_chunk("PLTE", std::string("\0\0\0\xff\xff\xff", 6))));
+        read_image(path, &info);
+        CHECK_FALSE(info.palette); // a ramp of greys
+        write_file(path, png_bytes(2, 1, 1, 3, {"\x40"}, png_chunk("PLTE", std::string("\xff\xff\xff\0\0\0", 6))));
+        image = read_image(path, &info);
+        CHECK(info.palette);
+        CHECK(image.at(0, 0) == 1);
+    }
+
     TEST_CASE("png: damage is refused, unless every texel is what it was") {
         const Folder folder;
         const std::string path = folder / "a.png", rows = std::string("\x01\x02", 2);
@@ -132,6 +159,30 @@ TEST_SUITE("unit") {
         CHECK(most <= 0.51f / 65535);
     }
 
+    TEST_CASE("png: the first row of a group of blocks is filtered against the last row of the group before it") {
+        // Each value is half of the one before it plus noise. Filtering by the average is best where the row above is 0
+        // (the values' deviation from it is .87 of that from the left neighbour), and filtering by the row above is best
+        // in every later row, because all rows are the same.
+        std::mt19937 random(2);
+        Image<float> row(4500, 1, 1);
+        for (int x = 0, value = 128; x < row.width(); ++x) {
+            value = value / 2 + 32 + int(random() % 64);
+            row.at(x, 0) = float(value) / 255;
+        }
+        const Folder folder;
+        const std::string path = folder / "a.png";
+        const int height = 1900; // 8.5 MB; a group has 8 MiB
+        ImageWriter writer(path, row.width(), height, 1, {.depth = Depth::u8});
+        for (int y = 0; y < height; ++y) writer.write(row.data(), 1);
+        writer.finish();
+        const Image<float> back = read_image(path);
+        int wrong = 0;
+        for (int y = 0; y < height; ++y)
+            wrong += std::memcmp(back.row(y), back.row(0), row.size() * sizeof(float)) != 0;
+        CHECK(wrong == 0);
+        CHECK(std::abs(back.at(17, 0) - row.at(17, 0)) < 1e-6f);
+    }
+
     TEST_CASE("png: rows that repeat cost a small part of what noise does") {
         const Folder folder;
         std::mt19937 random(1);
@@ -160,7 +211,8 @@ TEST_SUITE("oracle") {
         for (const int channels : {1, 2, 3, 4})
             for (const Depth depth : {Depth::u8, Depth::u16}) {
                 const std::string path = folder / "a.png";
-                write_image(path, waves(61, 47, channels), {.depth = depth, .srgb = channels == 3});
+                write_image(path, waves(61, 47, channels),
+                            {.depth = depth, .colour = channels == 3 ? ColourSpace::srgb : ColourSpace::automatic});
                 ImageInfo info;
                 CHECK(same(read_image(path, &info), by_openimageio(folder, path)));
                 CHECK(info.srgb_tagged == (channels == 3));

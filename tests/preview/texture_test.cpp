@@ -83,18 +83,43 @@ TEST_SUITE("unit") {
         CHECK(near(lookup3(*read_albedo(exr), {0.5f, 0.5f}), Vec3f(0.5f)));
     }
 
-    TEST_CASE("texture: a normal map is unorm, or signed when it has values below 0, unless told") {
+    TEST_CASE("texture: a normal map is unorm, or signed when that makes its vectors unit, unless told") {
         const Folder folder;
         const std::string unorm =
-            written(folder / "unorm.exr", texels(3, {0.5f, 0.75f, 1, 0.25f, 0.5f, 1}), Depth::float32);
+            written(folder / "unorm.exr", texels(3, {0.5f, 0.75f, 1, 0.25f, 0.5f, 0.9f}), Depth::float32);
         const std::string with_sign =
-            written(folder / "signed.exr", texels(3, {0, -0.5f, 1, 0.25f, 0.5f, 1}), Depth::float32);
+            written(folder / "signed.exr", texels(3, {0, -0.5f, 1, 0.25f, 0.5f, 0.9f}), Depth::float32);
         const Vec2f first(0.25f, 0.5f);
         CHECK(near(lookup3(*read_normal_map(unorm), first), {0, 0.5f, 1}));
         CHECK(near(lookup3(*read_normal_map(with_sign), first), {0, -0.5f, 1}));
         CHECK(near(lookup3(*read_normal_map(unorm, NormalEncoding::signed_), first), {0.5f, 0.75f, 1}));
         CHECK(near(lookup3(*read_normal_map(with_sign, NormalEncoding::unorm), first), {-1, -2, 1}));
         CHECK(near(lookup3(*read_normal_map(unorm, NormalEncoding::automatic, true), first), {0, -0.5f, 1}));
+    }
+
+    TEST_CASE("texture: a normal map of floats keeps its relief where one value is a hair below 0") {
+        const Folder folder;
+        const std::string file = written(
+            folder / "hair.exr", texels(3, {0.5f, 0.75f, 0.93f, 0.25f, -0.0001f, 0.5f, 0.5f, 0.5f, 1}), Depth::float32);
+        std::string note;
+        CHECK(near(lookup3(*read_normal_map(file, NormalEncoding::automatic, false, &note), {1 / 6.0f, 0.5f}),
+                   {0, 0.5f, 0.86f}));
+        CHECK(note.empty());
+    }
+
+    TEST_CASE("texture: z of a normal map of two channels is rebuilt, and the note says so") {
+        const Folder folder;
+        const std::string two =
+            written(folder / "two.exr", texels(2, {0.5f, 0.8f, 0.5f, 0.2f}), Depth::float32, {"R", "G"});
+        const std::string three = written(folder / "three.png", texels(3, {0.5f, 0.8f, 0, 0.5f, 0.2f, 0}), Depth::u16);
+        for (const std::string& file : {two, three}) {
+            std::string note;
+            CHECK(near(lookup3(*read_normal_map(file, NormalEncoding::automatic, false, &note), {0.25f, 0.5f}),
+                       {0, 0.6f, 0.8f}, 1e-4f));
+            CHECK(note.find("z is rebuilt") != std::string::npos);
+        }
+        const std::string one = written(folder / "one.png", texels(1, {0.5f, 0.8f}), Depth::u8);
+        check_unsuitable(one, [](const std::string& file) { read_normal_map(file); });
     }
 
     TEST_CASE("texture: a bump table's channels go by their names, else by their order, times the scale") {

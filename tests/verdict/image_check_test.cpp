@@ -1,4 +1,5 @@
 #include "bake/base/vec.h"
+#include "bake/relief/map/error_budget.h"
 #include "bake/verdict/image_check.h"
 #include <cmath>
 #include <doctest/doctest.h>
@@ -26,6 +27,7 @@ template <class Value> Image<float> picture(int width, int height, int channels,
     return image;
 }
 
+constexpr SampleType int16_type = SampleType::other; // of 16 bits
 const std::vector<std::string> grey1 = {"Y"}, rgb = {"R", "G", "B"};
 
 } // namespace
@@ -44,7 +46,7 @@ TEST_SUITE("unit") {
         CHECK(c.channels[1].nan + c.channels[1].inf == 0);
         CHECK(c.channels[1].min == -129);
         CHECK(c.channels[1].mean == doctest::Approx(-64.5));
-        CHECK(c.looks == Looks::data);
+        CHECK(c.kind.looks == Looks::data);
     }
 
     TEST_CASE("check_image: true depth is the smallest bit depth that represents every level") {
@@ -71,6 +73,45 @@ TEST_SUITE("unit") {
                   SampleType::float32, 32, [](int i) { return std::sin(i * 0.1) * 0.5 + 0.5; }, 1) == 0);
     }
 
+    TEST_CASE("check_image: genuine floats have no integer depth, floats from integers have theirs") {
+        const auto bits = [](SampleType type, auto value) {
+            const Image<float> image = picture(64, 64, 1, [&](int x, int y, int) { return value(y * 64 + x); });
+            return check_image(image, info_of(type, type == SampleType::half ? 16 : 32, grey1)).true_bits;
+        };
+        std::uint32_t seed = 1;
+        const auto random = [&seed](int) {
+            seed = seed * 1664525u + 1013904223u;
+            return 0.5 + double(seed >> 8) / (1 << 25);
+        };
+        CHECK(bits(SampleType::float32, random) == 0);
+        CHECK(bits(SampleType::half, [&](int i) { return as_half(float(random(i))); }) == 0);
+        CHECK(bits(SampleType::half, [](int i) { return as_half(float(i % 256) / 255); }) == 8);
+        CHECK(bits(SampleType::float32, [](int i) { return as_half(float(i % 256) / 255); }) == 8);
+        CHECK(bits(SampleType::float32, [](int i) { return i % 4096 / 4095.0; }) == 12);
+        CHECK(bits(SampleType::float32, [](int i) { return i * 16 / 65535.0; }) == 16);
+    }
+
+    TEST_CASE("check_image: the depth of a palette's indices is not that of its colours") {
+        const auto bits = [](int stored, auto level) {
+            const Image<float> image = picture(64, 64, 1, [&](int x, int y, int) { return level(y * 64 + x) / 255.0; });
+            return check_image(image, info_of(SampleType::u8, stored, grey1)).true_bits;
+        };
+        CHECK(bits(2, [](int i) { return i % 161 + 40; }) == 8);            // as a palette of TGA
+        CHECK(bits(4, [](int i) { return (i % 16) * (i % 16) + 3; }) == 8); // sixteen entries of eight bits
+        CHECK(bits(4, [](int i) { return i % 16 * 17; }) == 4);
+    }
+
+    TEST_CASE("check_image: samples that the reader cut, and signed integers") {
+        const auto grey = [](SampleType type, int bits, double largest) {
+            return check_image(picture(64, 64, 1, [&](int x, int y, int) { return (x + y) % 101 / largest; }),
+                               info_of(type, bits, grey1));
+        };
+        CHECK(is_cut(grey(SampleType::u8, 16, 255).info));
+        CHECK_FALSE(is_cut(grey(SampleType::u8, 8, 255).info));
+        CHECK(grey(int16_type, 16, 32767).grey_step == doctest::Approx(1.0 / 32767));
+        CHECK(grey(int16_type, 16, 32767).true_bits == 16);
+    }
+
     TEST_CASE("check_image: levels are counted up to 65536") {
         const auto levels = [](int count, SampleType type, int bits) {
             const Image<float> image =
@@ -87,17 +128,17 @@ TEST_SUITE("unit") {
                 picture(32, 32, 3, [&](int x, int y, int c) { return (x * 4 + y + tint(x, y, c)) / 255.0; }),
                 info_of(SampleType::u8, 8, rgb));
         };
-        CHECK(look([](int, int, int) { return 0; }).tint == 0);
+        CHECK(look([](int, int, int) { return 0; }).kind.tint == 0);
         const ImageCheck tinted = look([](int x, int, int c) { return c == 1 && x % 3 == 0; });
-        CHECK(tinted.tint == doctest::Approx(1));
-        CHECK(tinted.looks == Looks::grey);
-        CHECK(look([](int, int, int c) { return c * 20; }).looks == Looks::colour);
+        CHECK(tinted.kind.tint == doctest::Approx(1));
+        CHECK(tinted.kind.looks == Looks::grey);
+        CHECK(look([](int, int, int c) { return c * 20; }).kind.looks == Looks::colour);
         // A height in R = G = B with a varied alpha.
         const ImageCheck packed =
             check_image(picture(32, 32, 4, [](int x, int y, int c) { return (c == 3 ? y : x) / 31.0; }),
                         info_of(SampleType::u8, 8, {"R", "G", "B", "A"}, 3));
-        CHECK(packed.looks == Looks::grey);
-        CHECK(packed.tint == 0);
+        CHECK(packed.kind.looks == Looks::grey);
+        CHECK(packed.kind.tint == 0);
     }
 
     TEST_CASE("check_image: the grey value has the levels of the sum of the channels") {
@@ -114,15 +155,15 @@ TEST_SUITE("unit") {
         const ImageCheck wave = check_image(
             picture(64, 48, 1, [](int x, int y, int) { return 0.5 + 0.2 * std::sin(2 * pi * x / 64) + 0.3 * y / 48; }),
             info_of(SampleType::float32, 32, grey1));
-        CHECK(wave.tiling.x < tiles_up_to);
-        CHECK(wave.tiling.y == doctest::Approx(47).epsilon(0.01));
+        CHECK(wave.tiling.x.tiles());
+        CHECK(wave.tiling.y.ratio() == doctest::Approx(47).epsilon(0.01));
         const ImageCheck flat =
             check_image(picture(8, 8, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
-        CHECK(flat.tiling.x == 0);
-        CHECK(flat.looks == Looks::constant);
+        CHECK(flat.tiling.x.ratio() == 0);
+        CHECK(flat.kind.looks == Looks::constant);
         const ImageCheck texel =
             check_image(picture(1, 1, 1, [](int, int, int) { return 0.25; }), info_of(SampleType::u8, 8, grey1));
-        CHECK(texel.tiling.y == 0);
+        CHECK(texel.tiling.y.ratio() == 0);
     }
 
     TEST_CASE("check_image: normal maps are distinguished from colours, even without unit length") {
@@ -137,13 +178,13 @@ TEST_SUITE("unit") {
                                info_of(SampleType::u8, 8, rgb));
         };
         const ImageCheck unit = normals(1);
-        CHECK(unit.looks == Looks::normal_map);
-        CHECK(unit.not_unit < 0.01);
-        CHECK(unit.inward == 0);
+        CHECK(unit.kind.looks == Looks::normal_map);
+        CHECK(unit.kind.normals.not_unit < 0.01);
+        CHECK(unit.kind.normals.inward == 0);
         const ImageCheck shorter = normals(0.6);
-        CHECK(shorter.looks == Looks::normal_map);
-        CHECK(shorter.not_unit == 1);
-        CHECK(shorter.normal_length == doctest::Approx(0.6).epsilon(0.01));
+        CHECK(shorter.kind.looks == Looks::normal_map);
+        CHECK(shorter.kind.normals.not_unit == 1);
+        CHECK(shorter.kind.normals.length == doctest::Approx(0.6).epsilon(0.01));
     }
 
     TEST_CASE("step_slope: the smallest step is 21.9 degrees at 4096 texels, 8 bits and a height of 5 % of the width") {

@@ -82,6 +82,91 @@ TEST_SUITE("unit") {
         CHECK(says(judge(broken).warnings, "3 NaNs: in channel Y"));
     }
 
+    TEST_CASE("judge: samples that the reader cut are no 8-bit content") {
+        ImageReport report;
+        report.check.info.type = SampleType::u8;
+        report.check.info.bits = 16;
+        report.check.true_bits = 8;
+        report.check.channels.push_back({.name = "Y", .max = 1, .levels = 161});
+        CHECK(says(judge(report).warnings, "have 16 bits"));
+        CHECK_FALSE(says(judge(report).warnings, "content"));
+        CHECK(to_text(report).find("true depth     16 bits, of which 8 are read") != std::string::npos);
+    }
+
+    TEST_CASE("judge: v is doubted if nearly all triangles are mirrored, not if half of them are") {
+        MeshReport report;
+        report.uv.triangles = report.check.triangles = 1000;
+        for (const std::size_t mirrored : {504, 900, 950}) {
+            report.uv.mirrored_triangles = mirrored;
+            CHECK(says(judge(report).notes, "flip_v") == (mirrored == 950));
+        }
+    }
+
+    TEST_CASE("inspect_image: normal maps that are not plain say so") {
+        const Folder folder;
+        const auto look = [&](const char* name, Depth depth, const auto& store) {
+            Image<float> image(64, 64, 3);
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x) {
+                    const double s = std::sin(0.4 * x), t = std::cos(0.3 * y), z = 1 / std::sqrt(s * s + t * t + 1);
+                    const double n[3] = {s * z, t * z, z};
+                    for (int c = 0; c < 3; ++c) image.at(x, y, c) = float(store(n[c], c));
+                }
+            const std::string file = (folder.path / name).string();
+            write_image(file, image, {.depth = depth});
+            return inspect_image(file);
+        };
+        const ImageReport srgb =
+            look("srgb.png", Depth::u8, [](double n, int) { return linear_to_srgb(float(0.5 + 0.5 * n)); });
+        CHECK(srgb.check.kind.looks == Looks::normal_map);
+        CHECK(says(srgb.findings.warnings, "sRGB-encoded"));
+        const ImageReport two = look("two.png", Depth::u8, [](double n, int c) { return c == 2 ? 0 : 0.5 + 0.5 * n; });
+        CHECK(two.check.kind.looks == Looks::normal_map);
+        CHECK(two.findings.warnings.empty());
+        CHECK(says(two.findings.notes, "z is rebuilt"));
+        const ImageReport negative = look("signed.exr", Depth::half, [](double n, int) { return n; });
+        CHECK(negative.check.kind.looks == Looks::normal_map);
+        CHECK(negative.findings.warnings.empty());
+        CHECK(says(negative.findings.notes, "signed"));
+        const ImageReport plain = look("plain.png", Depth::u8, [](double n, int) { return 0.5 + 0.5 * n; });
+        CHECK(plain.findings.warnings.empty());
+        CHECK(plain.findings.notes.empty());
+    }
+
+    TEST_CASE("inspect_pair: signed normals and two channels have the scale of plain ones") {
+        const Folder folder;
+        Image<float> height(64, 64, 1), plain(64, 64, 3), with_sign(64, 64, 3), two(64, 64, 3);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const double u = 2 * pi * 3 * x / 64, v = 2 * pi * 2 * y / 64;
+                height.at(x, y) = float(0.5 + 0.2 * std::sin(u) + 0.2 * std::sin(v));
+                const double s = -10 * 0.2 * 2 * pi * 3 / 64 * std::cos(u),
+                             t = 10 * 0.2 * 2 * pi * 2 / 64 * std::cos(v);
+                const double z = 1 / std::sqrt(s * s + t * t + 1), n[3] = {s * z, t * z, z};
+                for (int c = 0; c < 3; ++c) {
+                    with_sign.at(x, y, c) = float(n[c]);
+                    plain.at(x, y, c) = float(0.5 + 0.5 * n[c]);
+                    two.at(x, y, c) = c < 2 ? plain.at(x, y, c) : 0;
+                }
+            }
+        const auto pair = [&](const char* name, const Image<float>& normals) {
+            const std::string heights = (folder.path / "h.exr").string(), file = (folder.path / name).string();
+            write_image(heights, height);
+            write_image(file, normals);
+            return inspect_pair(heights, file);
+        };
+        const double scale = pair("plain.exr", plain).check.scale;
+        CHECK(scale == doctest::Approx(10).epsilon(0.03));
+        const PairReport negative = pair("signed.exr", with_sign);
+        CHECK(negative.check.scale == doctest::Approx(scale).epsilon(0.001));
+        CHECK(says(negative.findings.notes, "signed"));
+        const PairReport rebuilt = pair("two.png", two);
+        CHECK(rebuilt.check.scale == doctest::Approx(scale).epsilon(0.001));
+        CHECK(says(rebuilt.findings.notes, "z is rebuilt"));
+        CHECK(rebuilt.findings.warnings.empty());
+        CHECK(bake_options(rebuilt).starts_with("--amplitude 0.15"));
+    }
+
     TEST_CASE("inspect: JSON is valid for names that are not UTF-8") {
         MeshReport report;
         report.file = "b\xff"
@@ -93,6 +178,8 @@ TEST_SUITE("unit") {
         PairReport report;
         report.check.corr_x = -0.97;
         report.check.corr_y = 0.99;
+        report.check.corr = 0.98;
+        report.check.height_decided = report.check.green_decided = true;
         report.check.inverted = report.check.directx = true;
         report.check.not_unit = 0.4;
         const Findings f = judge(report);
@@ -100,7 +187,7 @@ TEST_SUITE("unit") {
         CHECK(says(f.warnings, "DirectX green"));
         CHECK(says(f.warnings, "unit length"));
         report = {};
-        report.check.corr_x = report.check.corr_y = 0.1;
+        report.check.corr_x = report.check.corr_y = report.check.corr = 0.1;
         CHECK(says(judge(report).warnings, "do not show the same relief"));
     }
 
@@ -169,13 +256,13 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
         const fs::path textures = test::shared_data() / "textures";
         const auto look = [&](const char* name) { return inspect_image((textures / name).string()); };
         const ImageReport plate = look("pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png");
-        CHECK(plate.check.looks == Looks::grey);
+        CHECK(plate.check.kind.looks == Looks::grey);
         CHECK(plate.check.grey.min == doctest::Approx(0.889).epsilon(0.001));
         CHECK(plate.check.grey.max == doctest::Approx(0.978).epsilon(0.001));
         CHECK(says(plate.findings.warnings, "levels in use"));
         const ImageReport tech = look("pairs/cube2_metal_tech_01/metal_tech_01_hm.png");
-        CHECK(tech.check.looks == Looks::grey);
-        CHECK(tech.check.tint == doctest::Approx(1));
+        CHECK(tech.check.kind.looks == Looks::grey);
+        CHECK(tech.check.kind.tint == doctest::Approx(1));
         CHECK(look("heights/crater_dat.png").check.true_bits == 16);
         CHECK(look("heights/terrain3d_mountain1.exr").check.channels[0].max == doctest::Approx(1.0049).epsilon(1e-4));
         CHECK(look("heights/terrain3d_stones.exr").check.info.type == SampleType::half);
@@ -183,10 +270,10 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
                                  "pairs/ambientcg_Rock020/Rock020_1K_Normal.jpg",
                                  "pairs/cube2_castell_wall_gk_v01/castell_wall_gk_v01_nm.jpg",
                                  "pairs/cube2_wall_plate_12_gk/wall_plate_12_gk_nm.png"})
-            CHECK_MESSAGE(look(name).check.looks == Looks::normal_map, name);
+            CHECK_MESSAGE(look(name).check.kind.looks == Looks::normal_map, name);
         for (const char* name : {"pairs/ambientcg_Rock020/Rock020_1K_Color.jpg",
                                  "pairs/cube2_rock_formation_gk_v01/rock_formation_gk_v01_cc.jpg",
                                  "packed/rock023_alb_ht.png", "pairs/bevy_parallax_cube/cube_color.png"})
-            CHECK_MESSAGE(look(name).check.looks == Looks::colour, name);
+            CHECK_MESSAGE(look(name).check.kind.looks == Looks::colour, name);
     }
 }

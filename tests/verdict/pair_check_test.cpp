@@ -27,7 +27,7 @@ Image<float> wave_height(int size, double sign = 1) {
     return image;
 }
 
-// OpenGL normals of the wave: `scale` is the slope per unit of height and texel at this size.
+// Decoded OpenGL normals of the wave: `scale` is the slope per unit of height and texel at this size.
 Image<float> wave_normals(int size, double scale, bool directx = false, double length = 1) {
     Image<float> image(size, size, 3);
     for (int y = 0; y < size; ++y)
@@ -35,9 +35,9 @@ Image<float> wave_normals(int size, double scale, bool directx = false, double l
             const double u = (x + 0.5) / size, v = 1 - (y + 0.5) / size;
             const double s = -scale * Wave{}.u(u, v) / size, t = -scale * Wave{}.v(u, v) / size,
                          z = length / std::sqrt(s * s + t * t + 1);
-            image.at(x, y, 0) = float(0.5 + 0.5 * s * z);
-            image.at(x, y, 1) = float(0.5 + (directx ? -0.5 : 0.5) * t * z);
-            image.at(x, y, 2) = float(0.5 + 0.5 * z);
+            image.at(x, y, 0) = float(s * z);
+            image.at(x, y, 1) = float(directx ? -t * z : t * z);
+            image.at(x, y, 2) = float(z);
         }
     return image;
 }
@@ -84,6 +84,74 @@ TEST_SUITE("unit") {
         CHECK(finer_height.scale == doctest::Approx(10).epsilon(0.02));
     }
 
+    TEST_CASE("check_pair: relief along one axis decides what this axis tells, and noise along the other nothing") {
+        // Planks: relief along `axis`, and independent noise of a hundredth of it everywhere.
+        const auto planks = [](int axis, double sign, std::uint32_t seed) {
+            Image<float> image(128, 128, 1);
+            for (int y = 0; y < 128; ++y)
+                for (int x = 0; x < 128; ++x) {
+                    seed = seed * 1664525u + 1013904223u;
+                    const double noise = double(seed >> 8) / (1 << 24) - 0.5;
+                    image.at(x, y) =
+                        float(0.5 + sign * 0.3 * std::sin(2 * pi * 5 * (axis ? y : x) / 128) + 0.01 * noise);
+                }
+            return image;
+        };
+        // OpenGL normals of slope 4 times the central difference.
+        const auto normals_of = [](const Image<float>& h, double green) {
+            Image<float> image(128, 128, 3);
+            for (int y = 0; y < 128; ++y)
+                for (int x = 0; x < 128; ++x) {
+                    const Vec3d n =
+                        glm::normalize(Vec3d(-2 * (h.at((x + 1) % 128, y) - h.at((x + 127) % 128, y)),
+                                             -2 * green * (h.at(x, (y + 127) % 128) - h.at(x, (y + 1) % 128)), 1));
+                    for (int c = 0; c < 3; ++c) image.at(x, y, c) = float(n[c]);
+                }
+            return image;
+        };
+        const PairCheck along_y = check_pair(planks(1, 1, 1), normals_of(planks(1, 1, 2), 1));
+        CHECK(along_y.corr > 0.99);
+        CHECK_FALSE(along_y.height_decided);
+        CHECK_FALSE(along_y.green_decided);
+        CHECK_FALSE(along_y.inverted);
+        CHECK_FALSE(along_y.directx);
+        CHECK(along_y.scale == doctest::Approx(4).epsilon(0.02));
+        CHECK_FALSE(pair_recipe(along_y, 1)->directx);
+        // The height is inverted, or green points down: baking with either gives the map.
+        const PairCheck turned = check_pair(planks(1, 1, 1), normals_of(planks(1, -1, 2), 1));
+        CHECK_FALSE(turned.height_decided);
+        CHECK(pair_recipe(turned, 1)->directx);
+        const PairCheck along_x = check_pair(planks(0, 1, 1), normals_of(planks(0, -1, 2), -1));
+        CHECK(along_x.height_decided);
+        CHECK(along_x.inverted);
+        CHECK_FALSE(along_x.green_decided);
+        CHECK_FALSE(along_x.directx);
+    }
+
+    TEST_CASE("pair_recipe: the amplitude and the extent that reproduce the map, nothing for another relief") {
+        const PairCheck square = check_pair(wave_height(128), wave_normals(128, 10, true));
+        const auto recipe = pair_recipe(square, 1);
+        REQUIRE(recipe);
+        CHECK(recipe->amplitude == doctest::Approx(10.0 / 128).epsilon(0.02));
+        CHECK(recipe->extent_v == 0);
+        CHECK(recipe->directx);
+        CHECK_FALSE(recipe->invert);
+        // Slopes along v are half as steep: the picture is twice as high as it is wide.
+        Image<float> normals = wave_normals(128, 10);
+        for (std::size_t i = 0; i < normals.size(); i += 3) {
+            const Vec3d n =
+                glm::normalize(Vec3d(normals.data()[i], 0.5 * normals.data()[i + 1], normals.data()[i + 2]));
+            for (int c = 0; c < 3; ++c) normals.data()[i + c] = float(n[c]);
+        }
+        const auto tall = pair_recipe(check_pair(wave_height(128), normals), 1);
+        REQUIRE(tall);
+        CHECK(tall->amplitude == doctest::Approx(10.0 / 128).epsilon(0.02));
+        CHECK(tall->extent_v == doctest::Approx(2).epsilon(0.02));
+        Image<float> flat(64, 64, 1);
+        std::fill_n(flat.data(), flat.size(), 0.25f);
+        CHECK_FALSE(pair_recipe(check_pair(flat, wave_normals(64, 10)), 1));
+    }
+
     TEST_CASE("check_pair: other relief does not agree, flat images are flat, one texel is accepted") {
         Image<float> other(128, 128, 1);
         for (int y = 0; y < 128; ++y)
@@ -96,7 +164,7 @@ TEST_SUITE("unit") {
         CHECK(check_pair(flat, wave_normals(64, 10)).flat);
         Image<float> one(1, 1, 1), blue(1, 1, 3);
         one.at(0, 0) = 1;
-        std::fill_n(blue.data(), 3, 0.0f);
+        std::fill_n(blue.data(), 3, -1.0f);
         CHECK(check_pair(one, blue).flat);
         CHECK(check_pair(one, blue).inward == 1);
     }

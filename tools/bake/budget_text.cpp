@@ -4,14 +4,26 @@
 namespace bake {
 
 std::string to_text(const ErrorBudget& budget) {
-    return format("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; within %.4f deg",
-                  budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg, budget.total_deg);
+    std::string text = format("error budget (rms): filter %.4f, quantisation %.4f, encoding %.4f, method %.4f deg; ",
+                              budget.filter_deg, budget.quantisation_deg, budget.encoding_deg, budget.method_deg);
+    if (budget.judged()) text += format("within %.4f deg", budget.total_deg);
+    else
+        text += format("over %g deg in all: the relief is too steep for its texels to be judged; reduce the amplitude",
+                       judged_up_to_deg);
+    if (budget.lossy) text += "; without the error of the height's lossy compression";
+    return text;
 }
 
 nlohmann::json to_json(const ErrorBudget& budget) {
-    return {{"filter_deg", budget.filter_deg},     {"quantisation_deg", budget.quantisation_deg},
-            {"encoding_deg", budget.encoding_deg}, {"method_deg", budget.method_deg},
-            {"total_deg", budget.total_deg},       {"samples", budget.samples}};
+    nlohmann::json json = {{"filter_deg", budget.filter_deg},
+                           {"quantisation_deg", budget.quantisation_deg},
+                           {"encoding_deg", budget.encoding_deg},
+                           {"method_deg", budget.method_deg},
+                           {"total_deg", budget.total_deg},
+                           {"samples", budget.samples},
+                           {"judged", budget.judged()}};
+    if (budget.lossy) json["leaves_out"] = "lossy compression of the height";
+    return json;
 }
 
 std::string to_text(const FilterAdvice& advice) {

@@ -136,6 +136,7 @@ nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& r) {
                              {"step", r.height.step},
                              {"step_tilt_deg", r.tilt_deg},
                              {"error_budget", to_json(r.budget)}};
+    if (!r.notes.empty()) result["notes"] = r.notes;
     if (r.advice) result["better_filter"] = to_json(*r.advice);
     if (r.code) result["bias"] = {{"range", r.code->range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
     return result;

@@ -28,8 +28,9 @@ struct BumpTableReport {
     std::optional<SlopeCode> code;
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
-    double tilt_deg = 0; ///< of the normal, by one level of the height
-    Vec2d extent{1};     ///< object units
+    double tilt_deg = 0;            ///< of the normal, by one level of the height
+    Vec2d extent{1};                ///< object units
+    std::vector<std::string> notes; ///< doubts about the height
 };
 std::string to_text(const BumpTableArgs& args, const BumpTableReport& report);
 nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& report);

@@ -32,10 +32,11 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
-    const HeightTexture height = load_height(args.height);
+    const HeightTexture height = load_height(args.height, common);
     watch.lap("read");
     const BumpTable table(height, args.options, args.layout);
     BumpTableReport report{.height = height, .table = table};
+    report.notes = note_doubts(common, args.height, height);
     if (depth == Depth::u16) report.code = code_for(table);
     progress.start("bake", table.height());
     write_table(args, table, depth, report.code, progress);

@@ -3,7 +3,6 @@
 #include "options.h"
 #include <cmath>
 #include <cstdio>
-#include <regex>
 #include <sstream>
 
 namespace bake {
@@ -92,8 +91,12 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     sub.add_flag("--fix-orientation", args.reading.fix_orientation, "Turn and swap faces so that their seams match");
     add_choice<BadPolicy>(sub, "--bad", args.target.bad,
                           {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}},
-                          "NaN, infinite and negative texels, and those that half floats cannot hold");
-    sub.add_flag("--linear", args.linear, "8-bit input is linear, not sRGB; 8- and 16-bit output then is too");
+                          "NaN, infinite and negative texels, and with --depth half those too bright for it");
+    CLI::Option* const linear = sub.add_flag(
+        "--linear", args.linear, "Input is linear, whatever its tags say; 8- and 16-bit output then is too");
+    sub.add_flag("--srgb", args.srgb,
+                 "Input is sRGB-encoded, whatever its tags say; without either: by its tags, untagged 8 bits are sRGB")
+        ->excludes(linear);
     sub.add_option("--capture", args.capture, "Scene (TOML) to capture instead of reading an input, with --at");
     sub.add_option("--at", args.at, "Point to look from, in world space: X,Y,Z");
     add_choice<Depth>(sub, "--depth", args.target.depth,
@@ -102,7 +105,8 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
                        {"16", Depth::u16},
                        {"half", Depth::half},
                        {"float", Depth::float32}},
-                      "auto: half for .exr, float for .tif, 8 for .png from 8-bit input, else 16");
+                      "auto: half for .exr (float for radiance above 65504), float for .tif, 8 for .png from 8-bit "
+                      "input, else 16");
 }
 
 void check_cubemap_options(CubemapArgs& args) {
@@ -132,13 +136,9 @@ void check_cubemap_options(CubemapArgs& args) {
         args.wanted_specular = {.lobe = args.specular == Specular::ggx ? SpecularLobe::ggx : SpecularLobe::phong,
                                 .roughness = parse_numbers("--roughness", args.roughness)};
     args.resampling.turn = turn_of(args.yaw, args.pitch, args.roll);
-    args.reading.radiance = {.space = args.linear ? ColourSpace::linear : ColourSpace::automatic,
-                             .bad = args.target.bad};
+    args.reading.space = args.linear ? ColourSpace::linear : args.srgb ? ColourSpace::srgb : ColourSpace::automatic;
+    args.reading.bad = args.target.bad;
     args.target.encode_srgb = !args.linear;
-}
-
-std::string name_options(const std::string& message) {
-    return std::regex_replace(message, std::regex("`(\\w+)`"), "--$1");
 }
 
 } // namespace bake

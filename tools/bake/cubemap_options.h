@@ -19,7 +19,7 @@ struct CubemapArgs {
     ReadEnvironmentOptions reading;
     ResampleOptions resampling;
     double yaw = 0, pitch = 0, roll = 0;
-    bool mips = false, linear = false;
+    bool mips = false, linear = false, srgb = false;
     std::string irradiance, roughness;
     Specular specular = Specular::none;
     EnvironmentTarget target;
@@ -33,7 +33,5 @@ struct CubemapArgs {
 void add_cubemap_options(CLI::App& sub, CubemapArgs& args);
 /// Reads the values that are lists and completes the options that depend on each other. Throws Error{Refusal::usage}.
 void check_cubemap_options(CubemapArgs& args);
-/// The message with the library's fields, which it has in backquotes, as options: `size` gives --size.
-std::string name_options(const std::string& message);
 
 } // namespace bake

@@ -1,23 +1,44 @@
 #include "cubemap_report.h"
 #include "bake/base/text.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
 
+constexpr const char* axes[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
+/// "3 of the 12 seams are open (+X/-Y most, 4.21 times the steps beside it)"
+std::string open_text(const OrientationCheck& check) {
+    const auto worst = std::max_element(check.given_seams.begin(), check.given_seams.end());
+    const Seam& seam = seams()[worst - check.given_seams.begin()];
+    return format("%d of the 12 seams are open (%s/%s most, %.2f times the steps beside it)", check.open_given(),
+                  axes[seam.a.face], axes[seam.b.face], *worst);
+}
+
+/// Whether the arrangement only exchanges two opposite faces, which has the seams of six mirrored faces.
+bool is_mirror_image(const Orientation& o) noexcept {
+    int swapped = 0;
+    for (int k = 0; k < 6; ++k) {
+        if (o.turns[k] != 0 || o.mirrored[k] || (o.source[k] != k && o.source[k] != (k ^ 1))) return false;
+        swapped += o.source[k] != k;
+    }
+    return swapped == 2;
+}
+
 std::string seams_note(const EnvironmentReport& report, bool fix) {
     const OrientationCheck& check = report.orientation;
-    if (!check.wrong && fix) return "the faces are right as given; there is nothing to fix";
-    if (!check.wrong)
-        return check.given > 1.5
-                   ? format("seams are visible (%.2f times the steps inside the faces), and no turn or swap of "
-                            "faces closes them",
-                            check.given)
-                   : "";
-    const std::string how = to_text(check.closes, report.files);
-    if (report.fixed) return format("seams closed (%.2f to %.2f): ", check.given, check.best) + how;
-    return format("seams are open (%.2f times the steps inside the faces); they close (%.2f) with ", check.given,
-                  check.best) +
-           how + "; --fix-orientation does so";
+    const int open = check.open_given(), left = check.open_best();
+    if (!check.wrong && open > 0) return open_text(check) + "; no arrangement of the faces was found that closes them";
+    if (!check.wrong) return fix ? "all seams match as given; there is nothing to fix" : "";
+    std::string how = to_text(check.closes, report.files);
+    if (is_mirror_image(check.closes)) how += " (seams cannot tell this from six faces that are all mirrored)";
+    const std::string effect = open == 0   ? "the seams match better"
+                               : left == 0 ? "they close"
+                                           : format("%d of them close", open - left);
+    const std::string before = open == 0 ? format("seam ratio %.2f", check.given) : open_text(check);
+    if (report.fixed) return before + "; " + effect + format(" (seam ratio %.2f), done: ", check.best) + how;
+    return before + "; " + effect + format(" (seam ratio %.2f) with ", check.best) + how +
+           "; --fix-orientation does so";
 }
 
 nlohmann::json to_json(const BadTexels& bad) {
@@ -36,14 +57,13 @@ bool has_seams(const EnvironmentReport& report) { return report.checked && !repo
 
 std::vector<std::string> cubemap_notes(const CubemapArgs& args, const EnvironmentReport& report,
                                        const EnvironmentWritten& written) {
-    std::vector<std::string> notes;
-    if (report.format == SkyFormat::faces && report.naming.empty())
-        notes.push_back("the names do not say which file is which face; taken in the order px nx py ny pz nz");
-    if (report.mended.texels > 0)
-        notes.push_back(std::to_string(report.mended.texels) + " texels mended: " + to_text(report.mended));
+    std::vector<std::string> notes = reading_notes(report);
     if (has_seams(report))
         if (const std::string seams = seams_note(report, args.reading.fix_orientation); !seams.empty())
             notes.push_back(seams);
+    if (args.target.depth == Depth::automatic && written.target.depth == Depth::float32 &&
+        resolve_depth(args.target.file, Depth::automatic) == Depth::half)
+        notes.push_back("written as float: half floats hold no radiance above 65504");
     if (written.over.over > 0)
         notes.push_back(std::to_string(written.over.over) +
                         " texels above 65504, the largest of half floats, were mended");
@@ -64,7 +84,9 @@ nlohmann::json cubemap_json(const CubemapArgs& args, const EnvironmentReport& re
                            {"levels", written.levels},
                            {"channels", channels},
                            {"samples", sample_names[int(args.resampling.samples)]},
-                           {"mended", to_json(report.mended)},
+                           {"mended", to_json(report.faults.bad)},
+                           {"negative", report.faults.negative},
+                           {"negative_share", report.faults.negative_share},
                            {"over_half", to_json(written.over)},
                            {"clipped", written.clipped}};
     if (!report.checked) return json;
@@ -72,10 +94,18 @@ nlohmann::json cubemap_json(const CubemapArgs& args, const EnvironmentReport& re
     nlohmann::json faces = nlohmann::json::object();
     for (int k = 0; k < 6; ++k)
         faces[cube_face_names[k]] = {{"file", report.files[check.closes.source[k]]},
+                                     {"mirrored", bool(check.closes.mirrored[k])},
                                      {"turned_deg", 90 * check.closes.turns[k]}};
+    nlohmann::json ratios = nlohmann::json::object();
+    for (int i = 0; i < 12; ++i) {
+        const Seam& seam = seams()[i];
+        ratios[std::string(cube_face_names[seam.a.face]) + "-" + cube_face_names[seam.b.face]] = check.given_seams[i];
+    }
     json["naming"] = report.naming;
-    json["orientation"] = {{"seam_ratio", check.given}, {"best_seam_ratio", check.best}, {"wrong", check.wrong},
-                           {"fixed", report.fixed},     {"unknown", check.unknown},      {"closes_with", faces}};
+    json["orientation"] = {{"seam_ratio", check.given}, {"best_seam_ratio", check.best},
+                           {"wrong", check.wrong},      {"open_seams", check.open_given()},
+                           {"seams", ratios},           {"fixed", report.fixed},
+                           {"unknown", check.unknown},  {"closes_with", faces}};
     return json;
 }
 

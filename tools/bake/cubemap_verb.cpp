@@ -27,6 +27,7 @@ int wanted_edge(const EnvironmentTarget& target) {
 
 Environment capture_sky(const CubemapArgs& args, const CommonArgs& common, Progress& progress) {
     const Scene scene = load(read_scene(args.capture));
+    for (const std::string& line : scene.notes) note(common, line);
     const int edge = wanted_edge(args.target);
     RenderStats stats;
     Environment sky;
@@ -134,13 +135,7 @@ std::function<int()> cubemap_verb(CLI::App& sub, const CommonArgs& common) {
              "  bake cubemap 'meshes/sky_%s.png' --irradiance direct --size 32 -o 'diffuse_%s.exr'\n"
              "  bake cubemap --capture meshes/scene.toml --at 0,1,0 --size 64 -o probe.exr\n"
              "  bake cubemap labels --size 256 --to hcross -o which_way_is_up.png\n");
-    return [args, &common] {
-        try {
-            return run_cubemap(*args, common);
-        } catch (const Error& error) {
-            throw Error(error.refusal, name_options(error.what()));
-        }
-    };
+    return [args, &common] { return run_cubemap(*args, common); };
 }
 
 } // namespace bake

@@ -13,15 +13,17 @@ BaseSurface make_base(const DisplaceArgs& args) {
     return surface;
 }
 
-ReliefFile load_relief(const DisplaceArgs& args, double size) {
+ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common) {
     ReliefFile file;
     ImageInfo info;
     if (args.vector) {
         file.relief.values = read_vector_height(args.height.path, &info);
+        print_notes(common, args.height.path, info);
         file.described = std::string(name(info.type)) + " vectors, " +
                          (*args.vector == VectorSpace::tangent ? "tangent" : "object") + " space";
     } else {
-        HeightTexture height = load_height(args.height);
+        HeightTexture height = load_height(args.height, common);
+        file.notes = note_doubts(common, args.height, height);
         info = height.info;
         file.described = describe_levels(height);
         file.relief.values = std::move(height.values);
@@ -35,7 +37,7 @@ ReliefFile load_relief(const DisplaceArgs& args, double size) {
     return file;
 }
 
-DisplaceOptions resolve_options(const DisplaceArgs& args, double size) {
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin) {
     DisplaceOptions options;
     options.seam = args.seam;
     options.measure_error = args.measure || args.max_error;
@@ -50,7 +52,9 @@ DisplaceOptions resolve_options(const DisplaceArgs& args, double size) {
     if (args.edge_px) {
         options.rates.rule = Rates::Rule::edge_size;
         options.rates.size = *args.edge_px;
-        options.rates.measure = [camera = parse_camera("--camera", args.camera)](const Vec3d& a, const Vec3d& b) {
+        SceneCamera camera = parse_camera("--camera", args.camera);
+        camera.frame.position = Vec3f(Vec3d(camera.frame.position) - origin);
+        options.rates.measure = [camera](const Vec3d& a, const Vec3d& b) {
             return pixels_at_most(camera.frame, 0.5 * (a + b), glm::length(b - a), camera.height);
         };
     }

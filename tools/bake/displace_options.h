@@ -42,13 +42,14 @@ BaseSurface make_base(const DisplaceArgs& args);
 /// The relief, and how its file is described.
 struct ReliefFile {
     Relief relief;
-    std::string described;      ///< "8-bit height, 231 levels"
-    std::string amplitude_note; ///< which amplitude stands in for one that the user did not give; may be empty
+    std::string described;          ///< "8-bit height, 231 levels"
+    std::vector<std::string> notes; ///< doubts about the height
+    std::string amplitude_note;     ///< which amplitude stands in for one that the user did not give; may be empty
 };
 /// `size` is the diagonal of the surface, to which amplitudes in per cent refer.
-ReliefFile load_relief(const DisplaceArgs& args, double size);
+ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& common);
 
-/// Reads the camera file if --camera names one.
-DisplaceOptions resolve_options(const DisplaceArgs& args, double size);
+/// Reads the camera file if --camera names one. `origin` is that of the mesh.
+DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin);
 
 } // namespace bake

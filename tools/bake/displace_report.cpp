@@ -63,6 +63,7 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutc
     const DisplaceReport& r = o.report;
     const std::string& base = args.surface.name();
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    note_all(common, base, o.mesh_notes);
     note(common, o.amplitude_note);
     const double most = std::max(std::abs(r.height_min), std::abs(r.height_max));
     if (most > 0.25 * o.size)
@@ -122,6 +123,8 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                              {"no_tangents", r.no_tangents}};
     if (args.measure || args.max_error) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
+    if (!o.notes.empty()) object["notes"] = o.notes;
+    if (!o.mesh_notes.empty()) object["mesh_notes"] = o.mesh_notes;
     if (o.audit) object["audit"] = to_json(*o.audit);
     return object;
 }

@@ -14,10 +14,12 @@ struct DisplaceOutcome {
     double edge = 0;      ///< mean edge of the result
     double max_error = 0; ///< the limit that the user gave, object units
     double amplitude = 0, midlevel = 0;
-    std::string amplitude_note; ///< as in ReliefFile
+    std::string amplitude_note;     ///< as in ReliefFile
+    std::vector<std::string> notes; ///< doubts about the height
     DisplaceReport report;
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
+    std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
 std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& outcome);

@@ -45,14 +45,16 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     progress.start("read", 0);
     const BaseSurface base = make_base(args);
     DisplaceOutcome o;
+    o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
-    const ReliefFile file = load_relief(args, o.size);
-    const DisplaceOptions options = resolve_options(args, o.size);
+    const ReliefFile file = load_relief(args, o.size, common);
+    const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     o.max_error = options.rates.error;
     o.described = file.described;
+    o.notes = file.notes;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.amplitude_note = file.amplitude_note;
     watch.lap("height");

@@ -1,5 +1,6 @@
 // bake explain: what happens to one texel, from the height file to the shaded pixel.
 #include "bake/verdict/explain.h"
+#include "inputs/file_kind.h"
 #include "normal_map_options.h"
 #include <cstdio>
 
@@ -12,13 +13,15 @@ struct ExplainArgs {
 };
 
 int run(ExplainArgs& args, const CommonArgs& common) {
+    expect_mesh(args.map.mesh); // a lone picture is no rectangle here
     complete(args.map, "explain");
     ExplainInput input{.mesh_path = args.map.mesh, .height_path = args.map.height.path};
     input.uv = parse_pair("--uv", args.uv, false);
     if (input.uv != glm::clamp(input.uv, 0.0, 1.0))
         throw Error(Refusal::usage, "--uv " + args.uv + ": lies outside the unit square; give u and v from 0 to 1");
-    const HeightTexture height = load_height(args.map.height);
+    const HeightTexture height = load_height(args.map.height, common);
     const Mesh mesh = read_mesh(args.map.mesh, args.map.read);
+    note_all(common, args.map.mesh, mesh.notes);
     input.mesh = &mesh;
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);

@@ -8,13 +8,16 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <unistd.h>
 
 namespace bake {
 
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!line.empty() && !common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", with_flags(line).c_str());
+    if (line.empty() || common.quiet || common.json) return;
+    const char* const wipe = isatty(STDERR_FILENO) ? "\r\033[K" : ""; // a bar that is drawn there
+    std::fprintf(stderr, "%sbake: %s\n", wipe, with_flags(line).c_str());
 }
 
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch) {

@@ -16,6 +16,7 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
     add_choice<Space>(sub, "--space", args.space, {{"tangent", Space::tangent}, {"object", Space::object}},
                       "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
+    add_tile_option(sub, args.tile);
 }
 
 void complete(NormalMapArgs& args, const std::string& verb) {
@@ -29,6 +30,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     expect_picture(args.height.path);
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
+    if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
     if (args.space == Space::object && args.directx)
@@ -48,6 +50,7 @@ NormalMapOptions resolve_options(const NormalMapArgs& args, const HeightTexture&
     options.space = args.space;
     options.directx = args.directx;
     options.padding = args.padding;
+    options.tile = args.tile;
     options.height_options = height_options(args.height, height.info, whole_of(args, mesh));
     return options;
 }

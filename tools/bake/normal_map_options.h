@@ -14,7 +14,7 @@ struct NormalMapArgs {
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
-    int padding = NormalMapOptions{}.padding;
+    int padding = NormalMapOptions{}.padding, tile = 0;
     Depth depth = Depth::automatic;
 };
 

@@ -37,6 +37,8 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                              {"step", height.step},
                              {"step_tilt_deg", result.tilt_deg},
                              {"error_budget", to_json(result.budget)}};
+    if (!result.mesh_notes.empty()) object["mesh_notes"] = result.mesh_notes;
+    if (!result.notes.empty()) object["notes"] = result.notes;
     if (result.advice) object["better_filter"] = to_json(*result.advice);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
@@ -48,6 +50,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                             {"folded", r.folded},
                             {"outside_faces", r.outside_faces},
                             {"crossing_faces", r.crossing_faces},
+                            {"tiles", r.tiles},
                             {"flat_triangles", r.flat_triangles},
                             {"triangles_without_uv", r.triangles_without_uv}};
     return object;
@@ -57,9 +60,11 @@ void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapRe
     const auto say = [&](std::int64_t count, const char* what) {
         if (count > 0) note(common, format("%s: %lld %s", args.mesh.c_str(), static_cast<long long>(count), what));
     };
+    if (!r.tiles.empty())
+        note(common, args.mesh + ": its charts lie in " + r.tiles + " of the uvs' tiles and are baked modulo 1");
     say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
-    say(r.outside_faces, "faces lie outside the unit square of the uvs and were not baked");
-    say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside was baked");
+    say(r.outside_faces, "faces lie outside the tile and were not baked");
+    say(r.crossing_faces, "faces leave the tile; only their part inside was baked");
     say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
     say(r.flat_triangles, "triangles have no area in uv and were not baked");
     say(r.triangles_without_uv, "triangles have no uvs and were not baked");

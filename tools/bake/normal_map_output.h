@@ -13,6 +13,7 @@ struct NormalMapResult {
     std::optional<FilterAdvice> advice;
     double tilt_deg = 0; ///< of the normal, by one level of the height
     Filter filter = Filter::central;
+    std::vector<std::string> notes, mesh_notes; ///< doubts about the height; of reading the mesh
 };
 
 std::string to_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result);

@@ -36,19 +36,21 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
-    const HeightTexture height = load_height(args.height);
+    const HeightTexture height = load_height(args.height, common);
     Mesh mesh;
     if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
     watch.lap("read");
     NormalMapResult result;
     result.options = resolve_options(args, height, mesh);
     const NormalMapOptions& options = result.options;
+    result.mesh_notes = mesh.notes;
+    result.notes = note_doubts(common, args.height, height);
     result.filter = resolve_filter(options.filter, height);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
     std::optional<BakeTarget> target;
     if (!args.mesh.empty()) {
-        target = make_bake_target(mesh, args.mesh, options.width, options.height);
+        target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
     }
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
@@ -61,6 +63,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     writer.finish();
     watch.lap("write");
     print_result(common, to_text(args, height, result), to_json(args, height, result), watch);
+    note_all(common, args.mesh, result.mesh_notes);
     warn(common, args, result.report);
     note(common, default_amplitude_note(args.height, height.info, options.height_options, whole_of(args, mesh)));
     if (result.advice) note(common, to_text(*result.advice));

@@ -15,5 +15,9 @@ namespace bake {
 
 /// How a mesh is read, given the same way by every verb that reads one.
 void add_mesh_options(CLI::App& sub, MeshOptions& options);
+/// The UDIM tile whose charts are baked; 0 unless given.
+void add_tile_option(CLI::App& sub, int& tile);
+/// Prints the notes of reading `path`.
+void note_all(const CommonArgs& common, const std::string& path, const std::vector<std::string>& notes);
 
 } // namespace bake

@@ -36,21 +36,16 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
     const RenderSettings& settings = scene.settings;
     const double seconds = watch.seconds("render"), rate = seconds > 0 ? double(stats.rays) / seconds : 0;
     const std::size_t triangles = scene.bvh->triangle_count();
+    nlohmann::json object = {
+        {"out", args.out},           {"width", settings.width},          {"height", settings.height},
+        {"spp", settings.spp},       {"triangles", triangles},           {"rays", stats.rays},
+        {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
+        {"render_seconds", seconds}, {"seconds", watch.total()}};
+    if (!scene.notes.empty()) object["notes"] = scene.notes;
     print_result(common,
                  format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s\n", args.out.c_str(), settings.width,
                         settings.height, settings.spp, triangles, rate * 1e-6),
-                 {{"out", args.out},
-                  {"width", settings.width},
-                  {"height", settings.height},
-                  {"spp", settings.spp},
-                  {"triangles", triangles},
-                  {"rays", stats.rays},
-                  {"rays_per_second", rate},
-                  {"bad_samples", stats.bad_samples},
-                  {"load_seconds", watch.seconds("load")},
-                  {"render_seconds", seconds},
-                  {"seconds", watch.total()}},
-                 watch);
+                 object, watch);
 }
 
 int run(const RenderArgs& args, const CommonArgs& common) {
@@ -66,12 +61,14 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
     watch.lap("load");
+    for (const std::string& line : scene.notes) note(common, line);
     RenderStats stats;
     Image<float> image = render(scene, scene.settings, &stats, &progress);
     progress.finish();
     watch.lap("render");
     encode(image, depth, settings.exposure);
-    write_image(args.out, image, {.depth = depth});
+    const bool shown = depth == Depth::u8 || depth == Depth::u16;
+    write_image(args.out, image, {.depth = depth, .colour = shown ? ColourSpace::srgb : ColourSpace::automatic});
     watch.lap("write");
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples too bright to store are black; dim the lights");

@@ -35,6 +35,7 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
         ->check(not_empty())
         ->type_name("PREFIX");
     add_size_option(sub, args.size, "Texels of the maps [1024]");
+    add_tile_option(sub, args.tile);
     sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();

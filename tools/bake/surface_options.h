@@ -11,7 +11,7 @@ struct SurfaceArgs {
     std::vector<MapQuantity> maps; ///< empty: all of them
     std::optional<std::pair<int, int>> resolution;
     std::optional<std::pair<int, int>> size = std::pair(1024, 1024);
-    int padding = SurfaceMapOptions{}.padding;
+    int padding = SurfaceMapOptions{}.padding, tile = 0;
 };
 
 void add_surface_options(CLI::App& sub, SurfaceArgs& args);

@@ -66,6 +66,7 @@ nlohmann::json to_json(const SurfaceMapReport& r) {
             {"empty", r.empty},
             {"outside_faces", r.outside_faces},
             {"crossing_faces", r.crossing_faces},
+            {"tiles", r.tiles},
             {"largest_uv_distance", r.residual}};
 }
 
@@ -81,9 +82,11 @@ void warn(const CommonArgs& common, const std::string& title, const SurfaceMapRe
     const auto say = [&](std::int64_t count, const char* what) {
         if (count > 0) note(common, format("%s: %lld %s", title.c_str(), static_cast<long long>(count), what));
     };
+    if (!r.tiles.empty())
+        note(common, title + ": its charts lie in " + r.tiles + " of the uvs' tiles and are in the maps modulo 1");
     say(r.overlapped, "texels lie in more than one face; the lowest face is in the maps");
-    say(r.outside_faces, "faces lie outside the unit square of the uvs and are not in the maps");
-    say(r.crossing_faces, "faces leave the unit square of the uvs; only their part inside is in the maps");
+    say(r.outside_faces, "faces lie outside the tile and are not in the maps");
+    say(r.crossing_faces, "faces leave the tile; only their part inside is in the maps");
     say(r.degenerate, "texels lie on a pole or have no chart; what does not exist there is their neighbours'");
 }
 

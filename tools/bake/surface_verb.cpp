@@ -45,7 +45,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     watch.lap("read");
 
     if (!args.out.empty()) const OutputFile writable(args.out);
-    SurfaceMapOptions options{.padding = args.padding};
+    SurfaceMapOptions options{.padding = args.padding, .tile = args.tile};
     std::tie(options.width, options.height) = *args.size;
     std::vector<MapQuantity> quantities = args.maps;
     if (!args.maps_out.empty() && quantities.empty())
@@ -61,6 +61,10 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         progress.start("maps", options.height);
         maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
         watch.lap("maps");
+        const Vec3d& origin = mesh.mesh.origin;
+        if (origin != Vec3d(0) && std::count(quantities.begin(), quantities.end(), MapQuantity::position))
+            note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,
+                                origin.y, origin.z));
     }
     progress.finish();
     if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
@@ -72,9 +76,11 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
     if (!args.out.empty()) object["out"] = args.out;
     for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
+    if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
     if (!maps.empty()) object["texels"] = to_json(report);
     print_result(common, to_text(loaded.what, mesh, summary) + (maps.empty() ? "" : to_text(report, options)), object,
                  watch);
+    note_all(common, title, loaded.surface.mesh().notes);
     warn(common, title, report);
     return 0;
 }

@@ -5,8 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <new>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,12 +41,7 @@ FileBytes read_file(const std::string& path) {
     if (bytes.size > memory)
         throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) +
                                              " bytes are more than this machine's memory; split the file");
-    // Huge pages make the first touch of fresh memory several times cheaper.
-    const std::size_t page = std::size_t(2) << 20, rounded = (bytes.size + page) / page * page;
-    bytes.data.reset(
-        static_cast<char*>(bytes.size < page ? std::malloc(bytes.size + 1) : std::aligned_alloc(page, rounded)));
-    if (!bytes.data) throw std::bad_alloc();
-    if (bytes.size >= page) madvise(bytes.data.get(), rounded, MADV_HUGEPAGE);
+    bytes.data.reset(static_cast<char*>(allocate_pages(bytes.size + 1)));
     bytes.data[bytes.size] = '\n';
 
     const std::int64_t grain = std::int64_t(1) << 20;

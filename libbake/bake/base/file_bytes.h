@@ -1,7 +1,7 @@
 // A whole file in memory.
 #pragma once
+#include "bake/base/pages.h"
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -10,10 +10,7 @@ namespace bake {
 /// The bytes of a file and one '\n' after them, so that a scan for the end of a line needs no other bound.
 /// A copy and not a mapping: what another program does to the file meanwhile cannot reach us.
 struct FileBytes {
-    struct Free {
-        void operator()(char* p) const noexcept { std::free(p); }
-    };
-    std::unique_ptr<char[], Free> data; ///< size + 1
+    std::unique_ptr<char[], FreePages> data; ///< size + 1
     std::size_t size = 0;
 
     const char* begin() const noexcept { return data.get(); }

@@ -1,6 +1,7 @@
 #include "bake/base/number_lines.h"
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
+#include "bake/base/text_encoding.h"
 #include "bake/base/text_line.h"
 #include <charconv>
 #include <cmath>
@@ -8,7 +9,9 @@
 namespace bake {
 
 std::vector<NumberLine> read_number_lines(const std::string& path) {
-    const FileBytes file = read_file(path);
+    FileBytes file = read_file(path);
+    decode_text(file);
+    end_lines_by_newline(file);
     std::vector<NumberLine> lines;
     std::size_t number = 0;
     for (const char *next = file.begin(), *at = next; at < file.end(); at = next) {

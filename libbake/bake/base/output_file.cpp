@@ -1,6 +1,8 @@
 #include "bake/base/output_file.h"
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +13,30 @@
 namespace bake {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The part of a name that other programs replace by the number of a tile or of a frame; empty if there is none.
+std::string number_place(std::string name) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    std::transform(name.begin(), name.end(), name.begin(), lower);
+    for (const char* place : {"<udim>", "<uvtile>", "<tile>", "%(udim)d"})
+        if (name.find(place) != std::string::npos) return place;
+    for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
+        std::size_t end = at + 1;
+        while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end]))) ++end;
+        const bool word = end + 1 < name.size() && std::isalnum(static_cast<unsigned char>(name[end + 1]));
+        if (end < name.size() && name[end] == 'd' && !word) return name.substr(at, end + 1 - at);
+    }
+    return {};
+}
+
+} // namespace
+
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+    if (const std::string place = number_place(fs::path(path_).filename().string()); !place.empty())
+        throw Error(Refusal::usage, path_ + ": " + place +
+                                        " stands for the number of a tile or of a frame, but one file "
+                                        "is written; write the number itself");
     const fs::path target(path_);
     std::error_code ignored;
     if (path_.empty() || target.filename().empty() || fs::is_directory(target, ignored))

@@ -7,7 +7,8 @@ namespace bake {
 /// The old file stays as it was until commit(); a destructor without commit() removes the temporary file.
 class OutputFile {
 public:
-    /// Reserves `path`. Throws Error{Refusal::unwritable} when its folder is missing or not writable, or when `path`
+    /// Reserves `path`. Throws Error{Refusal::usage} for a name with the place of a number in it (<UDIM>, %d), which would
+    /// otherwise be written as it stands, and Error{Refusal::unwritable} when its folder is missing or not writable, or when `path`
     /// is a folder, so that a long bake does not fail at its end.
     explicit OutputFile(std::string path);
     ~OutputFile();

@@ -39,9 +39,9 @@ struct SubdivisionTags {
 /// corner_normal is empty when no face has normals, corner_uv when none has uvs; a corner without one has no_index.
 /// Readers guarantee: every index is in range or no_index where that is allowed, every value is finite.
 struct Mesh {
-    std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals; ///< as in the file: not necessarily unit
-    std::vector<Vec2f> uvs;     ///< v up
+    std::vector<Vec3f> positions; ///< relative to `origin`
+    std::vector<Vec3f> normals;   ///< as in the file: not necessarily unit
+    std::vector<Vec2f> uvs;       ///< v up
 
     std::vector<std::uint32_t> face_begin = {0}; ///< faces + 1
     std::vector<std::uint32_t> corner_position;  ///< corners
@@ -55,6 +55,9 @@ struct Mesh {
     std::vector<Vec4f> tangents;       ///< corners or none: unit T, and the sign of B = sign (N x T)
     std::vector<Attribute> attributes; ///< what else the corners carry
     SubdivisionTags tags;              ///< where the mesh is a subdivision cage
+
+    Vec3d origin{0};                ///< of the positions; zero unless the mesh is far from zero (mesh/origin.h)
+    std::vector<std::string> notes; ///< what the reader applied or left out that the mesh does not show
 
     std::size_t faces() const noexcept { return face_begin.size() - 1; }
     std::size_t corners() const noexcept { return corner_position.size(); }

@@ -1,5 +1,6 @@
 // Equal items found by hashing: each item gets the number of its kind.
 #pragma once
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include "bake/mesh/mesh.h"
 #include <bit>
@@ -37,13 +38,14 @@ template <class Hash, class Equal> Numbered number_distinct(std::size_t items, c
     using detail::HashSlot;
     Numbered out;
     // out.number contains the hashes until the numbers replace them.
-    out.number.resize(items);
+    resize_in_pages(out.number, items);
     for_rows(std::int64_t(items), 16384, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = std::uint32_t(begin); i < std::uint32_t(end); ++i) out.number[i] = std::uint32_t(hash(i));
     });
     // Open addressing with linear probing, at most half of the slots used. There is room for six items per kind, as for
     // the corners at a vertex of a closed triangle mesh; the table grows if there are fewer.
-    std::vector<HashSlot> table(std::bit_ceil(items / 3 + 16));
+    std::vector<HashSlot> table;
+    resize_in_pages(table, std::bit_ceil(items / 3 + 16));
     const auto grow = [&table] {
         std::vector<HashSlot> larger(table.size() * 2);
         for (const HashSlot& slot : table) {

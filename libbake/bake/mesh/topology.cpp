@@ -1,4 +1,5 @@
 #include "bake/mesh/topology.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <numeric>
@@ -46,7 +47,8 @@ EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::fun
     for (std::uint32_t side = 0; side < sides; ++side)
         if (const SideEnds e = ends(side); e[0] != no_index) ++first[std::min(e[0], e[1]) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<ListedSide> listed(first[vertices]);
+    std::vector<ListedSide> listed;
+    resize_in_pages(listed, first[vertices]);
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
     for (std::uint32_t side = 0; side < sides; ++side)
         if (const SideEnds e = ends(side); e[0] != no_index)
@@ -67,10 +69,10 @@ EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::fun
     std::vector<std::uint32_t>& first_edge = count;
     for (std::uint32_t& n : first_edge) n = std::exchange(edges, edges + n);
     EdgeTable table;
-    table.edge.assign(sides, no_index);
-    table.begin.resize(std::size_t(edges) + 1);
+    resize_in_pages(table.edge, sides, no_index);
+    resize_in_pages(table.begin, std::size_t(edges) + 1);
     table.begin.back() = std::uint32_t(listed.size());
-    table.sides.resize(listed.size());
+    resize_in_pages(table.sides, listed.size());
     for_rows(vertices, grain, [&](std::int64_t begin, std::int64_t end) {
         for (auto v = std::uint32_t(begin); v < end; ++v) {
             std::uint32_t edge = first_edge[v];
@@ -112,7 +114,8 @@ EdgeTable make_edges(const HalfEdges& he) {
 }
 
 std::vector<std::uint32_t> find_mates(const HalfEdges& he, const EdgeTable& edges) {
-    std::vector<std::uint32_t> mate(he.size(), no_index);
+    std::vector<std::uint32_t> mate;
+    resize_in_pages(mate, he.size(), no_index);
     for (std::uint32_t e = 0; e < edges.edges(); ++e) {
         const auto sides = edges.of(e);
         if (sides.size() != 2) continue;

@@ -2,14 +2,17 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/exr_guard.h"
-#include "bake/picture/picture_formats.h"
+#include "bake/picture/exr_layers.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfEnvmap.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
@@ -57,29 +60,18 @@ private:
     std::int64_t at_ = 0;
 };
 
-/// Where a channel of this name stands among the others, in any case of letters. Names that say nothing come last.
-int rank(std::string name) {
-    static constexpr std::string_view first[] = {"r",    "red",  "g",  "green", "b",     "blue", "y",
-                                                 "real", "imag", "a",  "alpha", "ar",    "ra",   "ag",
-                                                 "ga",   "ab",   "ba", "z",     "depth", "zback"};
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return int(std::find(std::begin(first), std::end(first), name) - std::begin(first));
+std::vector<std::string> names_of(const Imf::ChannelList& channels) {
+    std::vector<std::string> names;
+    for (auto c = channels.begin(); c != channels.end(); ++c) names.emplace_back(c.name());
+    return names;
 }
 
-/// Names of the channels in the order in which they are given; nothing when the file is left to OpenImageIO.
-std::vector<std::string> plain_channels(const Imf::ChannelList& channels) {
-    std::vector<std::string> names;
-    for (auto c = channels.begin(); c != channels.end(); ++c) {
-        const std::string name = c.name();
-        const Imf::Channel& channel = c.channel();
-        if (name.find('.') != std::string::npos || channel.xSampling != 1 || channel.ySampling != 1 ||
-            channel.type == Imf::UINT)
-            return {};
-        names.push_back(name);
-    }
-    std::stable_sort(names.begin(), names.end(),
-                     [](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
-    return names;
+/// Whether the library gives these channels as floats without more ado.
+bool are_plain(const Imf::ChannelList& channels, const std::vector<std::string>& names) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        const Imf::Channel& channel = channels[name];
+        return channel.xSampling == 1 && channel.ySampling == 1 && channel.type != Imf::UINT;
+    });
 }
 
 std::string text_attribute(const Imf::Header& header, const char* name) {
@@ -102,7 +94,27 @@ EnvironmentTag environment_tag(const Imf::Header& header, const Window& data) {
     return data.height == 6 * std::int64_t(data.width) ? EnvironmentTag::cube : EnvironmentTag::latlong;
 }
 
-ImageInfo describe(const Imf::Header& header, std::vector<std::string> channels, const Window& data) {
+/// What is said and left out: channels of other layers.
+std::string left_out(const LayerChoice& choice) {
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, choice.left_out.size()); ++i)
+        text += (i > 0 ? ", " : "") + choice.left_out[i];
+    if (choice.left_out.size() > most) text += " and " + std::to_string(choice.left_out.size() - most) + " more";
+    std::string read;
+    for (const std::string& name : choice.channels) read += (read.empty() ? "" : ", ") + name;
+    return "has further channels beside " + read + ", which are left out: " + text;
+}
+
+std::string primaries_note(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return {};
+    const Imf::Chromaticities given = Imf::chromaticities(header), srgb;
+    const auto near = [](const Imath::V2f& a, const Imath::V2f& b) { return (a - b).length() < 0.01f; };
+    if (near(given.red, srgb.red) && near(given.green, srgb.green) && near(given.blue, srgb.blue)) return {};
+    return "has other primaries than sRGB: its colours are not converted";
+}
+
+ImageInfo describe(const Imf::Header& header, const LayerChoice& choice, const Window& data) {
     ImageInfo info;
     info.format = "openexr";
     info.environment = environment_tag(header, data);
@@ -110,15 +122,17 @@ ImageInfo describe(const Imf::Header& header, std::vector<std::string> channels,
     const Window picture = info.environment == EnvironmentTag::cube ? data : window_of(header.displayWindow());
     info.width = picture.width, info.height = picture.height;
     info.type = SampleType::half;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (header.channels()[channels[c]].type == Imf::FLOAT) info.type = SampleType::float32;
-        if (info.alpha_channel < 0 && (rank(channels[c]) == rank("a") || rank(channels[c]) == rank("alpha")))
-            info.alpha_channel = int(c);
+    info.channels = choice.names, info.colours = choice.colours;
+    for (std::size_t c = 0; c < choice.channels.size(); ++c) {
+        if (header.channels()[choice.channels[c]].type == Imf::FLOAT) info.type = SampleType::float32;
+        if (info.alpha_channel < 0 && is_alpha(choice.names[c])) info.alpha_channel = int(c);
     }
     info.bits = info.type == SampleType::half ? 16 : 32;
     info.description = text_attribute(header, "comments");
     info.srgb_tagged = text_attribute(header, "oiio:ColorSpace") == "sRGB";
-    info.channels = std::move(channels);
+    if (info.srgb_tagged) info.colour = {.source = "oiio:ColorSpace attribute", .curves = {srgb_curve()}};
+    info.colour.note = primaries_note(header);
+    if (!choice.left_out.empty()) info.notes.push_back(left_out(choice));
     return info;
 }
 
@@ -141,33 +155,85 @@ Imf::FrameBuffer frame_of(const Sample* first, const std::vector<std::string>& c
 
 bool is_exr(const PictureFile& file) noexcept { return file.head().starts_with("\x76\x2f\x31\x01"); }
 
-bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) try {
-    if (const std::string fault = exr_fault(file); !fault.empty())
-        throw unreadable(file.path(), fault, "export it again, as EXR, TIFF or PNG");
-    // Version 2, and no flag but those for tiles and long names: neither deep nor of several parts.
-    const std::string& head = file.head();
-    if (head[4] != 2 || (head[5] & ~0x6) || head[6] || head[7]) return false;
-    InputStream stream(file);
-    Imf::InputFile in(stream, helpers());
+namespace {
+
+/// One picture of an open file, which is the file itself or a part of it. As read_exr.
+template <class Input>
+bool read_part(Input& in, const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
     const Imf::Header& header = in.header();
     const Window data = window_of(header.dataWindow());
-    std::vector<std::string> channels = plain_channels(header.channels());
-    if (channels.empty()) return false;
-    info = describe(header, channels, data);
+    const LayerChoice choice = choose_layer(names_of(header.channels()));
+    if (choice.channels.empty() || !are_plain(header.channels(), choice.channels)) return false;
+    info = describe(header, choice, data);
     const Window shown = window_of(header.displayWindow());
     const Window picture = info.environment == EnvironmentTag::cube ? data : shown;
     // DWA deflates one mean per block of 8 x 8 texels; flat pictures measured 7000.
     const bool dwa = header.compression() == Imf::DWAA_COMPRESSION || header.compression() == Imf::DWAB_COMPRESSION;
-    check_size(file.path(), file.size(), {data, picture, int(channels.size()), dwa ? 32768.0 : 4096.0}, limits);
+    const int channels = int(choice.channels.size());
+    check_size(file.path(), file.size(), {data, picture, channels, dwa ? 32768.0 : 4096.0}, limits);
     if (!image) return true;
-    Image<float> stored(data.width, data.height, int(channels.size()));
-    in.setFrameBuffer(frame_of(stored.data(), channels, data.x, data.y, data.width));
+    Image<float> stored(data.width, data.height, channels);
+    in.setFrameBuffer(frame_of(stored.data(), choice.channels, data.x, data.y, data.width));
     for (int y = 0; y < data.height; y += band_rows) {
         throw_if_interrupted();
         in.readPixels(data.y + y, data.y + std::min(data.height, y + band_rows) - 1);
     }
     *image = place(std::move(stored), data, picture);
     return true;
+}
+
+double area_of(const Imf::Header& header) {
+    const Window window = window_of(header.displayWindow());
+    return double(window.width) * window.height;
+}
+
+/// The first part of full size that is the picture by its name, or else that has colours or a grey; -1 without any.
+int choose_part(const Imf::MultiPartInputFile& in) {
+    const auto is_flat = [&](int part) {
+        return !in.header(part).hasType() || !Imf::isDeepData(in.header(part).type());
+    };
+    double largest = 0;
+    for (int part = 0; part < in.parts(); ++part)
+        if (is_flat(part)) largest = std::max(largest, area_of(in.header(part)));
+    int chosen = -1, best = -1;
+    for (int part = 0; part < in.parts(); ++part) {
+        const Imf::Header& header = in.header(part);
+        if (!is_flat(part) || area_of(header) < largest / 2) continue;
+        const int score = (choose_layer(names_of(header.channels())).colours > 0 ? 1 : 0) +
+                          (header.hasName() && is_main_layer(header.name()) ? 2 : 0);
+        if (score > best) chosen = part, best = score;
+    }
+    return chosen;
+}
+
+bool read_parts(const PictureFile& file, InputStream& stream, const ReadLimits& limits, ImageInfo& info,
+                Image<float>* image) {
+    Imf::MultiPartInputFile in(stream, helpers());
+    const int chosen = choose_part(in);
+    if (chosen < 0) return false;
+    Imf::InputPart part(in, chosen);
+    if (!read_part(part, file, limits, info, image)) return false;
+    if (in.parts() < 2) return true;
+    const std::string name = part.header().hasName() ? " (\"" + part.header().name() + "\")" : "";
+    info.notes.push_back("has " + std::to_string(in.parts()) + " parts: number " + std::to_string(chosen + 1) + name +
+                         " is read, the others are left out");
+    return true;
+}
+
+} // namespace
+
+bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) try {
+    if (const std::string fault = exr_fault(file); !fault.empty())
+        throw unreadable(file.path(), fault, "export it again, as EXR, TIFF or PNG");
+    // Version 2, and no flag but those for tiles, long names, deep parts and several parts.
+    const std::string& head = file.head();
+    constexpr int tiles_and_names = 0x6, deep = 0x8, many = 0x10;
+    if (head[4] != 2 || (head[5] & ~(tiles_and_names | deep | many)) || head[6] || head[7]) return false;
+    InputStream stream(file);
+    if (head[5] & many) return read_parts(file, stream, limits, info, image);
+    if (head[5] & deep) return false;
+    Imf::InputFile in(stream, helpers());
+    return read_part(in, file, limits, info, image);
 } catch (const Error&) {
     throw;
 } catch (const std::bad_alloc&) {

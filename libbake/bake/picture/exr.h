@@ -6,12 +6,10 @@
 
 namespace bake {
 
-struct PictureSize;
-
 bool is_exr(const PictureFile& file) noexcept;
 
 /// Fills `info` from the header, and `image`, when given, as read_image does. Returns false for a file that needs
-/// OpenImageIO: several parts, layers, luminance and chroma, integers. Throws as read_image.
+/// OpenImageIO: deep pictures, luminance and chroma, integers. Throws as read_image.
 bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
 
 /// Writes rows from the top down, and levels from the largest on. The same rows give the same bytes.

@@ -1,20 +1,11 @@
 // An image in memory: rows of interleaved channels, row 0 at the top.
 #pragma once
+#include "bake/base/pages.h"
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <type_traits>
 
 namespace bake {
-
-namespace detail {
-/// Memory for `bytes` bytes. Large blocks are in huge pages, which the system provides several times as fast.
-/// Throws std::bad_alloc.
-void* allocate_pages(std::size_t bytes);
-struct FreePages {
-    void operator()(void* pages) const noexcept { std::free(pages); }
-};
-} // namespace detail
 
 /// Owns width * height * channels values, texel (x, y) at row(y)[x * channels]. New values are NOT initialised, which
 /// would take a second pass over a large image. An image can be moved, but not copied.
@@ -24,7 +15,7 @@ public:
     Image() = default;
     Image(int width, int height, int channels)
         : width_(width), height_(height), channels_(channels),
-          values_(static_cast<T*>(detail::allocate_pages(size() * sizeof(T)))) {}
+          values_(static_cast<T*>(allocate_pages(size() * sizeof(T)))) {}
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
@@ -43,7 +34,7 @@ public:
 private:
     int width_ = 0, height_ = 0, channels_ = 0;
     static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>);
-    std::unique_ptr<T[], detail::FreePages> values_;
+    std::unique_ptr<T[], FreePages> values_;
 };
 
 } // namespace bake

@@ -3,12 +3,17 @@
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/bmp.h"
 #include "bake/picture/exr.h"
+#include "bake/picture/icc.h"
 #include "bake/picture/picture_formats.h"
 #include "bake/picture/picture_name.h"
-#include "bake/picture/plain_tiff.h"
 #include "bake/picture/png.h"
 #include "bake/picture/png_writer.h"
+#include "bake/picture/rgbe.h"
+#include "bake/picture/tiff.h"
+#include "bake/picture/tiff_writer.h"
+#include "bake/picture/upright.h"
 #include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
@@ -56,8 +61,17 @@ const PictureFormats& picture_formats() {
 
 FormatHost format_host() { return {.threads = thread_count(), .interrupted = interrupted}; }
 
-void throw_failure(const FormatResult& result) {
-    if (result) throw Error(result->refusal, result->message);
+/// All decoders that are not ours to choose are behind this call.
+void read_by_openimageio(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
+    FormatPicture picture;
+    const PictureFormats& formats = picture_formats();
+    if (const FormatResult failure = formats.read(format_host(), file, limits, image != nullptr, picture))
+        throw Error(failure->refusal, failure->message);
+    info = std::move(picture.info);
+    if (!picture.icc.empty()) info.colour = read_icc(picture.icc);
+    if (!info.colour.curves.empty()) info.srgb_tagged = info.colour.is_srgb();
+    turn_upright(info, picture.orientation);
+    if (image) *image = upright(std::move(picture.image), picture.orientation);
 }
 
 } // namespace
@@ -67,11 +81,24 @@ const char* name(SampleType type) noexcept {
     case SampleType::u8: return "uint8";
     case SampleType::u16: return "uint16";
     case SampleType::u32: return "uint32";
+    case SampleType::i8: return "int8";
+    case SampleType::i16: return "int16";
+    case SampleType::i32: return "int32";
     case SampleType::half: return "half";
     case SampleType::float32: return "float";
     case SampleType::other: break;
     }
     return "other";
+}
+
+bool is_integer(SampleType type) noexcept {
+    return type != SampleType::half && type != SampleType::float32 && type != SampleType::other;
+}
+
+double level_step(const ImageInfo& info) noexcept {
+    if (!is_integer(info.type) || info.bits < 1) return 0;
+    const bool with_sign = info.type == SampleType::i8 || info.type == SampleType::i16 || info.type == SampleType::i32;
+    return 1 / (std::ldexp(1.0, info.bits - with_sign) - 1);
 }
 
 namespace {
@@ -80,20 +107,11 @@ namespace {
 ImageInfo read_picture(const std::string& path, const ReadLimits& limits, Image<float>* image) {
     ImageInfo info;
     const PictureFile file(path);
-    if (is_png(file)) {
-        read_png(file, limits, info, image);
-        return info;
-    }
-    if (is_exr(file) && read_exr(file, limits, info, image)) return info;
-    if (const auto tiff = find_plain_tiff(path, limits)) {
-        if (image) *image = read_plain_tiff(path, *tiff);
-        return tiff->info;
-    }
-    if (image && is_cut_short_tiff(path)) throw unreadable(path, "is cut short");
-    // All decoders that are not ours to choose are behind this call.
-    const PictureFormats& formats = picture_formats();
-    throw_failure(image ? formats.read(format_host(), path, limits, info, *image)
-                        : formats.read_info(format_host(), path, limits, info));
+    if (is_png(file)) read_png(file, limits, info, image);
+    else if (is_tiff(file)) read_tiff(file, limits, info, image);
+    else if (is_rgbe(file)) read_rgbe(file, limits, info, image);
+    else if (is_masked_bmp(file)) read_masked_bmp(file, limits, info, image);
+    else if (!is_exr(file) || !read_exr(file, limits, info, image)) read_by_openimageio(file, limits, info, image);
     return info;
 }
 
@@ -110,23 +128,6 @@ Image<float> read_image(const std::string& path, ImageInfo* info_out, const Read
     return image;
 } catch (const std::bad_alloc&) {
     throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
-}
-
-void srgb_to_linear(Image<float>& image, int alpha_channel) {
-    const int channels = image.channels();
-    for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = int(begin); y < int(end); ++y) {
-            float* row = image.row(y);
-            for (int i = 0; i < image.width() * channels; ++i)
-                if (i % channels != alpha_channel)
-                    row[i] = row[i] <= 0.04045f ? row[i] / 12.92f : std::pow((row[i] + 0.055f) / 1.055f, 2.4f);
-        }
-    });
-}
-
-float linear_to_srgb(float linear) noexcept {
-    if (!(linear > 0)) return 0;
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 Depth resolve_depth(const std::string& path, Depth depth) {
@@ -184,16 +185,14 @@ struct ImageWriter::Impl {
     int width, channels;
     std::optional<PngWriter> png = {};
     std::optional<ExrWriter> exr = {};
-    std::optional<PlainTiffWriter> plain = {};
-    std::shared_ptr<FormatWriter> format = {}; ///< of all others
-    std::vector<unsigned char> levels = {};    ///< one band of integer samples
+    std::optional<TiffWriter> tiff = {};
+    std::vector<unsigned char> levels = {}; ///< one band of integer samples
     bool closed = false;
 
     void write_rows(const void* values, int rows) {
         if (png) png->write(values, rows);
         else if (exr) exr->write(static_cast<const float*>(values), rows);
-        else if (plain) plain->write(values, rows);
-        else throw_failure(picture_formats().write(*format, values, rows));
+        else tiff->write(values, rows);
     }
 
     template <class Level> void write_levels(const float* values, int rows) {
@@ -217,8 +216,7 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     const PictureFormat format = picture_format(path);
     if (format == PictureFormat::png) impl_->png.emplace(path, temporary, size, resolved);
     else if (format == PictureFormat::exr) impl_->exr.emplace(path, temporary, size, resolved);
-    else if (fits_plain_tiff(path, size, resolved)) impl_->plain.emplace(path, temporary, size, resolved);
-    else throw_failure(picture_formats().open(format_host(), path, temporary, size, resolved, impl_->format));
+    else impl_->tiff.emplace(path, temporary, size, resolved);
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -240,15 +238,14 @@ void ImageWriter::write(const float* values, int rows) {
 void ImageWriter::next_level() {
     impl_->width = std::max(1, impl_->width / 2);
     if (impl_->exr) impl_->exr->next_level();
-    else throw_failure(picture_formats().next_level(*impl_->format));
+    else if (impl_->tiff) impl_->tiff->next_level();
 }
 
 void ImageWriter::close() {
     if (impl_->closed) return;
     if (impl_->png) impl_->png->finish();
     else if (impl_->exr) impl_->exr->finish();
-    else if (impl_->plain) impl_->plain->finish();
-    else throw_failure(picture_formats().finish(*impl_->format));
+    else impl_->tiff->finish();
     impl_->closed = true;
 }
 

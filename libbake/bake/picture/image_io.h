@@ -1,4 +1,5 @@
-// Reads and writes pictures: PNG by libpng, OpenEXR by its own library, plain TIFF by libtiff, others by OpenImageIO.
+// Reads and writes pictures: PNG by libpng, OpenEXR by its own library, TIFF by libtiff, Radiance pictures and BMP with
+// masks by readers of our own, others by OpenImageIO.
 #pragma once
 #include "bake/picture/image.h"
 #include "bake/picture/image_types.h"
@@ -10,15 +11,11 @@ namespace bake {
 ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {});
 
 /// Reads all channels as data: unsigned integers are divided by their largest value, floats are unchanged; values are
-/// not decoded from sRGB and not divided by alpha. A data window is placed in its display window (0 outside). Throws
-/// Error{Refusal::unreadable} for a file that is missing, damaged, cut short or of an unknown format, and
-/// Error{Refusal::unsuitable} for a file that exceeds `limits`.
+/// not decoded from sRGB and not divided by alpha. A data window is placed in its display window (0 outside). A picture
+/// that is stored turned or mirrored is turned upright. Of several pictures in a file, the first of full size is read; of
+/// several layers, the main one. info->notes tells what was left out. Throws Error{Refusal::unreadable} for a file that is
+/// missing, damaged, cut short or of an unknown format, and Error{Refusal::unsuitable} for a file that exceeds `limits`.
 Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, const ReadLimits& limits = {});
-
-/// Decodes sRGB (IEC 61966-2-1) in place, except alpha. For colour textures and skies, not for data.
-void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
-/// Encodes a linear value as sRGB, for pictures that people look at.
-float linear_to_srgb(float linear) noexcept;
 
 /// Resolves `depth` for a file of this name. Throws Error{Refusal::usage} for a depth that its format cannot
 /// hold (half in png, 8 bit in exr) or an ending other than .png, .exr, .tif, .tiff.

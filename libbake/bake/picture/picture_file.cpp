@@ -17,7 +17,7 @@ PictureFile::PictureFile(const std::string& path)
     const bool folder = S_ISDIR(status.st_mode), regular = S_ISREG(status.st_mode);
     size_ = status.st_size;
     if (reason == 0 && regular && size_ > 0) {
-        head_.resize(148);
+        head_.resize(1200);
         head_.resize(std::size_t(read(0, head_.data(), std::int64_t(head_.size()))));
         return;
     }
@@ -41,6 +41,8 @@ std::int64_t PictureFile::read(std::int64_t offset, char* to, std::int64_t size)
     }
     return done;
 }
+
+int PictureFile::duplicate() const noexcept { return fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); }
 
 std::string one_line(std::string text, const std::string& path) {
     const std::string ours = "the file";

@@ -18,10 +18,12 @@ public:
 
     const std::string& path() const noexcept { return path_; }
     std::int64_t size() const noexcept { return size_; }
-    /// The first 148 bytes, fewer in a shorter file.
+    /// The first 1200 bytes, fewer in a shorter file.
     const std::string& head() const noexcept { return head_; }
     /// Reads up to `size` bytes from `offset` on. Returns their number.
     std::int64_t read(std::int64_t offset, char* to, std::int64_t size) const;
+    /// Another descriptor of the open file, which the caller closes; -1 when there is none to be had.
+    int duplicate() const noexcept;
 
 private:
     std::string path_, head_;

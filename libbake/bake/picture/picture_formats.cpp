@@ -1,12 +1,12 @@
 #include "bake/picture/picture_formats.h"
-#include "bake/base/error.h"
 #include "bake/picture/image_guard.h"
-#include "bake/picture/picture_file.h"
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <mutex>
+#include <string_view>
 
 namespace bake {
 namespace {
@@ -37,6 +37,9 @@ SampleType sample_type(OIIO::TypeDesc type) {
     case OIIO::TypeDesc::UINT8: return SampleType::u8;
     case OIIO::TypeDesc::UINT16: return SampleType::u16;
     case OIIO::TypeDesc::UINT32: return SampleType::u32;
+    case OIIO::TypeDesc::INT8: return SampleType::i8;
+    case OIIO::TypeDesc::INT16: return SampleType::i16;
+    case OIIO::TypeDesc::INT32: return SampleType::i32;
     case OIIO::TypeDesc::HALF: return SampleType::half;
     case OIIO::TypeDesc::FLOAT: return SampleType::float32;
     default: return SampleType::other;
@@ -59,7 +62,21 @@ Window picture_window(const OIIO::ImageSpec& spec) {
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
 }
 
-ImageInfo describe(OIIO::ImageInput& in) {
+/// Whether the values come from a palette. OpenImageIO gives its colours and does not tell.
+bool has_palette(const std::string& format, const std::string& head) {
+    const auto byte = [&](std::size_t at) { return at < head.size() ? static_cast<unsigned char>(head[at]) : 0; };
+    if (format == "gif") return true;
+    if (format == "targa") return byte(1) == 1 && (byte(2) == 1 || byte(2) == 9);
+    if (format != "bmp" || byte(28) > 8) return false;
+    // Most grey pictures have a palette that is a ramp, as the format knows no other grey.
+    const std::size_t palette = 14 + std::size_t(byte(14)), steps = (std::size_t(1) << byte(28)) - 1;
+    for (std::size_t i = 0; i <= steps && palette + 4 * i + 2 < head.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (std::size_t(byte(palette + 4 * i + c)) != 255 * i / steps) return true;
+    return false;
+}
+
+ImageInfo describe(OIIO::ImageInput& in, const PictureFile& file) {
     const OIIO::ImageSpec& spec = in.spec();
     const Window window = picture_window(spec);
     ImageInfo info;
@@ -69,42 +86,97 @@ ImageInfo describe(OIIO::ImageInput& in) {
     info.channels = spec.channelnames;
     info.channels.resize(spec.nchannels);
     info.type = sample_type(spec.format);
-    info.bits = spec.get_int_attribute("oiio:BitsPerSample", 8 * int(spec.format.basesize()));
+    info.palette = has_palette(info.format, file.head());
+    // For Targa and BMP that attribute counts the bits of an index.
+    const int stored = 8 * int(spec.format.basesize());
+    const bool indices = info.format == "targa" || info.format == "bmp" || info.format == "gif";
+    info.bits = indices ? stored : spec.get_int_attribute("oiio:BitsPerSample", stored);
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
+    const int before_alpha = info.alpha_channel >= 0 ? info.alpha_channel : spec.nchannels;
+    info.colours = before_alpha >= 3 ? 3 : before_alpha == 1 ? 1 : 0;
     info.environment = environment_tag(spec);
     info.description = spec.get_string_attribute("ImageDescription");
     return info;
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const std::string& path, const ReadLimits& limits,
-                                             ImageInfo& info) {
+/// The open file for OpenImageIO, which may close its own copy.
+struct OpenFile {
+    explicit OpenFile(const PictureFile& file) {
+        const int copy = file.duplicate();
+        stream = copy < 0 ? nullptr : fdopen(copy, "rb");
+        if (!stream) return;
+        std::rewind(stream);
+        proxy = std::make_unique<OIIO::Filesystem::IOFile>(stream, OIIO::Filesystem::IOProxy::Read);
+    }
+    ~OpenFile() {
+        proxy.reset();
+        if (stream) std::fclose(stream);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    std::FILE* stream = nullptr;
+    std::unique_ptr<OIIO::Filesystem::IOProxy> proxy;
+};
+
+/// Goes to the first picture of full size: files of icons hold smaller ones, animations further ones. The first picture
+/// of a Photoshop file is the composite of the others.
+std::string choose_subimage(OIIO::ImageInput& in) {
+    constexpr int most = 64;
+    if (std::string_view(in.format_name()) == "psd") return {};
+    double largest = 0;
+    int chosen = 0, count = 0;
+    for (; count < most && in.seek_subimage(count, 0); ++count) {
+        const double area = double(in.spec().width) * in.spec().height;
+        if (area > largest) largest = area, chosen = count;
+    }
+    in.geterror(); // of the search for one more
+    if (count < 2) {
+        in.seek_subimage(0, 0);
+        return {};
+    }
+    if (!in.seek_subimage(chosen, 0)) return {};
+    return "has " + std::to_string(count) + (count == most ? " or more" : "") + " pictures (subimages): number " +
+           std::to_string(chosen + 1) + " is read, the others are left out";
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const PictureFile& file, const OpenFile& open,
+                                             const ReadLimits& limits, FormatPicture& picture) {
     configure_oiio(host.threads);
-    const auto stored = std::int64_t(std::filesystem::file_size(path));
-    if (const std::string fault = image_fault(path, stored); !fault.empty())
+    const std::string& path = file.path();
+    if (const std::string fault = image_fault(file); !fault.empty())
         throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
     std::unique_ptr<OIIO::ImageInput> in;
     try {
-        in = OIIO::ImageInput::open(path, &config);
+        if (open.proxy) in = OIIO::ImageInput::open(path, &config, open.proxy.get());
+        // Some decoders insist on opening the file themselves.
+        if (!in) OIIO::geterror(), in = OIIO::ImageInput::open(path, &config);
     } catch (const std::exception& error) { // some decoders pass on what their containers throw
         throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
-    info = describe(*in);
+    const std::string others = choose_subimage(*in);
+    ImageInfo& info = picture.info = describe(*in, file);
+    if (!others.empty()) info.notes.push_back(others);
     const OIIO::ImageSpec& spec = in->spec();
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
     if (spec.deep) throw unsuitable("is a deep image; flatten it");
-    check_size(path, stored,
+    check_size(path, file.size(),
                {{spec.x, spec.y, spec.width, spec.height},
                 picture_window(spec),
                 info.channels.empty() ? 0 : spec.nchannels,
                 largest_ratio(spec, info.format)},
                limits);
+    // Others turn their pictures themselves.
+    if (info.format == "jpeg" || info.format == "webp") picture.orientation = spec.get_int_attribute("Orientation", 1);
+    if (const auto* icc = spec.find_attribute("ICCProfile"); icc && icc->data())
+        picture.icc.assign(static_cast<const char*>(icc->data()), icc->type().size());
     return in;
 }
 
@@ -130,162 +202,38 @@ void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string
     if (!whole || says_cut_short(message)) throw unreadable(path, message);
 }
 
-void read_info(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info) {
-    open_image(host, path, limits, info);
-}
-
-void read_pixels(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info,
-                 Image<float>& image) {
-    const auto in = open_image(host, path, limits, info);
+void read_picture(const FormatHost& host, const PictureFile& file, const ReadLimits& limits, bool texels,
+                  FormatPicture& picture) {
+    const OpenFile open(file);
+    const auto in = open_image(host, file, open, limits, picture);
+    if (!texels) return;
     const OIIO::ImageSpec spec = in->spec();
-    const Window window = picture_window(spec);
     try {
-        image = Image<float>(spec.width, spec.height, spec.nchannels);
-        read_window(host, *in, path, image);
-        image = place(std::move(image), {spec.x, spec.y, spec.width, spec.height}, window);
+        picture.image = Image<float>(spec.width, spec.height, spec.nchannels);
+        read_window(host, *in, file.path(), picture.image);
+        picture.image =
+            place(std::move(picture.image), {spec.x, spec.y, spec.width, spec.height}, picture_window(spec));
     } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
+        throw Error(Refusal::unsuitable, file.path() + ": needs more memory than there is; scale it down");
     } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
-        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
+        throw unreadable(file.path(), std::string("its decoder gave up (") + error.what() + ")");
     }
 }
 
-OIIO::TypeDesc stored_type(Depth depth) {
-    switch (depth) {
-    case Depth::u8: return OIIO::TypeDesc::UINT8;
-    case Depth::u16: return OIIO::TypeDesc::UINT16;
-    case Depth::half: return OIIO::TypeDesc::HALF;
-    default: return OIIO::TypeDesc::FLOAT;
-    }
+FormatResult read(const FormatHost& host, const PictureFile& file, const ReadLimits& limits, bool texels,
+                  FormatPicture& picture) try {
+    read_picture(host, file, limits, texels, picture);
+    return {};
+} catch (const Error& error) {
+    return FormatFailure{error.refusal, error.what()};
+} catch (const std::exception& error) {
+    return FormatFailure{Refusal::unsuitable, std::string("the picture cannot be handled (") + error.what() + ")"};
 }
-
-} // namespace
-
-struct FormatWriter {
-    FormatWriter(const std::string& target, const std::string& file, const OIIO::ImageSpec& header, OIIO::TypeDesc rows)
-        : path(target), temporary(file), spec(header), type(rows) {}
-
-    std::string path, temporary;
-    OIIO::ImageSpec spec;
-    OIIO::TypeDesc type; ///< of the rows handed over
-    std::unique_ptr<OIIO::ImageOutput> out;
-    int next_row = 0;
-
-    [[noreturn]] void fail(const std::string& why) {
-        throw Error(Refusal::unwritable,
-                    path + ": cannot be written (" + one_line(why, temporary) + "); is the disk full?");
-    }
-};
-
-namespace {
-
-void open_writer(const FormatHost& host, const std::string& path, const std::string& temporary, const PictureSize& size,
-                 const WriteOptions& options, std::shared_ptr<FormatWriter>& writer) {
-    configure_oiio(host.threads);
-    const OIIO::TypeDesc stored = stored_type(options.depth);
-    const bool integers = options.depth == Depth::u8 || options.depth == Depth::u16;
-    writer =
-        std::make_shared<FormatWriter>(path, temporary, OIIO::ImageSpec(size.width, size.height, size.channels, stored),
-                                       integers ? stored : OIIO::TypeDesc::FLOAT);
-    writer->out = OIIO::ImageOutput::create(path);
-    if (!writer->out) writer->fail(OIIO::geterror());
-
-    OIIO::ImageSpec& spec = writer->spec;
-    spec.channelnames = options.channels;
-    spec.alpha_channel = -1;
-    for (int c = 0; c < size.channels; ++c)
-        if (spec.channelnames[c] == "A") spec.alpha_channel = c;
-    const std::string format = writer->out->format_name();
-    const bool zip =
-        options.compression == Compression::automatic ? format == "openexr" : options.compression == Compression::zip;
-    if (format != "png") spec.attribute("compression", zip ? "zip" : "none");
-    if (format == "png" && options.srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-    if (format == "png") spec.attribute("png:compressionLevel", 3); // level 6 costs 3 times as long for 2 % of the size
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    // OIIO writes the time of day unless told another one: the same picture is the same bytes tomorrow.
-    if (format != "png") spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (!options.description.empty()) spec.attribute("ImageDescription", options.description);
-    if (options.environment == EnvironmentTag::cube) {
-        spec.attribute("textureformat", cube_format);
-        spec.full_height = spec.full_width;
-    }
-    if (options.environment == EnvironmentTag::latlong) spec.attribute("textureformat", latlong_format);
-    if (options.mips) {
-        if (!writer->out->supports("mipmap") && !writer->out->supports("multiimage"))
-            throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
-        spec.tile_width = spec.tile_height = 64;
-        if (options.environment == EnvironmentTag::none) spec.attribute("textureformat", "Plain Texture");
-    }
-    if (!writer->out->open(temporary, spec)) writer->fail(writer->out->geterror());
-}
-
-// TIFF stores tiles whole, and OIIO leaves what lies beyond the picture's edge as the memory was.
-bool write_whole_tiles(FormatWriter& writer, const char* values, int rows) {
-    const OIIO::ImageSpec& spec = writer.spec;
-    const std::size_t texel = writer.type.size() * spec.nchannels, row_size = texel * spec.width,
-                      tile_row = texel * spec.tile_width;
-    std::vector<char> tile(tile_row * spec.tile_height);
-    for (int y = 0; y < rows; y += spec.tile_height)
-        for (int x = 0; x < spec.width; x += spec.tile_width) {
-            std::fill(tile.begin(), tile.end(), '\0');
-            const std::size_t covered = texel * std::min(spec.tile_width, spec.width - x);
-            for (int j = 0; j < std::min(spec.tile_height, rows - y); ++j)
-                std::memcpy(tile.data() + j * tile_row, values + (y + j) * row_size + x * texel, covered);
-            if (!writer.out->write_tile(x, writer.next_row + y, 0, writer.type, tile.data())) return false;
-        }
-    return true;
-}
-
-void write_rows(FormatWriter& writer, const void* values, int rows) {
-    OIIO::ImageOutput& out = *writer.out;
-    const int first = writer.next_row, end = first + rows;
-    const bool written = !writer.spec.tile_width ? out.write_scanlines(first, end, 0, writer.type, values)
-                         : out.supports("mipmap")
-                             ? out.write_tiles(0, writer.spec.width, first, end, 0, 1, writer.type, values)
-                             : write_whole_tiles(writer, static_cast<const char*>(values), rows);
-    if (!written) writer.fail(out.geterror());
-    writer.next_row = end;
-}
-
-void next_level(FormatWriter& writer) {
-    OIIO::ImageSpec& spec = writer.spec;
-    spec.width = spec.full_width = std::max(1, spec.width / 2);
-    spec.height = spec.full_height = std::max(1, spec.height / 2);
-    if (spec.get_string_attribute("textureformat") == cube_format) spec.full_height = spec.full_width;
-    writer.next_row = 0;
-    // In TIFF the levels are images of their own, which OIIO reads back as levels.
-    const auto mode =
-        writer.out->supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel : OIIO::ImageOutput::AppendSubimage;
-    if (!writer.out->open(writer.temporary, spec, mode)) writer.fail(writer.out->geterror());
-}
-
-void finish(FormatWriter& writer) {
-    if (!writer.out->close()) writer.fail(writer.out->geterror());
-    writer.out.reset(); // close() leaves EXR files with mips open
-    const auto stored = std::int64_t(std::filesystem::file_size(writer.temporary));
-    if (!image_fault(writer.temporary, stored).empty()) writer.fail("is cut short");
-}
-
-/// The same function with its exceptions as values.
-template <auto Function> struct Returned;
-template <class... Arguments, void (*Function)(Arguments...)> struct Returned<Function> {
-    static FormatResult call(Arguments... arguments) try {
-        Function(arguments...);
-        return {};
-    } catch (const Error& error) {
-        return FormatFailure{error.refusal, error.what()};
-    } catch (const std::exception& error) {
-        return FormatFailure{Refusal::unsuitable, std::string("the picture cannot be handled (") + error.what() + ")"};
-    }
-};
 
 } // namespace
 } // namespace bake
 
 extern "C" const bake::PictureFormats* bake_picture_formats() {
-    using namespace bake;
-    static const PictureFormats formats{Returned<read_info>::call,   Returned<read_pixels>::call,
-                                        Returned<open_writer>::call, Returned<write_rows>::call,
-                                        Returned<next_level>::call,  Returned<finish>::call};
+    static const bake::PictureFormats formats{bake::read};
     return &formats;
 }

@@ -1,4 +1,4 @@
-// Reads and writes by OpenImageIO the formats that no other reader here handles.
+// Reads by OpenImageIO the formats that no other reader here handles.
 //
 // It is a library of its own, bake_formats.so, loaded on first need: the 260 libraries that Debian's OpenImageIO brings
 // take 0.2 s to load, longer than most bakes. The library needs no symbol of the program that loads it, and no
@@ -7,17 +7,10 @@
 #include "bake/base/error.h"
 #include "bake/picture/image.h"
 #include "bake/picture/image_types.h"
-#include <memory>
+#include "bake/picture/picture_file.h"
 #include <optional>
 
 namespace bake {
-
-struct PictureSize {
-    int width = 0, height = 0, channels = 0;
-};
-
-/// A file being written.
-struct FormatWriter;
 
 /// The reason why a call failed; nothing if it succeeded.
 struct FormatFailure {
@@ -32,20 +25,19 @@ struct FormatHost {
     bool (*interrupted)() noexcept = nullptr;
 };
 
-/// The functions of the library. Reading is as read_image_info() and read_image() in image_io.h. The options of `open`
-/// are resolved: the depth is not automatic, and every channel has a name.
+/// A picture as OpenImageIO reads it. The program itself turns it upright and reads its profile.
+struct FormatPicture {
+    ImageInfo info;
+    Image<float> image;   ///< empty unless asked for
+    int orientation = 1;  ///< as in upright.h
+    std::string icc = {}; ///< ICC profile, empty without one
+};
+
+/// The functions of the library. Reading is as read_image_info() and read_image() in image_io.h, except for orientation
+/// and profile.
 struct PictureFormats {
-    FormatResult (*read_info)(const FormatHost& host, const std::string& path, const ReadLimits& limits,
-                              ImageInfo& info);
-    FormatResult (*read)(const FormatHost& host, const std::string& path, const ReadLimits& limits, ImageInfo& info,
-                         Image<float>& image);
-    /// Writes to `temporary`; messages name `path`.
-    FormatResult (*open)(const FormatHost& host, const std::string& path, const std::string& temporary,
-                         const PictureSize& size, const WriteOptions& options, std::shared_ptr<FormatWriter>& writer);
-    /// `rows` rows of levels of the stored type for integer depths, of floats otherwise.
-    FormatResult (*write)(FormatWriter& writer, const void* values, int rows);
-    FormatResult (*next_level)(FormatWriter& writer);
-    FormatResult (*finish)(FormatWriter& writer);
+    FormatResult (*read)(const FormatHost& host, const PictureFile& file, const ReadLimits& limits, bool texels,
+                         FormatPicture& picture);
 };
 
 } // namespace bake

@@ -1,9 +1,12 @@
 #include "bake/picture/png.h"
 #include "bake/base/progress.h"
+#include "bake/picture/png_colour.h"
+#include "bake/picture/upright.h"
 #include <algorithm>
 #include <csetjmp>
 #include <cstring>
 #include <png.h>
+#include <string_view>
 #include <vector>
 
 namespace bake {
@@ -62,8 +65,10 @@ public:
     /// Up to the first pixels, which are to come out as whole samples of 8 or 16 bits.
     bool read_header() noexcept {
         if (!info_ || setjmp(png_jmpbuf(png_))) return false;
+        keep_colour_chunks(png_);
         png_read_info(png_, info_);
         const bool palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
+        palette_ = palette && has_own_palette();
         bits_ = palette ? 8 : png_get_bit_depth(png_, info_);
         stored_bits_ = png_get_bit_depth(png_, info_) * png_get_channels(png_, info_);
         png_set_expand(png_);
@@ -97,32 +102,41 @@ public:
         info.width = int(png_get_image_width(png_, info_)), info.height = int(png_get_image_height(png_, info_));
         info.type = bits_ == 16 ? SampleType::u16 : SampleType::u8;
         info.bits = bits_;
-        // A profile says it by its name: libpng would go by its contents, and call a picture with both tags faulty.
-        const char* const profile = profile_name();
-        info.srgb_tagged =
-            *profile ? std::strstr(profile, "sRGB") != nullptr : png_get_valid(png_, info_, PNG_INFO_sRGB);
+        info.palette = palette_;
+        info.colour = read_png_colour(png_, info_);
+        info.srgb_tagged = info.colour.is_srgb();
+        if (const int orientation = exif_orientation(exif()); orientation > 1 && orientation <= 8)
+            info.notes.push_back("has an eXIf chunk that asks for orientation " + std::to_string(orientation) +
+                                 ", which most programs ignore in PNG: read as stored");
         png_textp texts = nullptr;
         for (int i = png_get_text(png_, info_, &texts, nullptr); i-- > 0;)
             if (!std::strcmp(texts[i].key, "Description")) info.description = texts[i].text;
         if (info.channels.back() == "A") info.alpha_channel = int(info.channels.size()) - 1;
+        info.colours = info.channels.size() < 3 ? 1 : 3;
         return info;
-    }
-    /// Where the file says that its pixels lie.
-    Window data_window() const {
-        return {png_get_x_offset_pixels(png_, info_), png_get_y_offset_pixels(png_, info_),
-                int(png_get_image_width(png_, info_)), int(png_get_image_height(png_, info_))};
     }
     bool interlaced() const noexcept { return passes_ > 1; }
     int stored_bits() const noexcept { return stored_bits_; }
     const char* said() const noexcept { return *said_ ? said_ : "cannot be decoded"; }
 
 private:
-    const char* profile_name() const noexcept {
-        png_charp name = nullptr;
-        png_bytep profile = nullptr;
-        int compression = 0;
+    std::string_view exif() const noexcept {
         png_uint_32 size = 0;
-        return png_get_iCCP(png_, info_, &name, &compression, &profile, &size) ? name : "";
+        png_bytep bytes = nullptr;
+        if (!png_get_eXIf_1(png_, info_, &size, &bytes) || !bytes) return {};
+        return {reinterpret_cast<const char*>(bytes), size};
+    }
+    /// Whether there are colours in the palette, or greys that are not the index.
+    bool has_own_palette() const noexcept {
+        png_colorp entries = nullptr;
+        int count = 0;
+        if (!png_get_PLTE(png_, info_, &entries, &count)) return false;
+        const int most = (1 << png_get_bit_depth(png_, info_)) - 1;
+        for (int i = 0; i < count; ++i) {
+            const int grey = (255 * i + most / 2) / most;
+            if (entries[i].red != grey || entries[i].green != grey || entries[i].blue != grey) return true;
+        }
+        return false;
     }
 
     Source source_;
@@ -130,6 +144,7 @@ private:
     png_structp png_;
     png_infop info_ = nullptr;
     int bits_ = 0, stored_bits_ = 0, passes_ = 1;
+    bool palette_ = false;
 };
 
 void to_floats(const png_byte* row, float* values, std::size_t count, bool wide) noexcept {
@@ -166,12 +181,13 @@ void read_png(const PictureFile& file, const ReadLimits& limits, ImageInfo& info
     Decoder decoder(file);
     if (!decoder.read_header()) throw unreadable(file.path(), decoder.said());
     info = decoder.describe();
-    const Window data = decoder.data_window(), picture{0, 0, info.width, info.height};
+    // oFFs says where the picture lies on a page: its texels are all here, wherever that is.
+    const Window picture{0, 0, info.width, info.height};
     // Deflate makes at most 1032 bytes of one.
     const int channels = int(info.channels.size());
     check_size(file.path(), file.size(),
-               {data, picture, channels, 1032.0 * 8 * channels / std::max(1, decoder.stored_bits())}, limits);
-    if (image) *image = place(read_pixels(decoder, file, info), data, picture);
+               {picture, picture, channels, 1032.0 * 8 * channels / std::max(1, decoder.stored_bits())}, limits);
+    if (image) *image = read_pixels(decoder, file, info);
 }
 
 } // namespace bake

@@ -3,7 +3,6 @@
 #include "bake/picture/png_writer.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
-#include "bake/picture/picture_formats.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -123,10 +122,11 @@ PngWriter::PngWriter(const std::string& path, const std::string& temporary, cons
     constexpr Byte colour_types[] = {0, 0, 4, 2, 6};
     header.insert(header.end(), {Byte(8 * sample_bytes_), colour_types[size.channels], 0, 0, 0});
     put_chunk("IHDR", header);
-    if (options.srgb) {
+    if (options.colour == ColourSpace::srgb) {
         put_chunk("sRGB", {0}); // perceptual, as most programs write
         put_chunk("gAMA", {0, 0, 45455 >> 8, 45455 & 255});
     }
+    if (options.colour == ColourSpace::linear) put_chunk("gAMA", {0, 1, 100000 >> 8 & 255, 100000 & 255});
     if (options.description.empty()) return;
     const std::string text = std::string("Description") + '\0' + options.description;
     put_chunk("tEXt", Bytes(text.begin(), text.end()));

@@ -7,8 +7,6 @@
 
 namespace bake {
 
-struct PictureSize;
-
 /// Writes rows from the top down. The bytes do not depend on the numbers of threads and of calls.
 class PngWriter {
 public:

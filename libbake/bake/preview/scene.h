@@ -49,7 +49,8 @@ struct Scene {
     Camera camera;
     Sky sky;
     RenderSettings settings;
-    std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
+    std::vector<std::string> notes; ///< of reading the files, with their names
+    std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
 /// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an

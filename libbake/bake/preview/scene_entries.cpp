@@ -4,6 +4,8 @@
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/origin.h"
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -15,7 +17,9 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
     try {
         return work();
     } catch (const Error& error) {
-        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + error.what());
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '`', '"'); // fields of options are keys of the scene
+        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + message);
     }
 }
 
@@ -29,30 +33,37 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
     return texture;
 }
 
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache) {
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
+                                        std::vector<std::string>& notes) {
     auto material = std::make_unique<Material>();
     material->name = entry.name;
     material->bsdf = entry.bsdf;
     material->reflect = entry.reflect;
     if (!entry.albedo.empty())
         material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,
-                                  [&] { return read_albedo(entry.albedo, entry.albedo_space); });
+                                  [&] { return read_albedo(entry.albedo, entry.albedo_space, &notes); });
     if (!entry.bump_table.empty())
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
-                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale); });
+                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale, &notes); });
     if (!entry.normal_map.empty())
-        material->normal_map = cached(cache,
-                                      (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) +
-                                          " " + entry.normal_map,
-                                      [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx); });
+        material->normal_map = cached(
+            cache,
+            (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
+            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes); });
     return material;
 }
 
-void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bool>, Shape*>& loaded, Scene& scene) {
+/// Shapes by their file and all options of reading.
+using ShapeCache = std::map<std::tuple<std::string, bool, bool, int>, Shape*>;
+
+void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
     throw_if_interrupted();
-    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v}];
+    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v, entry.uv_set}];
     if (!shape) {
-        scene.shapes.push_back(make_shape(read_mesh(entry.file, {.flip_v = entry.flip_v}), {.flat = entry.flat}));
+        Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
+        for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
+        move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+        scene.shapes.push_back(make_shape(std::move(mesh), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
     }
     const Material& material = *scene.materials[entry.material + 1];
@@ -62,11 +73,14 @@ void load_mesh(const MeshEntry& entry, std::map<std::tuple<std::string, bool, bo
     add_instance(scene, *shape, material, entry.placement);
 }
 
-Cube load_sky(const SkyEntry& entry) {
-    if (entry.image.empty()) return read_cube(entry.faces, entry.space);
-    ReadEnvironmentOptions options;
-    options.radiance = {.space = entry.space, .allow_negative = true};
-    Environment sky = read_environment({entry.image}, options);
+Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
+    std::vector<std::string> inputs = {entry.image};
+    if (entry.image.empty()) inputs.assign(entry.faces.begin(), entry.faces.end());
+    const ReadEnvironmentOptions options{
+        .space = entry.space, .bad = entry.bad, .by_name = false, .check_seams = false};
+    EnvironmentReport report;
+    Environment sky = read_environment(inputs, options, &report);
+    for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
     if (!sky.is_cube() || sky.edge_samples)
         sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
                            {Samples::one});
@@ -104,13 +118,15 @@ Scene load(const SceneEntries& entries) {
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
     scene.sky.scale = entries.sky.scale;
-    if (has_sky) scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky); });
+    if (has_sky)
+        scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
-        scene.materials.push_back(at_line(entries, entry.line, [&] { return load_material(entry, textures); }));
-    std::map<std::tuple<std::string, bool, bool>, Shape*> shapes;
+        scene.materials.push_back(
+            at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
+    ShapeCache shapes;
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
 

@@ -22,13 +22,15 @@ struct MeshEntry {
     Placement placement;
     bool flat = false;
     bool flip_v = false; ///< see MeshOptions
+    int uv_set = -1;     ///< see MeshOptions
     int line = 0;
 };
 
 struct SkyEntry {
     std::array<std::string, 6> faces; ///< in the order of CubeFace; all empty if `image` is given
-    std::string image;                ///< one picture of the whole sky, in a layout of read_environment()
+    std::string image;                ///< one input of read_environment(): a picture, or a pattern of six faces
     ColourSpace space = ColourSpace::automatic;
+    BadPolicy bad = BadPolicy::refuse;
     float scale = 1;
     int line = 0;
 };

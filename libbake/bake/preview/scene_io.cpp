@@ -41,7 +41,7 @@ void read_camera(const Section& in, SceneEntries& scene) {
 }
 
 void read_sky(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"faces", "image", "scale", "colour-space"});
+    allow_only(in, {"faces", "image", "scale", "colour-space", "bad"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -53,10 +53,9 @@ void read_sky(const Section& in, SceneEntries& scene) {
     if (image) {
         read_path(in, "image", scene.sky.image);
     } else if (faces->is_string()) {
-        std::string pattern;
-        read_path(in, "faces", pattern);
+        read_path(in, "faces", scene.sky.image);
         try {
-            scene.sky.faces = cube_files(pattern);
+            cube_files(scene.sky.image); // refuses what is no pattern
         } catch (const Error& error) {
             refuse(in.file, scene.sky.line, error.what());
         }
@@ -71,6 +70,8 @@ void read_sky(const Section& in, SceneEntries& scene) {
     }
     read(in, "scale", scene.sky.scale, 0);
     read_colour_space(in, "colour-space", scene.sky.space);
+    read_choice<BadPolicy>(in, "bad", scene.sky.bad,
+                           {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
 }
 
 void read_light(const Section& in, SceneEntries& scene) {
@@ -140,7 +141,7 @@ void read_material(const Section& in, SceneEntries& scene) {
 }
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v"});
+    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v", "uv-set"});
     MeshEntry m;
     m.line = line_of(in.table);
     if (!read_path(in, "file", m.file))
@@ -163,6 +164,7 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
             refuse(in, *in.table.get("scale"), "\"scale\" is 0, so the mesh has no surface; give a scale other than 0");
     read(in, "flat", m.flat);
     read(in, "flip-v", m.flip_v);
+    read(in, "uv-set", m.uv_set, 0, 99);
     scene.meshes.push_back(std::move(m));
 }
 

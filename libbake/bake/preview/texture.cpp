@@ -1,6 +1,5 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
-#include "bake/relief/map/normal_map.h"
 #include "bake/relief/map/slope_code.h"
 #include <algorithm>
 #include <array>
@@ -25,6 +24,11 @@ template <std::size_t N> Image<float> pick(const Image<float>& source, const std
         for (int x = 0; x < source.width(); ++x)
             for (std::size_t c = 0; c < N; ++c) picked.at(x, y, int(c)) = source.at(x, y, channels[c]);
     return picked;
+}
+
+void tell(const std::string& file, const ImageInfo& info, std::vector<std::string>* notes) {
+    for (const std::string& line : info.notes)
+        if (notes) notes->push_back(file + ": " + line);
 }
 
 Texture shared(Image<float>&& image) { return std::make_shared<const Image<float>>(std::move(image)); }
@@ -59,19 +63,21 @@ template <class Vec> Vec lookup(const Image<float>& image, const Vec2f& uv) noex
 
 } // namespace
 
-Texture read_albedo(const std::string& file, ColourSpace space) {
+Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std::string>* notes) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
     require_finite(image, file);
-    if (is_srgb(space, info)) srgb_to_linear(image, info.alpha_channel);
+    linearise(image, space, info);
+    tell(file, info, notes);
     return shared(image.channels() >= 3 ? pick<3>(image, {0, 1, 2}) : pick<3>(image, {0, 0, 0}));
 }
 
-Texture read_bump_table(const std::string& file, float scale) {
+Texture read_bump_table(const std::string& file, float scale, std::vector<std::string>* notes) {
     ImageInfo info;
     const Image<float> image = read_image(file, &info);
+    tell(file, info, notes);
     const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
-    const bool integers = info.type == SampleType::u8 || info.type == SampleType::u16 || info.type == SampleType::u32;
+    const bool integers = is_integer(info.type);
     const std::optional<SlopeCode> code = integers ? slope_code(info.description) : std::nullopt;
     if (integers && !code)
         refuse("holds unsigned integers and does not state the slope of a level; bake the table by bump-table");
@@ -94,27 +100,28 @@ Texture read_bump_table(const std::string& file, float scale) {
     return shared(std::move(table));
 }
 
-Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx) {
-    const Image<float> image = read_image(file);
-    if (image.channels() < 3)
-        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(image.channels()) +
-                                             " channel(s); a normal map has red, green and blue");
-    Image<float> normals = pick<3>(image, {0, 1, 2});
+Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx,
+                        std::vector<std::string>* notes) {
+    ImageInfo info;
+    const Image<float> image = read_image(file, &info);
+    tell(file, info, notes);
+    if (image.channels() < 2)
+        throw Error(Refusal::unsuitable,
+                    file + ": has one channel; a normal map has red, green and blue, or x and y alone");
+    NormalValues values = guess_normal_values(image, info);
+    // An encoding that the scene states needs no word.
+    if (encoding != NormalEncoding::automatic) values.encoding = NormalEncoding::unorm;
+    std::string note = values.usual() ? "" : file + ": " + describe(values);
+    if (values.encoding == NormalEncoding::srgb_encoded || values.encoding == NormalEncoding::srgb_decoded) {
+        values.encoding = NormalEncoding::unorm;
+        note += "; they were taken as stored; export them as data, not as colour";
+    }
+    if (notes && !note.empty()) notes->push_back(std::move(note));
+    if (encoding != NormalEncoding::automatic) values.encoding = encoding;
+    Image<float> normals = decode_normals(image, values);
     require_finite(normals, file);
-    float* const begin = normals.data();
-    float* const end = begin + normals.size();
-    if (encoding == NormalEncoding::automatic) {
-        const bool below_zero = std::any_of(begin, end, [](float v) { return v < 0; });
-        encoding = below_zero ? NormalEncoding::signed_ : NormalEncoding::unorm;
-    }
-    for (float* t = begin; t < end; t += 3) {
-        if (encoding == NormalEncoding::unorm) {
-            const Vec3f decoded = decode_normal({t[0], t[1], t[2]}, directx);
-            t[0] = decoded.x, t[1] = decoded.y, t[2] = decoded.z;
-        } else if (directx) {
-            t[1] = -t[1];
-        }
-    }
+    if (directx)
+        for (std::size_t i = 1; i < normals.size(); i += 3) normals.data()[i] = -normals.data()[i];
     return shared(std::move(normals));
 }
 

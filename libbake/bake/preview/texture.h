@@ -2,32 +2,31 @@
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/environment/file/radiance.h"
+#include "bake/relief/height/normal_values.h"
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace bake {
 
 /// Shared by all materials that name the same file; null: none.
 using Texture = std::shared_ptr<const Image<float>>;
 
-/// How a normal map's values stand for a vector.
-enum class NormalEncoding {
-    automatic, ///< unorm unless some red, green or blue value is below 0
-    unorm,     ///< n = 2 rgb - 1
-    signed_,   ///< n = rgb
-};
-
 /// Colour (three channels, linear); a grey picture gives three equal ones. All readers throw Error naming the file:
 /// unreadable, or unsuitable for what the comment of each says, and for NaN or Inf.
-Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic);
+/// `notes` receives what reading the file has to tell.
+Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic,
+                    std::vector<std::string>* notes = nullptr);
 /// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`. The channels are
 /// those named b_u and b_v, otherwise the first two. Integer samples are decoded by the SlopeCode that the file states.
 /// Unsuitable: integer samples without a SlopeCode; one channel; six and more, as in OpenImageIO's bumpslopes, which are
 /// in other units.
-Texture read_bump_table(const std::string& file, float scale = 1);
-/// Tangent-space normals, decoded to vectors (three channels), green up unless `directx`. Unsuitable: under three
-/// channels.
+Texture read_bump_table(const std::string& file, float scale = 1, std::vector<std::string>* notes = nullptr);
+/// Tangent-space normals, decoded to vectors (three channels), green up unless `directx`. Channels and an automatic encoding
+/// are those of guess_normal_values(), but no sRGB curve is applied. `notes` also receives what is said of values that are
+/// not the usual ones. Unsuitable: one channel.
 Texture read_normal_map(const std::string& file, NormalEncoding encoding = NormalEncoding::automatic,
-                        bool directx = false);
+                        bool directx = false, std::vector<std::string>* notes = nullptr);
 
 /// Value at uv (v up), bilinear between texel centres, repeated in both directions; of two or three channels.
 /// A uv that is not finite counts as 0.

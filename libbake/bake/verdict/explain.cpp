@@ -159,7 +159,8 @@ RouteStep shade_step(const Frame& frame, const Vec3f& t, bool directx) {
 
 std::vector<RouteStep> explain(const ExplainInput& in) {
     const MapTexel at = find_texel(in);
-    const BakeTarget target = make_bake_target(*in.mesh, in.mesh_path, in.options.width, in.options.height);
+    const BakeTarget target =
+        make_bake_target(*in.mesh, in.mesh_path, in.options.width, in.options.height, in.options.tile);
     const HeightField field(*in.height, in.options.height_options, in.options.filter, in.options.width,
                             in.options.height);
     std::vector<Height<float>> heights(in.options.width);

@@ -1,4 +1,6 @@
 #include "bake/verdict/image_levels.h"
+#include "bake/relief/height/sample_type.h"
+#include "bake/relief/map/error_budget.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -44,27 +46,56 @@ std::vector<float> distinct_values(const Plane& plane) {
     return values;
 }
 
-// Smallest number of bits n such that every value is a multiple of 1 / (2^n - 1), or an integer whose lower stored - n bits
-// are zero. The values have `stored` bits, or are floats if `stored` is 0. Returns 0 for floats that need more than 16 bits.
-int bits_that_hold(const std::vector<float>& values, int stored) {
-    if (values.empty() || values.front() < 0 || values.back() > 1) return 0;
-    const int most = stored > 0 ? stored : 16;
-    const double file_levels = stored > 0 ? std::ldexp(1.0, stored) - 1 : 0;
-    for (int n = 1; n < most; ++n) {
+// Smallest number of bits n < stored such that every value is a multiple of 1 / (2^n - 1), or an integer whose lower
+// stored - n bits are zero; `stored` if there is none.
+int bits_of_integers(const std::vector<float>& values, int stored) {
+    const double file_levels = std::ldexp(1.0, stored) - 1;
+    for (int n = 1; n < stored; ++n) {
         const double levels = std::ldexp(1.0, n) - 1;
+        if (levels + 1 < double(values.size())) continue;
         const auto holds = [&](float v) {
             const double nearest = std::round(v * levels) / levels;
-            if (stored == 0) return std::abs(nearest - v) <= v * 0x1p-12; // half a step of a half float
             return std::abs(std::round(nearest * file_levels) - v * file_levels) < 0.25;
         };
         const auto shifted = [&](float v) {
             return std::fmod(std::round(v * file_levels), std::ldexp(1.0, stored - n)) == 0;
         };
-        if (levels + 1 < double(values.size())) continue;
         if (std::all_of(values.begin(), values.end(), holds)) return n;
-        if (stored > 0 && std::all_of(values.begin(), values.end(), shifted)) return n;
+        if (std::all_of(values.begin(), values.end(), shifted)) return n;
     }
-    return stored > 0 ? stored : 0;
+    return stored;
+}
+
+// Smallest number of bits n such that every float is a multiple of 1 / (2^n - 1), up to the rounding of the type; 0 if
+// there is none up to 16, or if the rounding is so coarse that most floats would pass.
+int bits_of_floats(const std::vector<float>& values) {
+    if (values.size() < 2 || values.front() < 0 || values.back() > 1) return 0;
+    const bool half = std::all_of(values.begin(), values.end(), [](float v) { return as_half(v) == v; });
+    const double rounding = half ? 0x1p-12 : 0x1p-22;
+    for (int n = 1; n <= 16; ++n) {
+        const double levels = std::ldexp(1.0, n) - 1;
+        if (levels + 1 < double(values.size())) continue;
+        if (values.back() * rounding * levels > 0.125) return 0;
+        const auto holds = [&](float v) { return std::abs(std::round(v * levels) / levels - v) <= v * rounding; };
+        if (std::all_of(values.begin(), values.end(), holds)) return n;
+    }
+    return 0;
+}
+
+// The header's depth, if the values are those of this depth spread over `sample_bits`: not for palettes, whose header
+// states the depth of the indices.
+bool has_depth(const std::vector<float>& values, int bits, int sample_bits) {
+    const double levels = std::ldexp(1.0, bits) - 1, file_levels = std::ldexp(1.0, sample_bits) - 1;
+    return std::all_of(values.begin(), values.end(),
+                       [&](float v) { return std::abs(std::round(v * levels) / levels - v) * file_levels <= 1; });
+}
+
+int true_bits(const std::vector<float>& values, const ImageInfo& info, int sample_bits) {
+    if (is_signed_integer(info)) return info.bits;
+    if (!whole_numbers(info.type)) return info.type == SampleType::u32 ? info.bits : bits_of_floats(values);
+    const int bits = bits_of_integers(values, sample_bits);
+    if (info.bits <= 0 || info.bits >= bits || !has_depth(values, info.bits, sample_bits)) return bits;
+    return info.bits;
 }
 
 } // namespace
@@ -83,9 +114,7 @@ Levels count_levels(const Plane& plane, const ImageInfo& info, bool has_finite) 
         if (i == 1 || step < levels.least_step) levels.least_step = step;
     }
     if (plane.count > 1) return levels;
-    const int stored = whole && info.bits > 0 ? std::min(info.bits, sample_bits) : sample_bits;
-    if (whole) levels.true_bits = std::min(stored, bits_that_hold(values, sample_bits));
-    else if (values.size() > 1) levels.true_bits = bits_that_hold(values, 0); // one float value does not define a depth
+    levels.true_bits = true_bits(values, info, sample_bits);
     return levels;
 }
 

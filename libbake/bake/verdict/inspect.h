@@ -34,12 +34,14 @@ struct GltfParts {
     std::size_t normal_textures = 0; ///< materials with a normal texture
     std::size_t images = 0, missing_images = 0;
     bool tangents = false;
+    std::vector<std::string> notes; ///< what reading applied: skins, morph targets, instances, uv sets, transforms
 };
 
 struct MeshReport {
     std::string file;
     std::optional<GltfParts> gltf;
     MeshCheck check;
+    Vec3d origin{0}; ///< of the mesh: to be added to the box of `check`
     UvCheck uv;
     bool audited = false;
     MeshAudit audit;
@@ -56,8 +58,11 @@ struct ImageReport {
 struct PairReport {
     std::string height_file, normal_file;
     int height_width = 0, height_height = 0, normal_width = 0, normal_height = 0;
+    NormalValues normal_values;
     PairCheck check;
     std::optional<bool> directx; ///< what InspectOptions expects of the green
+    std::optional<PairRecipe> recipe;
+    std::string height_channel; ///< as an option of the bake; empty for the mean
     Findings findings;
     /// The green is not what is expected, or unknown.
     bool unexpected() const noexcept;
@@ -93,6 +98,9 @@ std::string to_text(const MeshReport& report);
 std::string to_text(const ImageReport& report);
 std::string to_text(const PairReport& report);
 std::string to_text(const DistanceReport& report);
+
+/// The recipe as options of `bake normal-map`; empty without one.
+std::string bake_options(const PairReport& report);
 
 /// One JSON object.
 std::string to_json(const MeshReport& report);

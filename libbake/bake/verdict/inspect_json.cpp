@@ -15,7 +15,7 @@ void add(Json& json, const Findings& findings) {
     json["warnings"] = findings.warnings;
 }
 
-Json topology(const Topology& t) {
+Json topology(const Connectivity& t) {
     return {{"edges", t.edges},
             {"boundary_edges", t.boundary_edges},
             {"boundary_loops", t.boundary_loops},
@@ -105,8 +105,9 @@ std::string to_json(const MeshReport& report) {
                         {"images", gltf->images},
                         {"missing_images", gltf->missing_images},
                         {"tangents", gltf->tangents}};
-    json["min"] = {c.box.min.x, c.box.min.y, c.box.min.z};
-    json["max"] = {c.box.max.x, c.box.max.y, c.box.max.z};
+    const Vec3d min = report.origin + Vec3d(c.box.min), max = report.origin + Vec3d(c.box.max);
+    json["min"] = {min.x, min.y, min.z};
+    json["max"] = {max.x, max.y, max.z};
     json["diagonal"] = c.diagonal;
     json["area"] = c.area;
     json["topology"] = topology(c.welded);
@@ -138,23 +139,23 @@ std::string to_json(const ImageReport& report) {
         json["channels"].push_back(one);
     }
     json["grey"] = channel(c.grey);
-    json["looks_like"] = name(c.looks);
-    json["tint"] = {{"max", c.tint}, {"mean", c.mean_tint}};
-    json["tiling"] = {{"x", c.tiling.x},
-                      {"y", c.tiling.y},
-                      {"tiles_x", c.tiling.x <= tiles_up_to},
-                      {"tiles_y", c.tiling.y <= tiles_up_to}};
-    if (c.looks == Looks::grey)
+    json["looks_like"] = name(c.kind.looks);
+    json["tint"] = {{"max", c.kind.tint}, {"mean", c.kind.mean_tint}};
+    json["tiling"] = {{"x", c.tiling.x.ratio()},
+                      {"y", c.tiling.y.ratio()},
+                      {"tiles_x", !c.tiling.x.breaks()},
+                      {"tiles_y", !c.tiling.y.breaks()}};
+    if (c.kind.looks == Looks::grey)
         json["step"] = {{"height", c.grey_step},
                         {"slope_per_texel", report.step.per_texel},
                         {"slope", report.step.slope},
                         {"angle_deg", report.step.angle_deg},
                         {"one_degree_amplitude", report.step.one_degree_amplitude}};
-    if (c.looks == Looks::normal_map)
-        json["normals"] = {{"mean_length", c.normal_length},
-                           {"not_unit", c.not_unit},
-                           {"inward", c.inward},
-                           {"mean", {c.mean_normal.x, c.mean_normal.y, c.mean_normal.z}}};
+    if (c.kind.looks == Looks::normal_map)
+        json["normals"] = {{"mean_length", c.kind.normals.length},
+                           {"not_unit", c.kind.normals.not_unit},
+                           {"inward", c.kind.normals.inward},
+                           {"mean", {c.kind.normals.mean.x, c.kind.normals.mean.y, c.kind.normals.mean.z}}};
     add(json, report.findings);
     return dump(json);
 }
@@ -167,15 +168,19 @@ std::string to_json(const PairReport& report) {
                  {"height_size", {report.height_width, report.height_height}},
                  {"normals_size", {report.normal_width, report.normal_height}},
                  {"compared_size", {c.width, c.height}},
-                 {"correlation", {{"x", c.corr_x}, {"y", c.corr_y}}},
+                 {"correlation", {{"x", c.corr_x}, {"y", c.corr_y}, {"both", c.corr}}},
                  {"scale", c.scale},
                  {"scale_x", c.scale_x},
                  {"scale_y", c.scale_y},
-                 {"inverted", c.inverted},
-                 {"green", c.directx ? "directx" : "opengl"},
+                 {"inverted", c.height_decided ? Json(c.inverted) : Json(nullptr)},
+                 {"green", c.green_decided ? Json(c.directx ? "directx" : "opengl") : Json(nullptr)},
                  {"normal_length", c.normal_length},
                  {"not_unit", c.not_unit},
                  {"inward", c.inward}};
+    if (report.recipe) {
+        json["amplitude"] = report.recipe->amplitude;
+        json["bake_options"] = bake_options(report);
+    }
     add(json, report.findings);
     return dump(json);
 }

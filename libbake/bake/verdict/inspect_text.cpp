@@ -1,4 +1,5 @@
 #include "bake/base/text.h"
+#include "bake/relief/height/sample_type.h"
 #include "bake/verdict/inspect.h"
 
 namespace bake {
@@ -87,11 +88,28 @@ std::string normal_row(const char* name, const NormalDeviation& there, const Nor
                             there.max, back.mean, back.p95, back.max));
 }
 
+std::string depth_text(const ImageCheck& c) {
+    if (is_cut(c.info)) return format("%d bits, of which %d are read", c.info.bits, c.true_bits);
+    if (c.true_bits > 0) return plural(std::size_t(c.true_bits), "bit", "bits");
+    return std::string("as stored, ") + name(c.info.type);
+}
+
 } // namespace
+
+std::string bake_options(const PairReport& report) {
+    if (!report.recipe) return "";
+    const PairRecipe& recipe = *report.recipe;
+    std::string text = format("--amplitude %.4g", recipe.amplitude);
+    if (recipe.extent_v > 0) text += format(" --extent 1,%.4g", recipe.extent_v);
+    if (recipe.invert) text += " --invert";
+    if (recipe.directx) text += " --directx";
+    if (!report.height_channel.empty()) text += " --channel " + report.height_channel;
+    return text;
+}
 
 std::string to_text(const MeshReport& report) {
     const MeshCheck& c = report.check;
-    const Topology& t = c.welded;
+    const Connectivity& t = c.welded;
     std::string text = report.file + "\n";
     text += row("mesh", format("%zu positions, %zu faces (%s), %zu corners, %zu triangles", c.positions, c.faces,
                                face_sizes(c).c_str(), c.corners, c.triangles));
@@ -102,8 +120,11 @@ std::string to_text(const MeshReport& report) {
                                 plural(gltf->normal_textures, "normal texture", "normal textures") + ", " +
                                 plural(gltf->images, "image", "images") +
                                 (gltf->tangents ? ", tangents of its own" : ", no tangents"));
-    text += row("bounds", format("(%.5g %.5g %.5g) to (%.5g %.5g %.5g), diagonal %.5g, area %.5g", c.box.min.x,
-                                 c.box.min.y, c.box.min.z, c.box.max.x, c.box.max.y, c.box.max.z, c.diagonal, c.area));
+    const Vec3d min = report.origin + Vec3d(c.box.min), max = report.origin + Vec3d(c.box.max);
+    const int digits = report.origin == Vec3d(0) ? 5 : 12; // of a mesh far from zero the first digits are all equal
+    text +=
+        row("bounds", format("(%.*g %.*g %.*g) to (%.*g %.*g %.*g), diagonal %.5g, area %.5g", digits, min.x, digits,
+                             min.y, digits, min.z, digits, max.x, digits, max.y, digits, max.z, c.diagonal, c.area));
     text += row("topology", plural(t.components, "component", "components") +
                                 format(" (%zu closed), ", t.closed_components) +
                                 plural(t.boundary_edges, "boundary edge", "boundary edges") + " in " +
@@ -126,27 +147,29 @@ std::string to_text(const ImageReport& report) {
                                 c.info.bits, name(c.info.type)) +
                              names);
     for (const ChannelCheck& channel : c.channels) text += row("channel " + channel.name, range(channel));
-    text += row("true depth", c.true_bits > 0 ? plural(std::size_t(c.true_bits), "bit", "bits")
-                                              : std::string("as stored, ") + name(c.info.type));
-    const bool grey = c.looks == Looks::grey || (c.looks == Looks::constant && c.tint <= grey_tint);
+    text += row("true depth", depth_text(c));
+    const bool grey = c.kind.looks == Looks::grey || (c.kind.looks == Looks::constant && c.kind.tint <= grey_tint);
     std::string greyness = grey ? "yes" : "no";
-    if (c.tint > 0) greyness += format(", channels differ by up to %.4g of 255 levels", c.tint);
+    if (c.kind.tint > 0) greyness += format(", channels differ by up to %.4g of 255 levels", c.kind.tint);
     if (grey && c.colour_channels > 1) greyness += "; their mean " + range(c.grey);
     text += row("grey", greyness);
-    const auto tiles = [](double ratio) { return format("%s (x%.3g)", ratio <= tiles_up_to ? "yes" : "no", ratio); };
+    const auto tiles = [](const BorderStep& step) {
+        return format("%s (x%.3g)", step.tiles() ? "yes" : step.breaks() ? "no" : "perhaps", step.ratio());
+    };
     text +=
         row("tiles", "x " + tiles(c.tiling.x) + ", y " + tiles(c.tiling.y) + ": border step over the mean step inside");
-    text += row("looks like", name(c.looks));
-    if (c.looks == Looks::grey && c.grey_step > 0) {
+    text += row("looks like", name(c.kind.looks));
+    if (c.kind.looks == Looks::grey && c.grey_step > 0) {
         text += row("one step",
                     format("%.4g of the height; slope %.4g per texel, at extent 1 and amplitude 1 %.4g = %.4g degrees",
                            c.grey_step, report.step.per_texel, report.step.slope, report.step.angle_deg));
         text += row("", format("slope = amplitude * step * width / (2 * extent); one degree at amplitude %.4g",
                                report.step.one_degree_amplitude));
     }
-    if (c.looks == Looks::normal_map)
-        text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off, mean (%.3f %.3f %.3f)", c.normal_length,
-                                      100 * c.not_unit, c.mean_normal.x, c.mean_normal.y, c.mean_normal.z));
+    const NormalStats& n = c.kind.normals;
+    if (c.kind.looks == Looks::normal_map)
+        text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off, mean (%.3f %.3f %.3f)", n.length,
+                                      100 * n.not_unit, n.mean.x, n.mean.y, n.mean.z));
     return text + endings(report.findings);
 }
 
@@ -160,8 +183,12 @@ std::string to_text(const PairReport& report) {
                        c.corr_x, c.corr_y));
     text += row("scale", format("%.4g (x %.4g, y %.4g): slope in the normal map per unit of height per texel", c.scale,
                                 c.scale_x, c.scale_y));
-    text += row("height", c.inverted ? "inverted" : "white is high");
-    text += row("green", c.directx ? "DirectX, y down" : "OpenGL, y up");
+    text += row("height", !c.height_decided ? "not decided" : c.inverted ? "inverted" : "white is high");
+    text += row("green", !c.green_decided ? "not decided" : c.directx ? "DirectX, y down" : "OpenGL, y up");
+    if (report.recipe) {
+        text += row("amplitude", format("%.4g of the picture's width", report.recipe->amplitude));
+        text += row("bake with", bake_options(report));
+    }
     text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off", c.normal_length, 100 * c.not_unit));
     return text + endings(report.findings);
 }

@@ -94,8 +94,8 @@ Image<float> normal_slopes(const Image<float>& normals, PairCheck& check) {
     std::size_t off = 0, inward = 0;
     for (int y = 0; y < normals.height(); ++y)
         for (int x = 0; x < normals.width(); ++x) {
-            const float* rgb = &normals.at(x, y);
-            const Vec3d n(2.0 * rgb[0] - 1, 2.0 * rgb[1] - 1, 2.0 * rgb[2] - 1);
+            const float* t = &normals.at(x, y);
+            const Vec3d n(t[0], t[1], t[2]);
             const double length = glm::length(n);
             length_sum += length;
             off += std::abs(length - 1) > 0.02;
@@ -134,6 +134,28 @@ Moments moments(const Image<float>& height, const Image<float>& normals, int cha
     return m;
 }
 
+void decide(const Moments& x, const Moments& y, PairCheck& check) {
+    const auto corr = [](double both, double height, double normals) {
+        return height > 0 && normals > 0 ? both / std::sqrt(height * normals) : 0;
+    };
+    const auto scale = [](const Moments& m) { return m.height > 0 ? m.both / m.height : 0; };
+    check.corr_x = corr(x.both, x.height, x.normals);
+    check.corr_y = corr(y.both, y.height, y.normals);
+    check.corr = corr(std::abs(x.both) + std::abs(y.both), x.height + y.height, x.normals + y.normals);
+    check.scale_x = scale(x);
+    check.scale_y = scale(y);
+    check.flat = check.corr_x == 0 && check.corr_y == 0;
+    const bool along_x = std::abs(check.corr_x) >= pair_tells, along_y = std::abs(check.corr_y) >= pair_tells;
+    check.height_decided = along_x;
+    check.green_decided = along_x && along_y;
+    check.inverted = along_x && check.corr_x < 0;
+    check.directx = check.green_decided && (check.corr_x < 0) != (check.corr_y < 0);
+    // Noise along an axis without relief would lower the scale.
+    const bool use_x = along_x || !along_y, use_y = along_y || !along_x;
+    const double height = use_x * x.height + use_y * y.height;
+    check.scale = height > 0 ? (use_x * std::abs(x.both) + use_y * std::abs(y.both)) / height : 0;
+}
+
 } // namespace
 
 PairCheck check_pair(const Image<float>& height, const Image<float>& normals) {
@@ -151,20 +173,21 @@ PairCheck check_pair(const Image<float>& height, const Image<float>& normals) {
     const Image<float> a = smooth(height_slopes(shrink(height, 1, check.width, check.height)));
     const Image<float> b = smooth(slopes_of_normals);
     const Moments x = moments(a, b, 0), y = moments(a, b, 1);
-    const auto corr = [](const Moments& m) {
-        return m.height > 0 && m.normals > 0 ? m.both / std::sqrt(m.height * m.normals) : 0;
-    };
-    const auto scale = [](const Moments& m) { return m.height > 0 ? m.both / m.height : 0; };
-    check.corr_x = corr(x);
-    check.corr_y = corr(y);
-    check.scale_x = scale(x);
-    check.scale_y = scale(y);
-    const double both = x.height + y.height;
-    check.scale = both > 0 ? (std::abs(x.both) + std::abs(y.both)) / both : 0;
-    check.flat = check.corr_x == 0 && check.corr_y == 0;
-    check.inverted = check.corr_x < 0;
-    check.directx = (check.corr_x < 0) != (check.corr_y < 0);
+    decide(x, y, check);
     return check;
+}
+
+std::optional<PairRecipe> pair_recipe(const PairCheck& c, double height_aspect) {
+    if (c.flat || c.corr < pair_tells) return {};
+    PairRecipe recipe{.amplitude = c.scale / c.width, .invert = c.inverted, .directx = c.directx};
+    if (!c.height_decided) recipe.directx = c.corr_y < 0;
+    const double x = std::abs(c.scale_x), y = std::abs(c.scale_y);
+    const double aspect = c.green_decided ? x / y * c.height / c.width : double(c.height) / c.width;
+    if (std::abs(aspect / height_aspect - 1) > 0.15) {
+        recipe.extent_v = aspect;
+        if (c.green_decided) recipe.amplitude = x / c.width;
+    }
+    return recipe;
 }
 
 } // namespace bake

@@ -2,9 +2,11 @@
 #include "bake/environment/file/environment_io.h"
 #include "cli/command.h"
 #include <cmath>
+#include <cstdint>
 
 using namespace bake;
 using test::Folder;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -23,9 +25,109 @@ SkyFormat read_as(const std::string& file, SkyFormat from = SkyFormat::automatic
     return report.format;
 }
 
+void put(std::string& bytes, std::size_t at, std::uint32_t value) {
+    for (int i = 0; i < 4; ++i) bytes[at + i] = char(value >> (8 * i) & 255);
+}
+
+/// A DDS cube map of n x n BGRA texels whose face k is grey 40 k + x + y, with the mip levels of its chain if asked for.
+/// `sides`: how many of the six faces it has.
+std::string dds_cube(int n, bool mips, int sides = 6) {
+    std::string bytes(128, '\0');
+    bytes.replace(0, 4, "DDS ");
+    const std::uint32_t count = mips ? std::uint32_t(std::log2(n)) + 1 : 1;
+    put(bytes, 4, 124);
+    put(bytes, 8, 0x1007 | (mips ? 0x20000 : 0)); // caps, height, width, pixel format; mip count
+    put(bytes, 12, std::uint32_t(n));
+    put(bytes, 16, std::uint32_t(n));
+    put(bytes, 28, count);
+    put(bytes, 76, 32);
+    put(bytes, 80, 0x41); // RGB and alpha
+    put(bytes, 88, 32);
+    put(bytes, 92, 0xff0000);
+    put(bytes, 96, 0xff00);
+    put(bytes, 100, 0xff);
+    put(bytes, 104, 0xff000000);
+    put(bytes, 108, 0x1008 | (mips ? 0x400000 : 0));    // texture, complex; mipmap
+    put(bytes, 112, 0x200 | ((1u << sides) - 1) << 10); // cube map and its sides
+    for (int k = 0; k < sides; ++k)
+        for (std::uint32_t level = 0; level < count; ++level)
+            for (int y = 0; y < n >> level; ++y)
+                for (int x = 0; x < n >> level; ++x)
+                    bytes += std::string(3, char(level == 0 ? 40 * k + x + y : 255)) + '\xff';
+    return bytes;
+}
+
 } // namespace
 
 TEST_SUITE("unit") {
+
+    TEST_CASE("environment_io: a DDS cube map has Direct3D's faces, which are GL's, and samples at the centres") {
+        const Folder folder;
+        for (const bool mips : {false, true}) {
+            test::write_file(folder / "cube.dds", dds_cube(8, mips));
+            EnvironmentReport report;
+            const Environment sky = read_environment({folder / "cube.dds"}, {.space = ColourSpace::linear}, &report);
+            CHECK(report.format == SkyFormat::strip);
+            CHECK(!sky.edge_samples);
+            REQUIRE(sky.cube.size() == 8);
+            for (int k = 0; k < 6; ++k)
+                for (const auto& [x, y] : {std::pair(0, 0), std::pair(7, 0), std::pair(2, 5)})
+                    CHECK(sky.cube.faces[k].at(x, y, 1) == doctest::Approx((40 * k + x + y) / 255.0));
+        }
+    }
+
+    TEST_CASE("environment_io: files tagged by OpenEXR have samples on the edges") {
+        const Folder folder;
+        Image<float> wide(16, 8, 3), strip(4, 24, 3);
+        for (Image<float>* image : {&wide, &strip})
+            for (std::size_t i = 0; i < image->size(); ++i) image->data()[i] = 1;
+        write_image(folder / "wide.exr", wide, {.environment = EnvironmentTag::latlong});
+        CHECK(read_as(folder / "wide.exr") == SkyFormat::openexr_latlong);
+        write_image(folder / "strip.exr", strip, {.environment = EnvironmentTag::cube});
+        CHECK(read_as(folder / "strip.exr") == SkyFormat::openexr_cube);
+    }
+
+    TEST_CASE("environment_io: a cross with its caps over the first column is folded, and that is told") {
+        const Folder folder;
+        Image<float> cross(32, 24, 1);
+        for (int y = 0; y < 24; ++y)
+            for (int x = 0; x < 32; ++x)
+                cross.at(x, y) = y / 8 == 1 ? float(1 + x / 8) + 0.1f * float(x % 3)
+                                 : x < 8    ? 5 + 0.1f * float(y % 3)
+                                            : 0;
+        write_image(folder / "cross.tif", cross, {.depth = Depth::float32});
+        EnvironmentReport report;
+        const Environment sky = read_environment({folder / "cross.tif"}, {}, &report);
+        CHECK(sky.cube[CubeFace::pz].at(0, 0) == 1);
+        CHECK(sky.cube[CubeFace::px].at(1, 0) == doctest::Approx(2.2f));
+        const std::vector<std::string> notes = reading_notes(report);
+        REQUIRE(notes.size() == 1);
+        CHECK(notes[0].find("column 1") != std::string::npos);
+    }
+
+    TEST_CASE("environment_io: six cells of 3 x 2 are refused with what to do") {
+        const Folder folder;
+        try {
+            read_as(picture(folder, 24, 16));
+            FAIL("not refused");
+        } catch (const Error& error) {
+            CHECK(std::string(error.what()).find("no shape of a sky") != std::string::npos);
+            CHECK(std::string(error.what()).find("six files") != std::string::npos);
+        }
+    }
+
+    TEST_CASE("environment_io: six files are taken by their names, or in their order if asked for") {
+        const Folder folder;
+        std::vector<std::string> files;
+        for (const char* word : {"back", "front", "bottom", "top", "left", "right"}) {
+            files.push_back(folder / (std::string(word) + ".tif"));
+            fs::copy_file(picture(folder, 4, 4, float(files.size())), files.back());
+        }
+        CHECK(read_environment(files).cube[CubeFace::nz].at(0, 0) == 1);
+        CHECK(read_environment(files, {.by_name = false}).cube[CubeFace::px].at(0, 0) == 1);
+        files.pop_back();
+        CHECK_THROWS_AS(read_environment(files, {.by_name = false}), Error);
+    }
 
     TEST_CASE("environment_io: the shape tells what a picture is, and a square is asked about") {
         const Folder folder;

@@ -230,7 +230,7 @@ TEST_SUITE("oracle") {
             const int cut = int(random() % 16);
             if (round % 2) std::fill(hole.begin() + cut * 16, hole.begin() + (cut + 1) * 16, char(1));
             const Mesh mesh = sheet(16, [&](int x, int y) { return !hole[y * 16 + x]; });
-            const Topology t = check(mesh).topology;
+            const Connectivity t = check(mesh).topology;
             if (t.nonmanifold_vertices > 0) continue; // a hole met the cut at a corner
             const auto [loops, components] = loops_and_components(mesh);
             CHECK(t.boundary_loops == loops);
@@ -267,7 +267,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
               "meshes/gltf/NormalTangentTest.obj", "meshes/opensubdiv/catmark_nonquads.obj"}) {
             CAPTURE(name);
             const Mesh mesh = read_mesh((data / name).string());
-            const Topology t = check(mesh).topology;
+            const Connectivity t = check(mesh).topology;
             const auto [loops, components] = loops_and_components(mesh);
             CHECK(t.boundary_loops == loops);
             CHECK(t.components == components);

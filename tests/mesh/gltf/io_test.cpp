@@ -346,7 +346,7 @@ TEST_SUITE("unit") {
             "a transform that is not finite");
         bad(R"({"mesh":0})", R"({"mesh":0,"scale":[3e38,3e38,3e38],"translation":[3e38,0,0]})", "beyond all floats");
         bad(R"(,"scene":0)", R"(,"scene":0,"extensionsRequired":["KHR_draco_mesh_compression"])",
-            "needs the extension 'KHR_draco", 4);
+            "compressed by 'KHR_draco", 4);
         bad(R"("indices":2)", R"("indices":2,"mode":0)", "has no triangles", 4);
         bad(R"("indices":2)", R"("indices":2,"material":0)", "asks for material 0 of 0");
         has(replaced(good, "data:application", "http://example/data:application"), "no file beside it");

@@ -67,12 +67,6 @@ std::vector<Vec3d> geometric_normals(const Mesh& mesh) {
     return n;
 }
 
-DisplaceOptions levels(int n) {
-    DisplaceOptions options;
-    options.rates.levels = n;
-    return options;
-}
-
 } // namespace
 
 TEST_SUITE("oracle") {

@@ -30,6 +30,13 @@ inline Relief relief(Image<float> values, double amplitude, double midlevel = 0.
     return r;
 }
 
+inline DisplaceOptions levels(int n, Seam seam = Seam::average) {
+    DisplaceOptions options;
+    options.rates.levels = n;
+    options.seam = seam;
+    return options;
+}
+
 /// Quads and triangles over positions, one uv and normal per corner where given.
 inline Mesh polygons(std::vector<Vec3f> positions, const std::vector<std::vector<std::uint32_t>>& faces,
                      const std::vector<Vec2f>& corner_uvs = {}, const std::vector<Vec3f>& corner_normals = {}) {

@@ -8,13 +8,6 @@ using namespace bake::test;
 
 namespace {
 
-DisplaceOptions levels(int n, Seam seam = Seam::average) {
-    DisplaceOptions options;
-    options.rates.levels = n;
-    options.seam = seam;
-    return options;
-}
-
 /// Whether every point of the one is one of the other, to the bit.
 bool are_among(const std::vector<Vec3f>& some, std::vector<Vec3f> all) {
     const auto before = [](const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) < 0; };

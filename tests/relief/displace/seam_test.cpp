@@ -8,13 +8,6 @@ using namespace bake::test;
 
 namespace {
 
-DisplaceOptions levels(int n, Seam seam) {
-    DisplaceOptions options;
-    options.rates.levels = n;
-    options.seam = seam;
-    return options;
-}
-
 /// The ramp of peers/seam.py: value u, clamped, lowest at u = 0.
 Relief ramp() {
     return relief(picture(256, 256, [](double u, double) { return u; }), 0.3, 0, Wrap::clamp);

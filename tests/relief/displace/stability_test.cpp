@@ -9,13 +9,6 @@ using namespace bake::test;
 
 namespace {
 
-DisplaceOptions levels(int n, Seam seam = Seam::average) {
-    DisplaceOptions options;
-    options.rates.levels = n;
-    options.seam = seam;
-    return options;
-}
-
 Mesh quad(const std::vector<Vec2f>& uvs) {
     return polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}, uvs);
 }

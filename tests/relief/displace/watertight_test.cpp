@@ -72,8 +72,8 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
             check_whole(base, uniform(levels), Seam::average);
             if (faces > 5000) continue;
             // Hangs together as before, flipped faces and all.
-            const Topology before = check(base.mesh()).welded;
-            const Topology after =
+            const Connectivity before = check(base.mesh()).welded;
+            const Connectivity after =
                 check(displaced_by_noise(base, uniform(levels), Seam::average).displaced.mesh).topology;
             CHECK(after.boundary_loops == before.boundary_loops);
             CHECK(after.boundary_edges == before.boundary_edges << levels);

@@ -116,6 +116,17 @@ TEST_SUITE("oracle") {
 
 TEST_SUITE("unit") {
 
+    TEST_CASE("slope_filter: every filter of the enum has a name, taps, and a border polynomial that is not lowered") {
+        for (const Filter filter : all_filters) {
+            CAPTURE(int(filter));
+            CHECK_FALSE(name(filter).empty());
+            const Stencil taps = stencil(filter);
+            CHECK(taps.reach() > 0);
+            CHECK(taps.border_degree <= largest_degree);
+        }
+        CHECK(sharp_stencil().border_degree <= largest_degree);
+    }
+
     TEST_CASE("slope_filter: a ramp has its slope everywhere, in every filter and at every clamped border") {
         const auto image = picture(17, 9, [](int x, int y) { return 0.25 * x - 0.5 * y + 3; });
         for (const Filter filter : all_filters)

@@ -206,6 +206,33 @@ TEST_SUITE("unit") {
         CHECK_FALSE(advice({0.01, 3, 2}, 8, Filter::sobel));
         CHECK_FALSE(advice({0.01, 4, 4}, 0, Filter::c2)); // the encoding is all there is
     }
+
+    TEST_CASE("error_budget: a lossy height is told apart, and gets no advice") {
+        HeightTexture height = relief_texture({0.01, 64, 64}, 512, 8);
+        const NormalMapOptions options = relief_options({0.01, 64, 64}, 512, Filter::sobel);
+        const HeightField field(height, options.height_options, Filter::sobel, 512, 512);
+        const auto budget = [&] {
+            const BudgetInput input = plane_budget(height, field, options, {1, 1}, Depth::u16);
+            const ErrorBudget own = error_budget(input);
+            return std::pair{own.lossy, better_filter(input, own).has_value()};
+        };
+        CHECK(budget() == std::pair{false, true});
+        height.info.format = "jpeg";
+        CHECK(budget() == std::pair{true, false});
+    }
+
+    TEST_CASE(
+        "error_budget: relief that is too steep for its texels is not judged, and no bound is above 180 degrees") {
+        const TorusRelief steep{2000, 200, 170};
+        const HeightTexture height = relief_texture(steep, 512, 8);
+        const NormalMapOptions options = relief_options(steep, 512, Filter::sobel);
+        const HeightField field(height, options.height_options, Filter::sobel, 512, 512);
+        const BudgetInput input = plane_budget(height, field, options, {1, 1}, Depth::u16);
+        const ErrorBudget budget = error_budget(input);
+        CHECK_FALSE(budget.judged());
+        CHECK(budget.total_deg <= 180);
+        CHECK_FALSE(better_filter(input, budget));
+    }
 }
 
 TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {

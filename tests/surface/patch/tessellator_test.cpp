@@ -76,7 +76,7 @@ TEST_SUITE("unit") {
                 CHECK(all_one(counts.normals));
                 CHECK(mesh.faces() == layout.faces);
                 CHECK(mesh.face_begin.back() == layout.corners);
-                const Topology topology = check_mesh(mesh, triangulate(mesh)).topology;
+                const Connectivity topology = check_mesh(mesh, triangulate(mesh)).topology;
                 CHECK((topology.boundary_edges == 0) == (base != &cone)); // a cone has no lid
                 CHECK(topology.nonmanifold_edges == 0);
                 CHECK(topology.flipped_faces == 0);

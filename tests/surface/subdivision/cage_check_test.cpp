@@ -88,6 +88,33 @@ TEST_SUITE("unit") {
         CHECK(refused > 50);
     }
 
+    TEST_CASE("check_cage: cages with a pole of many faces, in any order of the faces") {
+        // Linear time: with a walk around the pole per face the large pole takes minutes.
+        std::mt19937 random(7);
+        for (const std::uint32_t count : {63u, 64u, 300u, 60000u}) {
+            std::vector<Vec3f> points = {{0, 0, 1}};
+            Faces faces;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const double angle = 2 * pi * i / count;
+                points.emplace_back(std::cos(angle), std::sin(angle), 0);
+                faces.push_back({0, 1 + i, 1 + (i + 1) % count});
+            }
+            std::shuffle(faces.begin(), faces.end(), random);
+            Mesh cage = cage_of(points, faces);
+            cage.tags.creases = {{0, 5, 1}, {6, 5, 2}};
+            CHECK(refusal(cage) == "");
+            cage.tags.creases.push_back({5, 7, 2});
+            CHECK(begins(refusal(cage), "there is a crease between vertex 6 and vertex 8, but no edge"));
+            std::swap(faces[1][1], faces[1][2]);
+            CHECK(refusal(cage_of(points, faces)).find("the same way") != std::string::npos);
+            std::swap(faces[1][1], faces[1][2]);
+            faces.erase(faces.begin() + 2); // opens the fan
+            CHECK(refusal(cage_of(points, faces)) == "");
+            faces.erase(faces.begin() + 9); // two fans, unless the two faces are adjacent
+            CHECK(refusal(cage_of(points, faces)).find("touch at vertex 1 without") != std::string::npos);
+        }
+    }
+
     TEST_CASE("check_cage: of several places the first is named") {
         Mesh cage = box();
         for (const std::uint32_t f : {5u, 2u})

@@ -1,6 +1,8 @@
 #include "inputs/height_input.h"
 #include "bake/base/text.h"
 #include "bake/relief/height/dequantise.h"
+#include "bake/relief/height/height_notes.h"
+#include "bake/relief/height/sample_type.h"
 #include "inputs/choice.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -64,21 +66,31 @@ void add_relief_options(CLI::App& sub, HeightInput& input) {
                       "Value that lies on the surface [0.5; 0 for float files]");
 }
 
-HeightTexture load_height(const HeightInput& input) {
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info) {
+    for (const std::string& line : info.notes) note(common, file + ": " + line);
+}
+
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     HeightTexture height = read_height(input.path, input.grey);
-    if (input.invert) invert(height);
+    print_notes(common, input.path, height.info);
+    if (input.invert) invert(height, input.midlevel);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;
 }
 
-namespace {
-bool holds_lengths(const ImageInfo& file) { return file.type == SampleType::half || file.type == SampleType::float32; }
-} // namespace
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height) {
+    std::vector<std::string> notes = height_notes(height, input.wrap_u(), input.wrap_v());
+    for (std::string& line : notes) {
+        line = with_flags(input.path + ": " + line);
+        note(common, line);
+    }
+    return notes;
+}
 
 HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole) {
-    const Length by_default = holds_lengths(file) ? Length{1, false} : Length{0.01, true};
+    const Length by_default = is_float(file) ? Length{1, false} : Length{0.01, true};
     return {.amplitude = input.amplitude.value_or(by_default).in_units(whole.length),
-            .midlevel = input.midlevel.value_or(holds_lengths(file) ? 0 : 0.5),
+            .midlevel = input.midlevel.value_or(default_midlevel(file)),
             .wrap_u = input.wrap_u(),
             .wrap_v = input.wrap_v()};
 }
@@ -87,8 +99,8 @@ std::string default_amplitude_note(const HeightInput& input, const ImageInfo& fi
                                    const Whole& whole) {
     if (input.amplitude) return "";
     return format("amplitude %g, ", used.amplitude) +
-           (holds_lengths(file) ? "because the values of a float file are taken as lengths"
-                                : std::string("1 % of ") + whole.name) +
+           (is_float(file) ? "because the values of a float file are taken as lengths"
+                           : std::string("1 % of ") + whole.name) +
            "; --amplitude sets it";
 }
 

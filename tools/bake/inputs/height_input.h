@@ -31,8 +31,12 @@ void add_height_reading_options(CLI::App& sub, HeightInput& input);
 void add_height_options(CLI::App& sub, HeightInput& input);
 /// Adds --amplitude and --midlevel.
 void add_relief_options(CLI::App& sub, HeightInput& input);
-/// Reads the texture, inverted and dequantised as asked.
-HeightTexture load_height(const HeightInput& input);
+/// Prints what reading a picture has to tell.
+void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info);
+/// Reads the texture, inverted and dequantised as asked, and prints what reading it has to tell.
+HeightTexture load_height(const HeightInput& input, const CommonArgs& common);
+/// Prints a note for every reason to doubt that the picture is a height (height_notes()). Returns the notes as printed.
+std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput& input, const HeightTexture& height);
 
 /// The length that an amplitude in per cent refers to.
 struct Whole {
@@ -42,8 +46,8 @@ struct Whole {
 inline Whole diagonal_of(double length) { return {length, "the bounding box's diagonal"}; }
 inline Whole width_of(double length) { return {length, "the picture's width"}; }
 
-/// What the values of the height mean. Unless given: an integer file has an amplitude of 1 % of the whole and its midlevel
-/// at 0.5; the values of a float file are lengths, with amplitude 1 and midlevel 0.
+/// What the values of the height mean. Unless given: an integer file has an amplitude of 1 % of the whole; the values of
+/// a float file are lengths, with amplitude 1; the midlevel is default_midlevel().
 HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole);
 /// Which amplitude stood in for one that the user did not give; empty if the user gave it.
 std::string default_amplitude_note(const HeightInput& input, const ImageInfo& file, const HeightOptions& used,

@@ -1,4 +1,5 @@
 #include "inputs/surface_input.h"
+#include "bake/mesh/border_weld.h"
 #include "bake/mesh/weld.h"
 #include "inputs/file_kind.h"
 
@@ -18,6 +19,9 @@ void add_surface_input(CLI::App& sub, SurfaceInput& input) {
         sub, "--uv-smoothing", input.uv_smoothing,
         {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
         "Of a cage: which uvs are smoothed with the surface; inside: all except the charts' borders");
+    add_length_option(
+        sub, "--weld", input.weld,
+        "Join borders that touch within this distance: object units, or 0.001% of the diagonal [not joined]");
     add_mesh_options(sub, input.reading);
 }
 
@@ -28,8 +32,10 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (!input.mesh.empty()) expect_mesh(input.mesh);
     if (!input.shape.empty() && input.scheme)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
-    if (!input.shape.empty() && input.reading.flip_v)
-        throw usage("--flip-v: applies to mesh files; leave it out with --shape");
+    if (!input.shape.empty() && (input.reading.flip_v || input.reading.uv_set >= 0))
+        throw usage(std::string(input.reading.flip_v ? "--flip-v" : "--uv-set") +
+                    ": applies to mesh files; leave it out with --shape");
+    if (!input.shape.empty() && input.weld) throw usage("--weld: applies to mesh files; leave it out with --shape");
     if (!input.scheme && input.uv_smoothing != UvSmoothing::inside)
         throw usage("--uv-smoothing: applies to --subdivide catmark and loop; leave it out");
 }
@@ -41,6 +47,7 @@ BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
         return BaseSurface(shape, cells.first, cells.second);
     }
     Mesh mesh = read_mesh(input.mesh, input.reading);
+    if (input.weld) weld_borders(mesh, input.weld->in_units(diagonal(bounds(mesh))), input.mesh);
     if (!input.scheme) return BaseSurface(std::move(mesh));
     if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);

@@ -10,11 +10,13 @@ struct SurfaceInput {
     std::optional<Scheme> scheme; ///< set: the mesh is a cage, and the surface is its limit
     UvSmoothing uv_smoothing = UvSmoothing::inside;
     MeshOptions reading;
+    std::optional<Length> weld; ///< in per cent of the diagonal, or object units
 
     const std::string& name() const { return shape.empty() ? mesh : shape; }
 };
 
-/// Adds the mesh, --shape, --uv-smoothing and --flip-v. Each verb adds --subdivide with the choices that it has.
+/// Adds the mesh, --shape, --uv-smoothing, --weld, --flip-v and --uv-set. Each verb adds --subdivide with the choices
+/// that it has.
 void add_surface_input(CLI::App& sub, SurfaceInput& input);
 
 /// Throws Error{Refusal::usage} for options that contradict each other, before any file is read.

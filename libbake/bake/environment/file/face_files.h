@@ -11,22 +11,21 @@ namespace bake {
 /// Six files in the order of CubeFace.
 struct FaceFiles {
     std::array<std::string, 6> files;
-    std::string
-        naming; ///< the six words by which the faces were recognised, "px nx py ny pz nz"; empty: by the order of the list
+    /// The six parts of the names by which the faces were recognised, "px nx py ny pz nz"; empty: by the order of the list.
+    std::string naming;
 };
 
-/// The words that stand for faces, each set in the order px nx py ny pz nz:
-///   px nx py ny pz nz | px mx py my pz mz | posx negx ... | right left up down front back | ... top bottom ...
-///   rt lf up dn bk ft (id Software's: bk is +Z) | rt lf up dn fr bk | +x -x +y -y +z -z | xpos xneg ... | 0 1 2 3 4 5
-/// in lower case, upper case or with a capital.
-///
-/// Six paths: in any order if their names differ in such words, otherwise in the order px nx py ny pz nz. Throws
-/// Error{Refusal::usage} for any other number of paths and for a face that is given twice; the message names the face.
+/// Six paths: in any order if the parts of their names that differ, or of the names of their folders, are words of one kind
+/// (face_names.h), otherwise in the order px nx py ny pz nz. Throws Error{Refusal::usage} for any other number of paths and
+/// for a face that is given twice; the message names the face.
 FaceFiles name_faces(const std::vector<std::string>& paths);
 
-/// The six existing files of a pattern with one `%s`, for any of the sets of words. Throws Error{Refusal::usage} when the
-/// pattern does not contain exactly one `%s`, and Error{Refusal::unreadable}, naming the missing file, when no set is
-/// complete.
+/// Six paths in the order px nx py ny pz nz, whatever their names are. Throws Error{Refusal::usage} for equal ones.
+FaceFiles faces_in_order(const std::vector<std::string>& paths);
+
+/// The six existing files of a pattern with one `%s`, in whose place stand words of one kind, all written in the same way.
+/// Throws Error{Refusal::usage} when the pattern does not contain exactly one `%s`, and Error{Refusal::unreadable}, naming
+/// the missing file, when no six files are complete.
 FaceFiles find_faces(const std::string& pattern);
 
 /// Whether a name stands for six files.
@@ -36,19 +35,12 @@ inline bool is_face_pattern(const std::string& file) { return file.find("%s") !=
 /// Error{Refusal::usage} when the pattern does not contain exactly one `%s`.
 std::array<std::string, 6> cube_files(const std::string& pattern);
 
-/// Findings of read_faces.
-struct FacesReport {
-    std::array<BadTexels, 6> mended;
-    ImageInfo first; ///< of px
-};
-
-/// Reads six faces with the channels they have, one to four. Throws Error naming the file: unreadable; unsuitable for a
-/// face that is not square, or whose size, number of channels or sample type is not that of the first.
-Cube read_faces(const std::array<std::string, 6>& files, const RadianceOptions& options = {},
-                FacesReport* report = nullptr);
-
-/// Reads six faces for the preview: three channels, finite. Throws as read_faces, and for fewer than three channels.
-Cube read_cube(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic);
+/// Reads six faces with the channels they have, one to four, and all their values. `first`: the header of px, with the notes
+/// of all six files behind their names. Throws Error
+/// naming the file: unreadable; unsuitable for a face that is not square, or whose size, number of channels or sample type
+/// is not that of the first.
+Cube read_faces(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic,
+                ImageInfo* first = nullptr);
 
 /// The first three channels; grey gives three equal ones.
 Image<float> to_rgb(const Image<float>& image);

@@ -13,11 +13,16 @@ constexpr float half_largest = 65504.0f;
 
 bool is_bad(float value, float largest) noexcept { return !(value >= 0 && value <= largest); }
 
+/// Alpha may have any finite value.
+bool is_bad(const float* texel, int c, int alpha, float largest) noexcept {
+    return c == alpha ? !std::isfinite(texel[c]) : is_bad(texel[c], largest);
+}
+
 void count(BadTexels& bad, const float* texel, int channels, int alpha, float largest, int x, int y) noexcept {
     bool nan = false, infinite = false, negative = false, over = false;
     for (int c = 0; c < channels; ++c) {
         const float value = texel[c];
-        if (c == alpha || !is_bad(value, largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
         if (bad.x < 0) bad.x = x, bad.y = y, bad.value = value;
         nan |= std::isnan(value);
         infinite |= std::isinf(value);
@@ -33,18 +38,41 @@ void count(BadTexels& bad, const float* texel, int channels, int alpha, float la
 
 void zero_texel(float* texel, int channels, int alpha, float largest) noexcept {
     bool faulty = false;
-    for (int c = 0; c < channels; ++c) faulty |= c != alpha && is_bad(texel[c], largest);
+    for (int c = 0; c < channels; ++c) faulty |= is_bad(texel, c, alpha, largest);
     if (!faulty) return;
     for (int c = 0; c < channels; ++c)
         if (c != alpha) texel[c] = 0;
+        else if (!std::isfinite(texel[c])) texel[c] = 1;
 }
 
 void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept {
     for (int c = 0; c < channels; ++c) {
-        if (c == alpha || !is_bad(texel[c], largest)) continue;
+        if (!is_bad(texel, c, alpha, largest)) continue;
+        if (c == alpha) {
+            texel[c] = 1;
+            continue;
+        }
         const float most = std::isinf(texel[c]) ? std::min(largest, half_largest) : largest;
         texel[c] = texel[c] > 0 ? most : 0; // NaN gives 0
     }
+}
+
+/// Leaves grey or colours and alpha, where the file says which these are.
+void drop_extra_channels(Image<float>& image, ImageInfo& info) {
+    const int alpha = info.alpha_channel, kept = info.colours + (alpha >= 0);
+    if (info.colours == 0 || kept >= image.channels()) return;
+    Image<float> fewer(image.width(), image.height(), kept);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            std::copy_n(&image.at(x, y), info.colours, &fewer.at(x, y));
+            if (alpha >= 0) fewer.at(x, y, info.colours) = image.at(x, y, alpha);
+        }
+    info.notes.push_back("has " + std::to_string(image.channels() - kept) +
+                         " channel(s) that are neither colour nor alpha, which are left out");
+    if (alpha >= 0) info.channels[std::size_t(info.colours)] = info.channels[std::size_t(alpha)];
+    info.channels.resize(std::size_t(kept));
+    if (alpha >= 0) info.alpha_channel = info.colours;
+    image = std::move(fewer);
 }
 
 template <class Work> void each_texel(Image<float>& image, Work&& work) {
@@ -55,11 +83,6 @@ template <class Work> void each_texel(Image<float>& image, Work&& work) {
 }
 
 } // namespace
-
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept {
-    if (space != ColourSpace::automatic) return space == ColourSpace::srgb;
-    return info.type == SampleType::u8 || info.srgb_tagged;
-}
 
 BadTexels& BadTexels::operator+=(const BadTexels& later) noexcept {
     if (x < 0) x = later.x, y = later.y, value = later.value;
@@ -108,9 +131,8 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     const int channels = image.channels();
     switch (policy) {
     case BadPolicy::refuse:
-        throw Error(Refusal::unsuitable,
-                    file + ": holds texels that are no radiance: " + to_text(bad, largest) +
-                        "; mend the picture, or let bake cubemap do it with `bad` zero or `bad` clamp");
+        throw Error(Refusal::unsuitable, file + ": holds texels that are no radiance: " + to_text(bad, largest) +
+                                             "; mend the picture, or set `bad` to zero or clamp");
     case BadPolicy::zero: each_texel(image, [&](float* texel) { zero_texel(texel, channels, alpha, largest); }); break;
     case BadPolicy::clamp:
         each_texel(image, [&](float* texel) { clamp_texel(texel, channels, alpha, largest); });
@@ -119,24 +141,16 @@ BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, f
     return bad;
 }
 
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options, ImageInfo* info_out,
-                           BadTexels* found) {
+Image<float> read_radiance(const std::string& file, ColourSpace space, ImageInfo* info_out) {
     ImageInfo info;
     Image<float> image = read_image(file, &info);
+    drop_extra_channels(image, info);
     if (image.channels() > 4)
         throw Error(Refusal::unsuitable,
                     file + ": has " + std::to_string(image.channels()) +
                         " channels; give a picture of one to four (grey, grey and alpha, RGB, RGBA)");
-    if (is_srgb(options.space, info)) srgb_to_linear(image, info.alpha_channel);
-    BadTexels bad;
-    if (options.allow_negative) {
-        bad = find_bad(image, 3.4e38f, info.alpha_channel);
-        if (bad.nan + bad.infinite + bad.over > 0) bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    } else {
-        bad = mend(image, options.bad, file, 3.4e38f, info.alpha_channel);
-    }
+    linearise(image, space, info);
     if (info_out) *info_out = std::move(info);
-    if (found) *found = bad;
     return image;
 }
 

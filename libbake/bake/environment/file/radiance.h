@@ -1,15 +1,11 @@
-// Radiance from picture files: linear, and without values that are impossible for radiance.
+// Radiance from picture files: linear colour, and values that are impossible for radiance found and replaced. mend_sky.h
+// has the policy for them.
 #pragma once
 #include "bake/picture/image_io.h"
 #include <cstdint>
 #include <string>
 
 namespace bake {
-
-/// How the values of a colour picture are stored.
-enum class ColourSpace { automatic, srgb, linear }; ///< automatic: sRGB for 8-bit and sRGB-tagged files
-/// Whether a file read by this rule must be decoded.
-bool is_srgb(ColourSpace space, const ImageInfo& info) noexcept;
 
 /// Texels with values that cannot be radiance or that a file cannot hold.
 struct BadTexels {
@@ -21,30 +17,26 @@ struct BadTexels {
     /// Adds counts found later in reading order.
     BadTexels& operator+=(const BadTexels& later) noexcept;
 };
-/// Values above `largest` count as over. Alpha is ignored.
-BadTexels find_bad(const Image<float>& image, float largest = 3.4e38f, int alpha_channel = -1);
+inline constexpr float largest_float = 3.4e38f;
+/// Values above `largest` count as over. Alpha may have any finite value.
+BadTexels find_bad(const Image<float>& image, float largest = largest_float, int alpha_channel = -1);
 /// "3 NaN, 1 infinite, 2 negative, 4 above 65504; first at column 5, row 7 (-2.5)"
-std::string to_text(const BadTexels& bad, float largest = 3.4e38f);
+std::string to_text(const BadTexels& bad, float largest = largest_float);
 
 /// How bad texels are treated.
 enum class BadPolicy {
     refuse, ///< Error{Refusal::unsuitable} with the counts and the first place
-    zero,   ///< every faulty texel becomes black, all channels
+    zero,   ///< every faulty texel becomes black, all channels; NaN and infinite alpha become 1
     clamp,  ///< NaN and negative values become 0, larger ones `largest`
 };
 /// Finds bad texels and treats them by the policy. Messages begin with `file`. Infinite values are clamped to at most 65504,
 /// the largest half float: nearly all infinite values in files are half floats that overflowed.
-BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = 3.4e38f,
+BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = largest_float,
                int alpha_channel = -1);
 
-struct RadianceOptions {
-    ColourSpace space = ColourSpace::automatic;
-    BadPolicy bad = BadPolicy::refuse;
-    bool allow_negative = false; ///< accepts the small negative values of filters that ring
-};
-/// Reads a picture of one to four channels as linear radiance. Throws as read_image, and Error{Refusal::unsuitable} for
-/// more channels and by the policy. `found`: the bad texels, all mended.
-Image<float> read_radiance(const std::string& file, const RadianceOptions& options = {}, ImageInfo* info = nullptr,
-                           BadTexels* found = nullptr);
+/// Reads a picture as linear radiance: its grey or its colours, and alpha, with all their values. Throws as read_image, and
+/// Error{Refusal::unsuitable} for more than four channels of which the file does not say which are colour.
+Image<float> read_radiance(const std::string& file, ColourSpace space = ColourSpace::automatic,
+                           ImageInfo* info = nullptr);
 
 } // namespace bake

@@ -15,6 +15,8 @@ namespace bake {
 namespace {
 
 constexpr float half_largest = 65504;
+/// The largest float that is rounded to a finite half float: resampling may exceed half_largest by a rounding error.
+constexpr float rounds_to_half = 65519.996f;
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
@@ -40,7 +42,7 @@ void encode(Image<float>& rows, int top, const EnvironmentTarget& target, const 
             EnvironmentWritten& written) {
     if (target.depth == Depth::u8 || target.depth == Depth::u16) return encode_integers(rows, target, written);
     if (target.depth != Depth::half) return;
-    BadTexels found = find_bad(rows, half_largest);
+    BadTexels found = find_bad(rows, rounds_to_half);
     if (found.over == 0) return;
     found.y += top;
     over += found;
@@ -57,7 +59,8 @@ void report_over(const BadTexels& over, const EnvironmentTarget& target, const s
 }
 
 WriteOptions write_options(const EnvironmentTarget& target, bool mips) {
-    WriteOptions options{.depth = target.depth, .srgb = target.encode_srgb, .mips = mips};
+    WriteOptions options{
+        .depth = target.depth, .colour = target.encode_srgb ? ColourSpace::srgb : ColourSpace::linear, .mips = mips};
     if (picture_format(target.file) == PictureFormat::exr) options.environment = entry_of(target.to).tag;
     return options;
 }
@@ -172,6 +175,28 @@ Image<float> level_picture(const Environment& sky, int k, const EnvironmentTarge
     return height < picture.height() ? reduced(picture, height) : std::move(picture);
 }
 
+float largest_of(const Image<float>& image) noexcept {
+    std::vector<float> rows(image.height(), 0.0f);
+    for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y)
+            rows[y] = *std::max_element(image.row(y), image.row(y) + std::size_t(image.width()) * image.channels());
+    });
+    return *std::max_element(rows.begin(), rows.end());
+}
+float largest_of(const Cube& cube) noexcept {
+    float largest = 0;
+    for (const Image<float>& face : cube.faces) largest = std::max(largest, largest_of(face));
+    return largest;
+}
+
+/// Completes a target. Half floats that nobody asked for become floats if they cannot hold `largest`.
+EnvironmentTarget complete_for(const EnvironmentTarget& wanted, int edge, float largest) {
+    EnvironmentTarget target = complete_target(wanted, edge);
+    const bool automatic = wanted.depth == Depth::automatic && target.depth == Depth::half;
+    if (automatic && largest > half_largest) target.depth = Depth::float32;
+    return target;
+}
+
 } // namespace
 
 SkyFormat format_of_name(const std::string& file) {
@@ -214,7 +239,8 @@ void check_levels(const EnvironmentTarget& target, std::size_t levels, int edge)
         std::string able;
         for (const SkyFormatEntry& format : sky_formats)
             if (format.mips) able += (able.empty() ? "" : ", ") + std::string(format.name);
-        throw usage(target.file + ": " + name(to) + " cannot be written with mip levels; set `to` to one of " + able);
+        throw usage(target.file + ": " + name(to) +
+                    " cannot be written with mip levels; give one of these formats in `to`: " + able);
     }
     if (edge > 0 && !std::has_single_bit(unsigned(edge)))
         throw usage(target.file + ": mip levels of six faces of " + std::to_string(edge) +
@@ -223,7 +249,9 @@ void check_levels(const EnvironmentTarget& target, std::size_t levels, int edge)
 
 EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTarget& wanted,
                                      const ResampleOptions& options, Progress* progress) {
-    const EnvironmentTarget target = complete_target(wanted, sky.face_edge());
+    // Resampling gives no value beyond those of the source.
+    const float largest = sky.is_cube() ? largest_of(sky.cube) : largest_of(sky.picture);
+    const EnvironmentTarget target = complete_for(wanted, sky.face_edge(), largest);
     const SkyFormatEntry& format = entry_of(target.to);
     if (format.projection)
         return write_picture(target, to_picture(sky, *format.projection, target.size, height_of(format, target.size),
@@ -234,7 +262,9 @@ EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTa
 }
 
 EnvironmentWritten write_levels(std::vector<Cube> levels, const EnvironmentTarget& wanted, Progress* progress) {
-    const EnvironmentTarget target = complete_target(wanted, levels[0].size());
+    float largest = 0;
+    for (const Cube& level : levels) largest = std::max(largest, largest_of(level));
+    const EnvironmentTarget target = complete_for(wanted, levels[0].size(), largest);
     check_levels(target, levels.size(), levels[0].size());
     const bool mips = levels.size() > 1, six = target.to == SkyFormat::faces;
     while (mips && levels.back().size() > 1) levels.push_back(next_mip(levels.back()));

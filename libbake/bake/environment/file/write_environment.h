@@ -13,9 +13,11 @@ struct EnvironmentTarget {
     SkyFormat to = SkyFormat::automatic; ///< automatic: format_of_name
     FaceOrder order = FaceOrder::gl;     ///< of the files of faces and of strips
     int size = 0; ///< edge of a face, or width of a picture of the whole sky; 0: as fine as the source
-    Depth depth = Depth::automatic; ///< automatic: by the file's ending, and 8 bits for a PNG from an 8-bit source
+    /// automatic: by the file's ending; 8 bits for a PNG from an 8-bit source; float for an EXR with radiance that half
+    /// floats cannot hold.
+    Depth depth = Depth::automatic;
     SampleType source = SampleType::other; ///< of the files that the environment was read from
-    BadPolicy bad = BadPolicy::refuse;     ///< for values that half floats cannot hold
+    BadPolicy bad = BadPolicy::refuse;     ///< for values that half floats cannot hold, when `depth` is half
     bool encode_srgb = true;               ///< integer samples hold sRGB
 };
 

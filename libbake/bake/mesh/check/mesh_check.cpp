@@ -16,7 +16,7 @@ using Index = std::uint32_t;
 
 /// Which faces to turn so that neighbours agree in orientation: per patch of faces connected through edges of two faces,
 /// the smaller number of faces. No face of a patch that is not orientable is turned.
-std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& mate, Topology& topology) {
+std::vector<char> turned_faces(const HalfEdges& he, const std::vector<Index>& mate, Connectivity& topology) {
     std::vector<char> turned(he.faces(), 0), seen(he.faces(), 0);
     std::vector<Index> patch;
     for (Index seed = 0; seed < he.faces(); ++seed) {
@@ -125,7 +125,7 @@ void measure_components(const Mesh& mesh, const std::vector<Triangle>& triangles
 }
 
 void count_components(const Mesh& mesh, const std::vector<Triangle>& triangles, const HalfEdges& he,
-                      const EdgeTable& edges, const std::vector<char>& turned, Topology& topology) {
+                      const EdgeTable& edges, const std::vector<char>& turned, Connectivity& topology) {
     DisjointSets sets = connected_faces(edges, mesh.faces(), [&](Index h) { return he.face[h]; });
     std::vector<Component> component_of(mesh.faces()); // used at the lowest face of each component
     for (Index e = 0; e < edges.edges(); ++e) {
@@ -156,8 +156,8 @@ void count_components(const Mesh& mesh, const std::vector<Triangle>& triangles, 
         });
 }
 
-Topology topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const Index> vertex) {
-    Topology topology;
+Connectivity topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const Index> vertex) {
+    Connectivity topology;
     const HalfEdges he = make_half_edges(mesh, vertex);
     const EdgeTable edges = make_edges(he);
     topology.edges = edges.edges();
@@ -252,6 +252,7 @@ MeshCheck check_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles, c
     for (Index p = 0; p < welded.size(); ++p) check.coincident_positions += welded[p] != p;
     check.topology = topology_of(mesh, triangles, {});
     check.welded = check.coincident_positions > 0 ? topology_of(mesh, triangles, welded) : check.topology;
+    if (check.welded.boundary_edges > 1) check.gaps = find_border_gaps(mesh, welded, 1e-4 * check.diagonal);
     check.duplicate_faces = count_duplicates(mesh, welded);
 
     std::vector<char> used(mesh.positions.size(), 0);

@@ -1,12 +1,13 @@
-// Topology and geometry of a polygon mesh: what is in it, and what is wrong with it.
+// Connectivity and geometry of a polygon mesh: what is in it, and what is wrong with it.
 #pragma once
+#include "bake/mesh/border_weld.h"
 #include "bake/mesh/triangulate.h"
 
 namespace bake {
 
 /// Connectivity of the faces. Corners that repeat the position of the corner before them are skipped; a face that then
 /// has fewer than three corners has no edges.
-struct Topology {
+struct Connectivity {
     std::size_t edges = 0;
     std::size_t boundary_edges = 0;        ///< edges of one face
     std::size_t boundary_loops = 0;        ///< closed chains of boundary edges
@@ -32,9 +33,11 @@ struct MeshCheck {
     double diagonal = 0;
     double area = 0;
 
-    Topology topology;                    ///< by the indices of the file
+    Connectivity topology;                ///< by the indices of the file
     std::size_t coincident_positions = 0; ///< positions bit-equal to an earlier one: the file is not welded there
-    Topology welded;                      ///< with bit-equal positions welded
+    Connectivity welded;                  ///< with bit-equal positions welded
+
+    BorderGaps gaps; ///< within 1e-4 of the diagonal, with bit-equal positions welded
 
     std::size_t unused_positions = 0;
     std::size_t repeated_corners = 0; ///< faces that use one position twice

@@ -5,6 +5,7 @@
 #include "bake/mesh/file/ply.h"
 #include "bake/mesh/gltf/io.h"
 #include "bake/mesh/mesh_corner.h"
+#include "bake/mesh/uv_set.h"
 #include <new>
 
 namespace bake {
@@ -16,10 +17,21 @@ Error unknown_format(Refusal refusal, const std::string& path) {
                               " is not a mesh format known here; use .obj, .ply, .gltf or .glb");
 }
 
+Mesh read_gltf_mesh(const std::string& path, const MeshOptions& options) {
+    Gltf gltf = read_gltf(path, {.flip_v = !options.flip_v});
+    take_texture_uvs(gltf, path, {.uv_set = options.uv_set, .flip_v = !options.flip_v});
+    std::vector<std::string> notes = std::move(gltf.notes);
+    Mesh mesh = flatten(std::move(gltf));
+    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
+    mesh.notes = std::move(notes);
+    return mesh;
+}
+
 Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& options) {
     try {
-        if (format == MeshFormat::gltf) return flatten(read_gltf(path, {.flip_v = !options.flip_v}));
+        if (format == MeshFormat::gltf) return read_gltf_mesh(path, options);
         Mesh mesh = format == MeshFormat::obj ? read_obj(path) : read_ply(path);
+        if (options.uv_set >= 0) take_uv_set(mesh, options.uv_set, path);
         for (Vec2f& uv : mesh.uvs)
             if (options.flip_v) uv.y = 1 - uv.y;
         return mesh;

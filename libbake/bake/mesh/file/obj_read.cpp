@@ -2,9 +2,14 @@
 // allocated once and every piece knows its place in them (and what a negative index is relative to); the second reads.
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
+#include "bake/base/parse_double.h"
+#include "bake/base/text_encoding.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/obj.h"
+#include "bake/mesh/origin.h"
+#include "bake/mesh/smoothing_groups.h"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,7 +18,7 @@
 namespace bake {
 namespace {
 
-enum class Keyword { position, uv, normal, face, group, material, tag, other };
+enum class Keyword { position, uv, normal, face, group, material, smoothing, tag, other };
 
 struct Counts {
     std::size_t positions = 0, uvs = 0, normals = 0, faces = 0, corners = 0;
@@ -25,12 +30,19 @@ struct NameChange {
     std::string name; ///< empty: of none
 };
 
+/// From the face `face` on, faces are of another smoothing group; 0: of none.
+struct SmoothingChange {
+    std::size_t face;
+    std::uint32_t group;
+};
+
 /// What the second pass finds in a piece, beside the numbers, which it puts in their place.
 struct Piece {
     const char* fault_at = nullptr; ///< the first line that cannot be read
     std::string fault;
     bool any_uv = false, any_normal = false;
     std::vector<NameChange> groups, materials;
+    std::vector<SmoothingChange> smoothing;
     std::vector<SubdivisionTags::Crease> creases;
     std::vector<SubdivisionTags::Corner> corners;
     std::optional<SubdivisionTags::Boundary> boundary;
@@ -52,6 +64,7 @@ Keyword read_keyword(const char*& p) noexcept {
     case 'f': return is("f") ? Keyword::face : Keyword::other;
     case 'g': return is("g") ? Keyword::group : Keyword::other;
     case 'o': return is("o") ? Keyword::group : Keyword::other;
+    case 's': return is("s") ? Keyword::smoothing : Keyword::other;
     case 't': return is("t") ? Keyword::tag : Keyword::other;
     case 'u': return is("usemtl") ? Keyword::material : Keyword::other;
     default: return Keyword::other;
@@ -176,6 +189,14 @@ std::string read_name(const char* p, const char* end) {
     return std::string(p, end);
 }
 
+/// The smoothing group that the line sets, p behind the `s`: a number, on (1) or off (0).
+std::uint32_t read_smoothing(const char* p) noexcept {
+    skip_blanks(p);
+    std::int64_t group = 0;
+    if (parse_integer(p, group)) return std::uint32_t(group);
+    return word_at(p) == "on" ? 1 : 0;
+}
+
 /// One number, 0 or more, that ends the line.
 bool read_sharpness(const char* p, float& sharpness) noexcept {
     skip_blanks(p);
@@ -298,6 +319,7 @@ Piece read_piece(const char* begin, const char* end, Counts done, const Counts& 
         }
         case Keyword::group: piece.groups.push_back({done.faces, read_name(p, line.end)}); break;
         case Keyword::material: piece.materials.push_back({done.faces, read_name(p, line.end)}); break;
+        case Keyword::smoothing: piece.smoothing.push_back({done.faces, read_smoothing(p)}); break;
         case Keyword::tag:
             if (std::string why = read_tag(p, total.positions, piece); !why.empty()) fail(line, std::move(why));
             break;
@@ -305,6 +327,31 @@ Piece read_piece(const char* begin, const char* end, Counts done, const Counts& 
         }
     }
     return piece;
+}
+
+/// The positions of a piece in double, from `out` on. All lines have been read once without a fault.
+void read_points(const char* begin, const char* end, Vec3d* out) {
+    for (LineCursor line = lines_of(begin, end); next_line(line);) {
+        const char* p = line.begin;
+        if (read_keyword(p) != Keyword::position) continue;
+        for (int k = 0; k < 3; ++k) {
+            skip_blanks(p);
+            parse_double(p, (*out)[k]);
+        }
+        ++out;
+    }
+}
+
+/// Floats do not hold positions far from zero: these are read once more, relative to an origin.
+void read_far_positions(const std::vector<const char*>& bounds, const std::vector<Counts>& place, Mesh& mesh) {
+    const Bounds box = bake::bounds(mesh);
+    if (!is_far(Vec3d(box.min), Vec3d(box.max))) return;
+    std::vector<Vec3d> points(mesh.positions.size());
+    for_rows(std::int64_t(bounds.size()) - 1, 1, [&](std::int64_t row, std::int64_t) {
+        const auto i = std::size_t(row);
+        read_points(bounds[i], bounds[i + 1], points.data() + place[i].positions);
+    });
+    set_positions(mesh, points);
 }
 
 /// Gives each face the index of the name it is under; names that no face is under are left out.
@@ -336,27 +383,45 @@ void allocate(const Counts& total, Mesh& mesh) {
     const std::int64_t arrays = 7, grain = total.positions + total.corners < 65536 ? arrays : 1;
     for_rows(arrays, grain, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t array = begin; array < end; ++array) switch (array) {
-            case 0: mesh.corner_position.resize(total.corners); break;
-            case 1: mesh.corner_uv.resize(total.uvs ? total.corners : 0); break;
-            case 2: mesh.corner_normal.resize(total.normals ? total.corners : 0); break;
-            case 3: mesh.positions.resize(total.positions); break;
-            case 4: mesh.normals.resize(total.normals); break;
-            case 5: mesh.uvs.resize(total.uvs); break;
-            default: mesh.face_begin.resize(total.faces + 1); break;
+            case 0: resize_in_pages(mesh.corner_position, total.corners); break;
+            case 1: resize_in_pages(mesh.corner_uv, total.uvs ? total.corners : 0); break;
+            case 2: resize_in_pages(mesh.corner_normal, total.normals ? total.corners : 0); break;
+            case 3: resize_in_pages(mesh.positions, total.positions); break;
+            case 4: resize_in_pages(mesh.normals, total.normals); break;
+            case 5: resize_in_pages(mesh.uvs, total.uvs); break;
+            default: resize_in_pages(mesh.face_begin, total.faces + 1); break;
             }
     });
+}
+
+/// Normals of the smoothing groups, if the file has such groups and faces without normals. Before the first statement
+/// smoothing is off, as the format asks.
+void apply_smoothing(const std::vector<Piece>& pieces, Mesh& mesh) {
+    std::vector<std::uint32_t> group;
+    std::uint32_t current = 0;
+    bool any = false;
+    for (const Piece& piece : pieces)
+        for (const SmoothingChange& change : piece.smoothing) {
+            group.resize(change.face, current);
+            current = change.group;
+            any = true;
+        }
+    group.resize(mesh.faces(), current);
+    const bool all =
+        !mesh.corner_normal.empty() && !std::count(mesh.corner_normal.begin(), mesh.corner_normal.end(), no_index);
+    if (any && !all) add_group_normals(mesh, group);
 }
 
 } // namespace
 
 Mesh read_obj(const std::string& path) {
-    const FileBytes file = read_file(path);
+    FileBytes file = read_file(path);
+    decode_text(file);
+    end_lines_by_newline(file);
     const bool ends_line = file.size > 0 && file.end()[-1] == '\n';
     const char* const end = ends_line ? file.end() : file.end() + 1;
-    const char* begin = file.begin();
-    if (file.size >= 3 && std::memcmp(begin, "\xef\xbb\xbf", 3) == 0) begin += 3; // UTF-8's byte order mark
 
-    const std::vector<const char*> bounds = split_lines(begin, end, std::size_t(1) << 18);
+    const std::vector<const char*> bounds = split_lines(file.begin(), end, std::size_t(1) << 18);
     const std::size_t pieces = bounds.size() - 1;
     std::vector<Counts> place(pieces + 1);
     for_rows(std::int64_t(pieces), 1, [&](std::int64_t i, std::int64_t) {
@@ -399,6 +464,8 @@ Mesh read_obj(const std::string& path) {
     if (!any_normal) mesh.corner_normal = {};
     assign_names(found, &Piece::groups, total.faces, mesh.groups, mesh.face_group);
     assign_names(found, &Piece::materials, total.faces, mesh.materials, mesh.face_material);
+    read_far_positions(bounds, place, mesh);
+    apply_smoothing(found, mesh);
     return mesh;
 }
 

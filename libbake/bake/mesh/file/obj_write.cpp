@@ -1,6 +1,7 @@
 #include "bake/base/block_writer.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/obj.h"
+#include "bake/mesh/origin.h"
 #include <algorithm>
 #include <charconv>
 
@@ -12,6 +13,21 @@ void append_floats(std::string& out, const char* keyword, const float* values, i
     for (int i = 0; i < count; ++i) {
         char text[16] = {' '}; // a float needs at most 15
         out.append(text, std::to_chars(text + 1, text + sizeof text, values[i]).ptr);
+    }
+    out += '\n';
+}
+
+/// An absolute position of a mesh far from zero.
+void append_point(std::string& out, const Vec3d& p, int decimals) {
+    out += 'v';
+    for (int k = 0; k < 3; ++k) {
+        char text[400] = {' '}; // the largest double has 309 digits before the point
+        char* end = std::to_chars(text + 1, text + sizeof text, p[k], std::chars_format::fixed, decimals).ptr;
+        if (decimals > 0) {
+            while (end[-1] == '0') --end;
+            if (end[-1] == '.') --end;
+        }
+        out.append(text, end);
     }
     out += '\n';
 }
@@ -62,8 +78,12 @@ void write_obj(const std::string& path, const Mesh& mesh) {
     for (std::string& name : materials) name = name_on_a_line(name);
 
     BlockWriter out(path);
-    write_rows(out, mesh.positions.size(),
-               [&](std::string& block, std::size_t i) { append_floats(block, "v", &mesh.positions[i].x, 3); });
+    const bool far = mesh.origin != Vec3d(0);
+    const int decimals = far ? coordinate_decimals(mesh) : 0;
+    write_rows(out, mesh.positions.size(), [&](std::string& block, std::size_t i) {
+        if (far) append_point(block, mesh.origin + Vec3d(mesh.positions[i]), decimals);
+        else append_floats(block, "v", &mesh.positions[i].x, 3);
+    });
     write_rows(out, mesh.uvs.size(),
                [&](std::string& block, std::size_t i) { append_floats(block, "vt", &mesh.uvs[i].x, 2); });
     write_rows(out, mesh.normals.size(),

@@ -1,7 +1,8 @@
 #include "bake/base/error.h"
-#include "bake/base/text_line.h"
+#include "bake/base/parse_double.h"
 #include "bake/mesh/file/ply_body.h"
 #include <cmath>
+#include <limits>
 
 namespace bake {
 namespace {
@@ -48,6 +49,25 @@ struct Rows {
         p = s;
         return value;
     }
+    /// The next number in double; the row stays where it is.
+    void peek(double& value) {
+        skip_blanks(p);
+        const char* s = p;
+        parse_double(s, value);
+    }
+    /// A number that may be NaN or infinite, in the words of any C library: nan, -nan(ind), 1.#QNAN, 1.#INF.
+    float any_number(const PlyProperty& property) {
+        need_word(property);
+        const char* end = p;
+        while (!ends_word(*end)) ++end;
+        const char* s = p;
+        float value = 0;
+        const bool read = parse_float(s, value) && s == end;
+        if (!read && !std::memchr(p, '#', std::size_t(end - p)) && !std::isnan(value))
+            refuse(word() + " is not a number");
+        p = end;
+        return read ? value : std::numeric_limits<float>::quiet_NaN();
+    }
     std::int64_t integer(const PlyProperty& property) {
         need_word(property);
         const char* s = p;
@@ -74,18 +94,28 @@ struct Rows {
     }
 };
 
-void read_vertices(Rows& rows, const PlyElement& element, const PlyLayout& layout, Mesh& mesh) {
+void read_vertices(Rows& rows, const PlyElement& element, const PlyLayout& layout, PlyBody& body) {
     const auto count = std::size_t(element.rows);
+    Mesh& mesh = body.mesh;
     resize_vertices(layout, count, mesh);
+    if (layout.exact) body.points.resize(count);
     // Per property, where its values go.
     std::vector<PlyColumn> target(element.properties.size(), PlyColumn{nullptr, 0});
-    for (std::size_t c = 0; c < layout.columns.size(); ++c)
-        if (layout.columns[c] >= 0) target[std::size_t(layout.columns[c])] = column_of(mesh, c);
+    std::vector<bool> unused(element.properties.size(), false);
+    for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+        if (layout.columns[c] < 0) continue;
+        target[std::size_t(layout.columns[c])] = column_of(mesh, c);
+        unused[std::size_t(layout.columns[c])] = c >= first_unused_column;
+    }
     for (std::size_t row = 0; row < count; ++row) {
         rows.start_row(element, row);
         for (std::size_t i = 0; i < target.size(); ++i) {
-            if (target[i].first) target[i].first[row * target[i].stride] = rows.number(element.properties[i]);
-            else rows.skip(element.properties[i]);
+            const PlyProperty& property = element.properties[i];
+            for (int k = 0; k < 3 && layout.exact; ++k)
+                if (layout.columns[std::size_t(k)] == int(i)) rows.peek(body.points[row][k]);
+            if (!target[i].first) rows.skip(property);
+            else
+                target[i].first[row * target[i].stride] = unused[i] ? rows.any_number(property) : rows.number(property);
         }
         rows.end_row();
     }
@@ -143,7 +173,7 @@ PlyBody read_ply_ascii(const FileBytes& file, const PlyHeader& header, const Ply
         const PlyElement& element = header.elements[i];
         if (element.properties.empty() || element.rows == 0) continue;
         if (int(i) == layout.vertex) {
-            read_vertices(rows, element, layout, body.mesh);
+            read_vertices(rows, element, layout, body);
         } else if (int(i) == layout.face) {
             read_faces(rows, element, layout, vertices, body);
         } else {

@@ -1,4 +1,5 @@
 #include "bake/base/error.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/ply_body.h"
@@ -99,6 +100,14 @@ void read_column(const char* from, std::size_t stride, std::size_t rows, PlyType
     });
 }
 
+/// Rows `stride` bytes apart, one value each, into one coordinate of points.
+void read_coordinate(const char* from, std::size_t stride, std::size_t rows, PlyType type, bool swap, Vec3d* out,
+                     int axis) {
+    with_type(type, [&]<class T>() {
+        for (std::size_t i = 0; i < rows; ++i) out[i][axis] = double(load<T>(from + i * stride, swap));
+    });
+}
+
 /// `count` integers into indices below `vertices`; the place of the first that is not, or `count`.
 std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool swap, std::uint64_t vertices,
                          std::uint32_t* out) {
@@ -115,9 +124,11 @@ std::size_t read_indices(const char* p, std::size_t count, PlyType type, bool sw
 constexpr std::size_t grain = 8192; // rows of a block
 
 const char* read_vertices(const char* p, const char* end, const PlyElement& element, const RowShape& shape,
-                          const PlyLayout& layout, const std::string& path, Mesh& mesh) {
+                          const PlyLayout& layout, const std::string& path, PlyBody& body) {
     const auto count = std::size_t(element.rows);
+    Mesh& mesh = body.mesh;
     resize_vertices(layout, count, mesh);
+    if (layout.exact) body.points.resize(count);
     std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
         std::size_t& bad = first_bad[first / grain];
@@ -126,8 +137,11 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
             const auto property = std::size_t(layout.columns[c]);
             PlyColumn out = column_of(mesh, c);
             out.first += first * out.stride;
-            read_column(address(property), shape.tail, rows, element.properties[property].type, shape.swap, out);
-            for (std::size_t i = 0; i < rows; ++i)
+            const PlyType type = element.properties[property].type;
+            read_column(address(property), shape.tail, rows, type, shape.swap, out);
+            if (layout.exact && c < 3)
+                read_coordinate(address(property), shape.tail, rows, type, shape.swap, &body.points[first], int(c));
+            for (std::size_t i = 0; i < rows && c < first_unused_column; ++i)
                 if (!std::isfinite(out.first[i * out.stride])) bad = std::min(bad, first + i);
         }
     };
@@ -204,7 +218,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
                        const PlyLayout& layout, std::uint64_t vertices, const std::string& path, PlyBody& body) {
     const auto faces = std::size_t(element.rows);
     Mesh& mesh = body.mesh;
-    mesh.face_begin.resize(faces + 1);
+    resize_in_pages(mesh.face_begin, faces + 1);
     // Where a row starts is known only from the row before: one thread finds the blocks, all read them.
     std::vector<Block> blocks;
     std::size_t corners = 0;
@@ -222,7 +236,7 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
         mesh.face_begin[f + 1] = std::uint32_t(corners);
     }
     if (corners >= no_index) throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 corners; split the mesh");
-    mesh.corner_position.resize(corners);
+    resize_in_pages(mesh.corner_position, corners);
     if (layout.texcoord >= 0) body.texcoord.resize(corners);
 
     for_rows(std::int64_t(faces), grain, [&](std::int64_t begin, std::int64_t last) {
@@ -261,7 +275,7 @@ PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const Pl
             if (rows < element.rows) refuse_short(path, element, rows);
         }
         if (int(i) == layout.vertex) {
-            p = read_vertices(p, file.end(), element, shape, layout, path, body.mesh);
+            p = read_vertices(p, file.end(), element, shape, layout, path, body);
         } else if (int(i) == layout.face) {
             p = read_faces(p, file.end(), element, shape, layout, vertices, path, body);
         } else if (shape.lists.empty()) {

@@ -1,10 +1,14 @@
 #include "bake/base/error.h"
+#include "bake/base/text_encoding.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/distinct_corners.h"
 #include "bake/mesh/file/ply.h"
 #include "bake/mesh/file/ply_body.h"
 #include "bake/mesh/number_distinct.h"
+#include "bake/mesh/origin.h"
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 namespace bake {
 namespace {
@@ -37,6 +41,36 @@ void take_attributes(const PlyElement& vertex, PlyLayout& layout) {
         for (int k = 0; k < components; ++k) layout.columns.push_back(column + k);
         i += std::size_t(components) - 1;
     }
+}
+
+bool all_finite(const float* values, std::size_t count) noexcept {
+    return std::all_of(values, values + count, [](float v) { return std::isfinite(v); });
+}
+
+/// Removes the tangents and the attributes that have values which are not finite, and says so.
+void leave_out_not_finite(Mesh& mesh) {
+    const auto leave_out = [&mesh](const std::string& what) {
+        mesh.notes.push_back(what + " left out: some values are not finite 32-bit numbers");
+    };
+    if (!mesh.tangents.empty() && !all_finite(&mesh.tangents[0].x, 4 * mesh.tangents.size())) {
+        leave_out("tangents (tx, ty, tz, tw)");
+        mesh.tangents = {};
+    }
+    std::erase_if(mesh.attributes, [&](const Attribute& a) {
+        if (all_finite(a.values.data(), a.values.size())) return false;
+        leave_out("property " + shown(a.name));
+        return true;
+    });
+}
+
+/// The header's lines may end in a carriage return alone, and then those of an ascii body do.
+void end_header_lines(FileBytes& file) {
+    const std::string_view text(file.begin(), file.size);
+    if (!text.starts_with("ply\r") || text.starts_with("ply\r\n")) return;
+    const std::size_t end = text.find("end_header\r"), format = text.find("format ascii");
+    if (end == std::string_view::npos) return;
+    if (format < end) return end_lines_by_newline(file);
+    std::replace(file.data.get(), file.data.get() + end + std::strlen("end_header\r"), '\r', '\n');
 }
 
 /// Values of vertices, spread to the corners.
@@ -72,8 +106,10 @@ PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
     };
     if (!take(0, {"x", "y", "z"})) refuse("its vertices have no x, y and z");
     take(3, {"nx", "ny", "nz"});
-    if (!take(6, {"u", "v"}) && !take(6, {"s", "t"})) take(6, {"texture_u", "texture_v"});
-    take(8, {"tx", "ty", "tz", "tw"});
+    for (const auto& [u, v] : ply_uv_names)
+        if (layout.columns[6] < 0) take(6, {u, v});
+    const bool tangents = take(8, {"tx", "ty", "tz", "tw"});
+    if (layout.columns[6] < 0 && !tangents) take(6, {"tx", "ty"});
     take_attributes(vertex, layout);
 
     if (layout.face < 0 || header.elements[std::size_t(layout.face)].rows == 0) return layout;
@@ -106,6 +142,26 @@ void weld_texcoord(PlyBody& body) {
             for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) mesh.corner_uv[c] = no_index;
 }
 
+/// The body. Floats do not hold positions far from zero: a body with more digits is read once more, in double.
+PlyBody read_body(const FileBytes& file, const PlyHeader& header, PlyLayout layout, const std::string& path) {
+    const bool ascii = header.format == PlyFormat::ascii;
+    const auto read = [&] {
+        return ascii ? read_ply_ascii(file, header, layout, path) : read_ply_binary(file, header, layout, path);
+    };
+    PlyBody body = read();
+    const Bounds box = bounds(body.mesh);
+    if (!is_far(Vec3d(box.min), Vec3d(box.max))) return body;
+    const PlyElement& vertex = header.elements[std::size_t(layout.vertex)];
+    if (ascii || vertex.properties[std::size_t(layout.columns[0])].type != PlyType::float32) {
+        layout.exact = true;
+        body = read();
+        set_positions(body.mesh, body.points);
+    } else {
+        find_origin(body.mesh);
+    }
+    return body;
+}
+
 } // namespace
 
 PlyColumn column_of(Mesh& mesh, std::size_t c) noexcept {
@@ -128,14 +184,16 @@ void resize_vertices(const PlyLayout& layout, std::size_t count, Mesh& mesh) {
 }
 
 Mesh read_ply(const std::string& path) {
-    const FileBytes file = read_file(path);
+    FileBytes file = read_file(path);
+    if (!std::string_view(file.begin(), file.size).starts_with("ply")) decode_text(file);
+    end_header_lines(file);
     const PlyHeader header = read_ply_header(file, path);
     const PlyLayout layout = layout_of(header, path);
     if (header.elements[std::size_t(layout.vertex)].rows >= no_index)
         throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 vertices; split the mesh");
-    PlyBody body = header.format == PlyFormat::ascii ? read_ply_ascii(file, header, layout, path)
-                                                     : read_ply_binary(file, header, layout, path);
+    PlyBody body = read_body(file, header, layout, path);
     Mesh& mesh = body.mesh;
+    leave_out_not_finite(mesh);
     if (!mesh.normals.empty()) mesh.corner_normal = mesh.corner_position;
     if (!body.texcoord.empty()) weld_texcoord(body);
     else if (!mesh.uvs.empty()) mesh.corner_uv = mesh.corner_position;

@@ -1,7 +1,9 @@
 #include "bake/base/block_writer.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/ply.h"
+#include "bake/mesh/file/ply_body.h"
 #include "bake/mesh/mesh_corner.h"
+#include <bit>
 
 namespace bake {
 namespace {
@@ -16,21 +18,22 @@ std::uint32_t largest_face(const Mesh& mesh) noexcept {
 std::string property_name(std::string name) {
     for (char& c : name)
         if (is_blank(c) || static_cast<unsigned char>(c) < 0x20) c = '_';
-    for (const char* known :
-         {"", "x", "y", "z", "nx", "ny", "nz", "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty", "tz", "tw"})
+    for (const char* known : {"", "x", "y", "z", "nx", "ny", "nz", "tx", "ty", "tz", "tw"})
         if (name == known) return '_' + name;
+    for (const auto& [u, v] : ply_uv_names)
+        if (name == u || name == v) return '_' + name;
     return name;
 }
 
 std::string header_of(const Mesh& mesh, std::size_t vertices, bool wide) {
     std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) + '\n';
     std::vector<std::string> names;
-    const auto property = [&](std::string name) {
+    const auto property = [&](std::string name, const char* type = "float") {
         while (std::count(names.begin(), names.end(), name)) name += '_';
         names.push_back(name);
-        text += "property float " + name + '\n';
+        text += std::string("property ") + type + " " + name + '\n';
     };
-    for (const char* name : {"x", "y", "z"}) property(name);
+    for (const char* name : {"x", "y", "z"}) property(name, mesh.origin == Vec3d(0) ? "float" : "double");
     if (!mesh.corner_normal.empty())
         for (const char* name : {"nx", "ny", "nz"}) property(name);
     if (!mesh.corner_uv.empty())
@@ -44,13 +47,22 @@ std::string header_of(const Mesh& mesh, std::size_t vertices, bool wide) {
            " uint vertex_indices\nend_header\n";
 }
 
+void put_doubles(char*& to, const Vec3d& p) noexcept {
+    for (int k = 0; k < 3; ++k) {
+        const auto bits = std::bit_cast<std::uint64_t>(p[k]);
+        put_bytes(to, std::uint32_t(bits));
+        put_bytes(to, std::uint32_t(bits >> 32));
+    }
+}
+
 } // namespace
 
 void write_ply(const std::string& path, const Mesh& mesh) {
     const bool normals = !mesh.corner_normal.empty(), uvs = !mesh.corner_uv.empty(), tangents = !mesh.tangents.empty();
     const DistinctCorners vertices = distinct_corners(mesh); // a vertex of PLY has one value of each kind
     const bool wide = largest_face(mesh) > 255;
-    std::size_t floats = std::size_t(3) + (normals ? 3 : 0) + (uvs ? 2 : 0) + (tangents ? 4 : 0);
+    const bool far = mesh.origin != Vec3d(0); // absolute positions need doubles
+    std::size_t floats = std::size_t(far ? 6 : 3) + (normals ? 3 : 0) + (uvs ? 2 : 0) + (tangents ? 4 : 0);
     for (const Attribute& a : mesh.attributes) floats += std::size_t(a.components);
 
     BlockWriter out(path);
@@ -60,7 +72,9 @@ void write_ply(const std::string& path, const Mesh& mesh) {
         const auto put = [&to](const auto& value) {
             for (int k = 0; k < value.length(); ++k) put_bytes(to, value[k]);
         };
-        put(mesh.positions[mesh.corner_position[c]]);
+        const Vec3f& p = mesh.positions[mesh.corner_position[c]];
+        if (far) put_doubles(to, mesh.origin + Vec3d(p));
+        else put(p);
         if (normals) put(normal_at(mesh, c));
         if (uvs) put(uv_at(mesh, c));
         if (tangents) put(mesh.tangents[c]);

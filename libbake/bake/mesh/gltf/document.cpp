@@ -1,6 +1,7 @@
 #include "bake/mesh/gltf/document.h"
 #include "bake/base/error.h"
 #include "bake/base/text_line.h"
+#include "bake/mesh/gltf/extensions.h"
 #include <bit>
 #include <cstring>
 #include <filesystem>
@@ -150,6 +151,27 @@ std::string text_of(const json& object, const char* key) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// A buffer that meshoptimizer's extension declares as a fallback has no bytes: those of its views are compressed elsewhere.
+void refuse_compressed_buffer(const json& object, const std::string& path) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return;
+    for (const auto& [name, content] : extensions->items())
+        if (content.is_object() && content.value("fallback", json(false)) == json(true)) refuse_compression(name, path);
+}
+
+/// Extensions decide what a file means, so they are looked at before anything else is read.
+void refuse_required_extensions(const json& root, const std::string& path) {
+    const auto list = root.find("extensionsRequired");
+    if (list == root.end()) return;
+    if (!list->is_array()) refuse(path, "its extensionsRequired are not a list");
+    std::vector<std::string> names;
+    for (const json& name : *list) {
+        if (!name.is_string()) refuse(path, "its extensionsRequired are not names");
+        names.push_back(name.get<std::string>());
+    }
+    refuse_unknown_extensions(names, path);
+}
+
 void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const std::string& path, GltfDocument& out) {
     const std::string what = "its buffer " + std::to_string(i);
     const auto length = object.is_object() ? object.find("byteLength") : object.end();
@@ -157,6 +179,7 @@ void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const 
         refuse(path, what + " has no byteLength");
     const std::string uri = text_of(object, "uri");
     std::span<const std::uint8_t> found;
+    if (uri.empty()) refuse_compressed_buffer(object, path);
     if (uri.empty()) {
         if (i != 0 || !chunks.has_binary) refuse(path, what + " has neither a uri nor a binary chunk");
         found = chunks.binary;
@@ -216,6 +239,7 @@ GltfDocument read_gltf_document(const std::string& path) {
     if (version.rfind("2.", 0) != 0)
         refuse(path,
                version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
+    refuse_required_extensions(parsed, path);
     const auto each = [&](const char* key, auto&& work) {
         const auto list = parsed.find(key);
         if (list == parsed.end()) return;
@@ -226,7 +250,7 @@ GltfDocument read_gltf_document(const std::string& path) {
     };
     each("buffers", [&](const json& object, std::size_t i) { read_buffer(object, i, chunks, path, out); });
     each("images", [&](const json& object, std::size_t i) { read_image(object, i, path, out); });
-    for (const char* unread : {"animations", "skins", "cameras", "extensions", "extras"}) parsed.erase(unread);
+    for (const char* unread : {"animations", "cameras", "extensions", "extras"}) parsed.erase(unread);
     out.json = parsed.dump();
     return out;
 }

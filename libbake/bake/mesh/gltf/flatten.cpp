@@ -1,6 +1,9 @@
 #include "bake/mesh/gltf/io.h"
+#include "bake/mesh/origin.h"
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <unordered_map>
 
 namespace bake {
@@ -84,22 +87,40 @@ void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
     }
 }
 
+/// The origin of the mesh in world space.
+Vec3d world_origin(const Gltf& gltf) {
+    Vec3d min(std::numeric_limits<double>::infinity()), max = -min;
+    for (const GltfNode& node : gltf.nodes) {
+        const Placement place = placement_of(node);
+        for (std::uint32_t c = gltf.mesh.face_begin[node.first_face]; c < gltf.mesh.face_begin[node.end_face]; ++c) {
+            const Vec3d p = place.linear * Vec3d(gltf.mesh.positions[gltf.mesh.corner_position[c]]) + place.move;
+            min = glm::min(min, p), max = glm::max(max, p);
+        }
+    }
+    return min.x <= max.x ? origin_for(min, max) : Vec3d(0);
+}
+
 } // namespace
 
 Mesh flatten(Gltf gltf) {
+    const Vec3d origin = world_origin(gltf);
     Mesh mesh = std::move(gltf.mesh);
     const bool moved = std::any_of(gltf.nodes.begin(), gltf.nodes.end(), [](const GltfNode& n) {
         return !std::equal(n.to_world, n.to_world + 16, GltfNode().to_world);
     });
     name_groups(gltf.nodes, mesh);
-    if (!moved) return mesh;
+    if (!moved) {
+        find_origin(mesh);
+        return mesh;
+    }
+    mesh.origin = origin;
     const std::vector<Vec3f> positions = mesh.positions, normals = mesh.normals;
     std::vector<bool> position_taken(positions.size()), normal_taken(normals.size());
     for (const GltfNode& node : gltf.nodes) {
         const Placement place = placement_of(node);
         const std::uint32_t begin = mesh.face_begin[node.first_face], end = mesh.face_begin[node.end_face];
         turn_values(mesh.positions, positions, position_taken, mesh.corner_position, begin, end,
-                    [&](const Vec3f& p) { return Vec3f(place.linear * Vec3d(p) + place.move); });
+                    [&](const Vec3f& p) { return Vec3f(place.linear * Vec3d(p) + (place.move - origin)); });
         // Also where nothing turns: the node may share its normals with one that does.
         if (!mesh.corner_normal.empty())
             turn_values(mesh.normals, normals, normal_taken, mesh.corner_normal, begin, end, [&](const Vec3f& n) {

@@ -24,11 +24,19 @@ struct GltfSampler {
     bool operator==(const GltfSampler&) const = default;
 };
 
+/// KHR_texture_transform, for uvs whose v points down: u and v are scaled, then turned (from v towards u), then moved.
+struct GltfTransform {
+    double offset_u = 0, offset_v = 0, rotation = 0, scale_u = 1, scale_v = 1;
+
+    bool operator==(const GltfTransform&) const = default;
+};
+
 struct GltfTexture {
-    std::uint32_t image = no_index;
+    std::uint32_t image = no_index; ///< no_index: in a format that an extension brings, which is not read
     std::uint32_t uv_set = 0;
     double scale = 1; ///< scale of a normalTexture, strength of an occlusionTexture
     GltfSampler sampler;
+    GltfTransform transform{};
 
     bool operator==(const GltfTexture&) const = default;
 };
@@ -50,7 +58,7 @@ struct GltfMaterial {
 struct GltfNode {
     std::string name;
     std::size_t first_face = 0, end_face = 0;
-    float to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    double to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
     bool operator==(const GltfNode&) const = default;
 };
@@ -65,6 +73,7 @@ struct Gltf {
     std::vector<GltfMaterial> materials;
     std::vector<GltfImage> images;
     std::vector<GltfNode> nodes;
+    std::vector<std::string> notes; ///< what reading applied that the mesh alone does not show, one line each
 };
 
 struct GltfOptions {
@@ -73,12 +82,27 @@ struct GltfOptions {
 
 /// Reads .gltf (with buffers and images embedded or in files) or .glb: the default scene, or all nodes if there is no scene,
 /// or all meshes if there is no node. Reads triangle lists, strips (without triangles of two equal indices) and fans, and
-/// sparse and quantised accessors. A mesh of several nodes is repeated per node. Points, lines, skins, morph targets,
-/// cameras, lights and animations are skipped. Within a node equal positions are merged, and at one position equal normals
-/// and equal uvs, so that only uvs and normals have seams.
+/// sparse and quantised accessors. A mesh of several nodes, or of several instances (EXT_mesh_gpu_instancing), is repeated
+/// per node or instance. Morph targets are applied with the default weights, skins in the pose of the nodes; the transform
+/// of a skinned node is ignored, as the format asks. Hidden nodes (KHR_node_visibility), points, lines, cameras, lights and
+/// animations are skipped. Within a node equal positions are merged, and at one position equal normals and equal uvs, so
+/// that only uvs and normals have seams.
 /// Throws Error{Refusal::unreadable} with the file and the fault. Throws Error{Refusal::unsuitable} for required extensions
-/// that are not supported (Draco), files without triangles, and meshes that do not fit in memory.
+/// that are not supported, meshes compressed by Draco or meshoptimizer without an uncompressed copy, files without
+/// triangles, and meshes that do not fit in memory.
 Gltf read_gltf(const std::string& path, const GltfOptions& options = {});
+
+struct GltfUvOptions {
+    int uv_set = -1;    ///< set of uvs to take for all faces; -1: of each face the set of its material
+    bool flip_v = true; ///< as in GltfOptions
+};
+
+/// Replaces the uvs of the mesh by those at which a renderer samples what is baked for it. The set of a material is that of
+/// its normal texture, else of its base colour, else of its metallic-roughness texture, else 0. The uvs are moved by the
+/// KHR_texture_transform of the material's first texture on the set, in the order normal, base colour, metallic-roughness,
+/// emissive, occlusion. The attribute TEXCOORD_n of a face that takes set n receives the former uvs. Adds notes.
+/// Throws Error{Refusal::unsuitable} if the mesh does not have the set that the options name.
+void take_texture_uvs(Gltf& gltf, const std::string& path, const GltfUvOptions& options = {});
 
 /// All nodes in world space as one mesh, as returned by read_mesh() for .gltf and .glb. Mirroring nodes reverse their faces,
 /// so that front faces stay counter-clockwise, and flip the sign of tangents. Transformed normals and tangents are

@@ -9,27 +9,58 @@ namespace {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
 }
 
-std::optional<GltfTexture> texture_of(const tinygltf::Model& model, std::size_t images, int index, int uv_set,
-                                      double scale, const std::string& path) {
-    if (index < 0) return {};
-    if (std::size_t(index) >= model.textures.size())
-        refuse(path, "asks for texture " + std::to_string(index) + " of " + std::to_string(model.textures.size()));
-    const tinygltf::Texture& from = model.textures[std::size_t(index)];
-    if (from.source < 0) return {}; // of an extension's format
-    if (std::size_t(from.source) >= images)
-        refuse(path, "asks for image " + std::to_string(from.source) + " of " + std::to_string(images));
-    if (uv_set < 0) refuse(path, "asks for the uv set " + std::to_string(uv_set));
-    GltfTexture out{std::uint32_t(from.source), std::uint32_t(uv_set), scale, {}};
-    if (from.sampler < 0) return out;
-    if (std::size_t(from.sampler) >= model.samplers.size())
-        refuse(path,
-               "asks for sampler " + std::to_string(from.sampler) + " of " + std::to_string(model.samplers.size()));
-    const tinygltf::Sampler& sampler = model.samplers[std::size_t(from.sampler)];
+/// A list of `count` numbers of an extension; `fallback` if it has none of that name.
+std::vector<double> numbers(const tinygltf::Value& from, const char* name, std::vector<double> fallback,
+                            const std::string& path) {
+    if (!from.Has(name)) return fallback;
+    const tinygltf::Value& value = from.Get(name);
+    std::vector<double> out;
+    if (value.IsNumber()) out.push_back(value.GetNumberAsDouble());
+    for (std::size_t i = 0; value.IsArray() && i < value.ArrayLen(); ++i)
+        if (value.Get(i).IsNumber()) out.push_back(value.Get(i).GetNumberAsDouble());
+    if (out.size() != fallback.size())
+        refuse(path, std::string("has a texture transform whose ") + name + " is no number");
+    return out;
+}
+
+/// KHR_texture_transform, which may name another set of uvs than the texture itself.
+void read_transform(const tinygltf::ExtensionMap& extensions, GltfTexture& out, const std::string& path) {
+    const auto found = extensions.find("KHR_texture_transform");
+    if (found == extensions.end() || !found->second.IsObject()) return;
+    const tinygltf::Value& from = found->second;
+    const std::vector<double> offset = numbers(from, "offset", {0, 0}, path),
+                              scale = numbers(from, "scale", {1, 1}, path);
+    out.transform = {offset[0], offset[1], numbers(from, "rotation", {0}, path)[0], scale[0], scale[1]};
+    const double set = numbers(from, "texCoord", {double(out.uv_set)}, path)[0];
+    if (!(set >= 0 && set < 1000)) refuse(path, "asks for the uv set " + std::to_string(set));
+    out.uv_set = std::uint32_t(set);
+}
+
+GltfSampler sampler_of(const tinygltf::Model& model, int index, const std::string& path) {
+    if (std::size_t(index) >= model.samplers.size())
+        refuse(path, "asks for sampler " + std::to_string(index) + " of " + std::to_string(model.samplers.size()));
+    const tinygltf::Sampler& sampler = model.samplers[std::size_t(index)];
     const auto wrap = [](int code) { return code == 33071 || code == 33648 ? code : 10497; };
     const auto filter = [](int code) { return code == 9728 || code == 9729 ? code : 0; };
     const int least = sampler.minFilter;
-    out.sampler = {wrap(sampler.wrapS), wrap(sampler.wrapT), least >= 9984 && least <= 9987 ? least : filter(least),
-                   filter(sampler.magFilter)};
+    return {wrap(sampler.wrapS), wrap(sampler.wrapT), least >= 9984 && least <= 9987 ? least : filter(least),
+            filter(sampler.magFilter)};
+}
+
+template <class Info>
+std::optional<GltfTexture> texture_of(const tinygltf::Model& model, std::size_t images, const Info& info, double scale,
+                                      const std::string& path) {
+    if (info.index < 0) return {};
+    if (std::size_t(info.index) >= model.textures.size())
+        refuse(path, "asks for texture " + std::to_string(info.index) + " of " + std::to_string(model.textures.size()));
+    const tinygltf::Texture& from = model.textures[std::size_t(info.index)];
+    if (from.source >= 0 && std::size_t(from.source) >= images)
+        refuse(path, "asks for image " + std::to_string(from.source) + " of " + std::to_string(images));
+    if (info.texCoord < 0) refuse(path, "asks for the uv set " + std::to_string(info.texCoord));
+    GltfTexture out{.uv_set = std::uint32_t(info.texCoord), .scale = scale};
+    if (from.source >= 0) out.image = std::uint32_t(from.source); // else of an extension's format
+    if (from.sampler >= 0) out.sampler = sampler_of(model, from.sampler, path);
+    read_transform(info.extensions, out, path);
     return out;
 }
 
@@ -37,7 +68,7 @@ GltfMaterial material_of(const tinygltf::Model& model, const tinygltf::Material&
                          const std::string& path) {
     GltfMaterial out;
     const auto texture = [&](const auto& info, double scale = 1) {
-        return texture_of(model, images, info.index, info.texCoord, scale, path);
+        return texture_of(model, images, info, scale, path);
     };
     out.name = from.name;
     out.normal = texture(from.normalTexture, from.normalTexture.scale);

@@ -8,8 +8,8 @@ class Model;
 
 namespace bake {
 
-/// All materials of the model, whose file has `images` images. Textures whose image is given by an extension are
-/// skipped. Throws Error{Refusal::unreadable} for the index of a texture, image or sampler that does not exist.
+/// All materials of the model, whose file has `images` images. Textures whose image is given by an extension have
+/// no image. Throws Error{Refusal::unreadable} for the index of a texture, image or sampler that does not exist.
 std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size_t images, const std::string& path);
 
 } // namespace bake

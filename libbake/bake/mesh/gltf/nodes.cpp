@@ -1,9 +1,9 @@
 #include "bake/mesh/gltf/nodes.h"
 #include "bake/base/error.h"
+#include <algorithm>
 #include <cmath>
 
 namespace bake {
-namespace {
 
 Transform product(const Transform& a, const Transform& b) noexcept {
     Transform out{};
@@ -12,8 +12,6 @@ Transform product(const Transform& a, const Transform& b) noexcept {
             for (std::size_t k = 0; k < 4; ++k) out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
     return out;
 }
-
-} // namespace
 
 Transform local_transform(const std::vector<double>& matrix, const std::vector<double>& translation,
                           const std::vector<double>& rotation, const std::vector<double>& scale) {
@@ -39,41 +37,81 @@ Transform local_transform(const std::vector<double>& matrix, const std::vector<d
     return out;
 }
 
-std::vector<GltfPlacement> place_nodes(const std::vector<GltfSourceNode>& nodes, const std::vector<int>& roots,
-                                       const std::string& path) {
-    const auto refuse = [&path](int node, const std::string& why) {
+namespace {
+
+/// A walk through the nodes.
+struct Walk {
+    const std::vector<GltfSourceNode>& nodes;
+    const std::string& path;
+    std::vector<bool> met;
+    GltfPlacements out;
+
+    [[noreturn]] void refuse(int node, const std::string& why) const {
         throw Error(Refusal::unreadable,
                     path + ": its node " + std::to_string(node) + " " + why + "; export the file again");
-    };
+    }
+};
+
+void place(Walk& walk, std::size_t node, const Transform& to_world) {
+    GltfPlacement place{node, {}};
+    for (std::size_t k = 0; k < 16; ++k) {
+        place.to_world[k] = to_world[k];
+        if (!std::isfinite(float(to_world[k]))) walk.refuse(int(node), "has a transform that is not finite");
+    }
+    walk.out.placed.push_back(place);
+}
+
+/// Walks from the roots. Places their meshes and refuses faults if `shown`; the transforms are computed in any case.
+void walk_from(Walk& walk, const std::vector<int>& roots, bool shown) {
     struct Visit {
         int node;
         Transform parent;
+        bool shown;
     };
-    std::vector<GltfPlacement> out;
-    std::vector<bool> met(nodes.size());
     std::vector<Visit> open; // a stack: chains of nodes may be longer than ours of calls
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, local_transform({}, {}, {}, {})});
+        open.push_back({*root, local_transform({}, {}, {}, {}), shown});
     while (!open.empty()) {
         const Visit visit = open.back();
         open.pop_back();
         const auto i = std::size_t(visit.node);
-        if (visit.node < 0 || i >= nodes.size()) refuse(visit.node, "is not one of " + std::to_string(nodes.size()));
-        if (met[i]) refuse(visit.node, "is met twice: nodes are to be a tree");
-        met[i] = true;
-        const Transform to_world = product(visit.parent, nodes[i].transform);
-        if (nodes[i].mesh >= 0) {
-            GltfPlacement place{i, {}};
-            for (std::size_t k = 0; k < 16; ++k) {
-                place.to_world[k] = float(to_world[k]);
-                if (!std::isfinite(place.to_world[k])) refuse(visit.node, "has a transform that is not finite");
-            }
-            out.push_back(place);
+        if (!shown && (visit.node < 0 || i >= walk.nodes.size() || walk.met[i])) continue;
+        if (visit.node < 0 || i >= walk.nodes.size())
+            walk.refuse(visit.node, "is not one of " + std::to_string(walk.nodes.size()));
+        if (walk.met[i]) walk.refuse(visit.node, "is met twice: nodes are to be a tree");
+        walk.met[i] = true;
+        const GltfSourceNode& node = walk.nodes[i];
+        const Transform to_world = walk.out.world[i] = product(visit.parent, node.transform);
+        const bool here = visit.shown && node.visible;
+        if (node.mesh >= 0 && here) {
+            // The joints alone place a skinned mesh. Spec 3.7.3.1.
+            if (node.skin >= 0) place(walk, i, local_transform({}, {}, {}, {}));
+            else if (!node.instances) place(walk, i, to_world);
+            else
+                for (const Transform& instance : *node.instances) place(walk, i, product(to_world, instance));
         }
-        for (auto child = nodes[i].children.rbegin(); child != nodes[i].children.rend(); ++child)
-            open.push_back({*child, to_world});
+        walk.out.hidden += shown && node.mesh >= 0 && !here;
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+            open.push_back({*child, to_world, here});
     }
-    return out;
+}
+
+} // namespace
+
+GltfPlacements place_nodes(const std::vector<GltfSourceNode>& nodes, const std::vector<int>& roots,
+                           const std::string& path) {
+    Walk walk{nodes, path, std::vector<bool>(nodes.size()), {}};
+    walk.out.world.resize(nodes.size());
+    walk_from(walk, roots, true);
+    // Joints need not belong to the scene that is shown. Faults among the other nodes do no harm.
+    std::vector<bool> child(nodes.size());
+    for (const GltfSourceNode& node : nodes)
+        for (const int c : node.children)
+            if (c >= 0 && std::size_t(c) < nodes.size()) child[std::size_t(c)] = true;
+    const bool skinned = std::any_of(nodes.begin(), nodes.end(), [](const GltfSourceNode& n) { return n.skin >= 0; });
+    for (std::size_t i = 0; skinned && i < nodes.size(); ++i)
+        if (!walk.met[i] && !child[i]) walk_from(walk, {int(i)}, false);
+    return std::move(walk.out);
 }
 
 } // namespace bake

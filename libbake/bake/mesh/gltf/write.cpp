@@ -2,6 +2,7 @@
 #include "bake/base/text.h"
 #include "bake/base/version.h"
 #include "bake/mesh/gltf/geometry.h"
+#include "bake/mesh/origin.h"
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -88,7 +89,7 @@ std::vector<Semantic> semantics_of(const Mesh& mesh) {
 }
 
 /// Whether a viewer can split it into move, turn and stretch: no shear, nothing flat, the last row that of a placement.
-bool decomposes(const float (&m)[16]) noexcept {
+bool decomposes(const double (&m)[16]) noexcept {
     if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return false;
     const auto column = [&m](int c) { return Vec3d(m[4 * c], m[4 * c + 1], m[4 * c + 2]); };
     double largest = 0;
@@ -234,6 +235,11 @@ void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, cons
     json info = {{"index", place_of(layout.root["textures"], std::move(source))}};
     if (texture->uv_set != 0) info["texCoord"] = texture->uv_set;
     if (scale && texture->scale != 1) info[scale] = texture->scale;
+    if (const GltfTransform& t = texture->transform; !(t == GltfTransform())) {
+        info["extensions"]["KHR_texture_transform"] = {
+            {"offset", {t.offset_u, t.offset_v}}, {"rotation", t.rotation}, {"scale", {t.scale_u, t.scale_v}}};
+        layout.root["extensionsUsed"] = {"KHR_texture_transform"};
+    }
     to[key] = std::move(info);
 }
 
@@ -305,6 +311,16 @@ void write_beside(const std::string& path, Layout& layout, const Images& images)
 
 bool is_identity(const GltfNode& node) { return std::equal(node.to_world, node.to_world + 16, GltfNode().to_world); }
 
+/// The node's transform in the words of the format, after the origin of the mesh is added to it.
+void add_transform(GltfNode node, const Vec3d& origin, json& to) {
+    const bool moves_only = std::equal(node.to_world, node.to_world + 12, GltfNode().to_world);
+    for (int k = 0; k < 3; ++k) node.to_world[12 + k] += origin[k];
+    const double* const move = node.to_world + 12;
+    if (!moves_only) to["matrix"] = node.to_world;
+    else if (origin != Vec3d(0)) to["translation"] = {move[0], move[1], move[2]};
+    else if (!is_identity(node)) to["matrix"] = node.to_world;
+}
+
 GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& mesh) {
     refuse_unless_finite(mesh, path);
     const bool binary = ending(path) == ".glb";
@@ -327,7 +343,7 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
         json object;
         if (!nodes[i].name.empty()) object["name"] = utf8(nodes[i].name);
         object["mesh"] = add_mesh(layout, mesh, geometry[i], semantics, nodes[i].name, done);
-        if (!is_identity(nodes[i])) object["matrix"] = nodes[i].to_world;
+        add_transform(nodes[i], mesh.origin, object);
         layout.root["nodes"].push_back(std::move(object));
         layout.root["scenes"][0]["nodes"].push_back(i);
     }
@@ -353,6 +369,7 @@ GltfWritten write_gltf(const std::string& path, const Gltf& gltf) {
     for (GltfNode& node : moved.nodes)
         if (!shears(node)) std::copy_n(GltfNode().to_world, 16, node.to_world);
     moved.mesh = flatten(std::move(moved));
+    move_origin(moved.mesh, Vec3d(0)); // the other nodes keep their local space
     if (gltf.mesh.groups.empty()) moved.mesh.groups = {}, moved.mesh.face_group = {}; // nodes stay nodes
     moved.materials = gltf.materials, moved.images = gltf.images, moved.nodes = gltf.nodes;
     for (GltfNode& node : moved.nodes)

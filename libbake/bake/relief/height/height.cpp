@@ -27,7 +27,7 @@ std::vector<float> grey_weights(const std::string& path, const ImageInfo& info, 
     switch (grey) {
     case Grey::mean:
         if (colours.empty()) throw missing("colour");
-        if (colours.size() > 3) colours.resize(3);
+        colours.resize(std::min(colours.size(), std::size_t(info.colours > 0 ? info.colours : 3)));
         for (const int c : colours) weights[c] = 1;
         break;
     case Grey::luma:
@@ -94,11 +94,12 @@ void count_levels(HeightTexture& height, const Image<float>& picture, const std:
     const std::vector<float> levels = used_levels(picture, channel);
     const bool many = levels.size() > most_levels;
     height.levels = many ? most_levels + 1 : int(levels.size());
-    const int bits = height.info.bits;
-    const double stored =
-        height.info.type == SampleType::u8 || height.info.type == SampleType::u16 ? 1.0 / (std::exp2(bits) - 1) : 0.0;
-    // A 16-bit file with at most 256 levels is an 8-bit height. No step is smaller than that of the type.
-    height.step = many ? stored : std::max(stored, smallest_step(levels));
+    // A 16-bit file with at most 256 levels is an 8-bit height. Levels of palettes are not those of the indices, so that
+    // the stored depth counts only where there are more levels than a palette has.
+    const double least = height.info.type == SampleType::u8    ? 1.0 / 255
+                         : height.info.type == SampleType::u16 ? 1.0 / 65535
+                                                               : level_step(height.info);
+    height.step = many ? level_step(height.info) : std::max(least, smallest_step(levels));
 }
 
 void refuse_bad_values(const std::string& path, const Image<float>& values) {
@@ -129,6 +130,7 @@ HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& 
     Image<float> picture = read_image(path, &height.info, limits);
     const std::vector<float> weights = grey_weights(path, height.info, grey);
     count_levels(height, picture, weights);
+    if (grey == Grey::mean || grey == Grey::luma) height.kind = guess_kind(picture, height.info);
     const int channels = picture.channels(), width = picture.width();
     if (channels == 1) {
         height.values = std::move(picture);
@@ -149,14 +151,15 @@ HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& 
             }
         });
     }
-    const SampleType type = height.info.type;
-    if (type != SampleType::u8 && type != SampleType::u16 && type != SampleType::u32)
-        refuse_bad_values(path, height.values);
+    if (!is_integer(height.info.type)) refuse_bad_values(path, height.values);
+    if (height.info.palette)
+        height.info.notes.push_back("is a picture of palette colours: the height is the grey of each colour");
     return height;
 }
 
-void invert(HeightTexture& height) {
-    for (float* v = height.values.data(); v != height.values.data() + height.values.size(); ++v) *v = 1 - *v;
+void invert(HeightTexture& height, std::optional<double> midlevel) {
+    const auto twice = float(2 * midlevel.value_or(default_midlevel(height.info)));
+    for (float* v = height.values.data(); v != height.values.data() + height.values.size(); ++v) *v = twice - *v;
 }
 
 Image<float> box_minify(const Image<float>& values, int width, int height) {

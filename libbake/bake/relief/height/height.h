@@ -5,6 +5,8 @@
 #include "bake/base/vec.h"
 #include "bake/picture/image_io.h"
 #include "bake/relief/height/border.h"
+#include "bake/relief/height/picture_kind.h"
+#include <optional>
 
 namespace bake {
 
@@ -18,8 +20,9 @@ enum class Grey { mean, r, g, b, a, luma };
 struct HeightTexture {
     Image<float> values; ///< one channel; [0,1] for integer files
     ImageInfo info;
-    int levels = 0;  ///< number of different values in one channel, counted up to 257
-    double step = 0; ///< difference of neighbouring levels; 0: too small to matter (float files)
+    int levels = 0;   ///< number of different values in one channel, counted up to 257
+    double step = 0;  ///< difference of neighbouring levels; 0: too small to matter (float files)
+    PictureKind kind; ///< of the picture, if its colour channels were averaged; grey otherwise
 };
 
 /// Reads a height picture, without decoding sRGB. `mean` averages the colour channels, without alpha; `luma` weights
@@ -27,8 +30,9 @@ struct HeightTexture {
 /// or values beyond 1e12 (the message has their count and the position of the first).
 HeightTexture read_height(const std::string& path, Grey grey = Grey::mean, const ReadLimits& limits = {});
 
-/// Replaces every value by 1 - value, for textures in which black is high.
-void invert(HeightTexture& height);
+/// Replaces every value by 2 midlevel - value, which is 1 - value for integers: for textures in which black is high. Unless
+/// given, the midlevel is default_midlevel().
+void invert(HeightTexture& height, std::optional<double> midlevel = {});
 
 /// Box-filters the height by integer factors to at least width x height texels, against aliasing in smaller maps.
 Image<float> box_minify(const Image<float>& values, int width, int height);

@@ -17,6 +17,7 @@ std::string_view name(Filter filter) noexcept {
     case Filter::order4: return "order4";
     case Filter::order6: return "order6";
     case Filter::c2: return "c2";
+    case Filter::count: break;
     }
     return "";
 }
@@ -46,7 +47,8 @@ Stencil stencil(Filter filter) {
     case Filter::order6: return {{45.0 / 60, -9.0 / 60, 1.0 / 60}, 0, 6};
     case Filter::c2: return {spline_taps(spline_tap_count), 0, 3, true};
     case Filter::central: return {{0.5}, 0, 2};
-    case Filter::automatic: break;
+    case Filter::automatic:
+    case Filter::count: break;
     }
     assert(!"automatic is resolved before");
     return {};

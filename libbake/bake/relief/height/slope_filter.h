@@ -1,11 +1,11 @@
 // Derivative filters: slopes of a height image at its texel centres.
 //
-// Scharr, Optimal Operators in Digital Image Processing, 2000, for the
-// cross smoothing of that name; the c2 filter is the derivative of the interpolating cubic spline, whose slopes m solve
-// m[i-1] + 4 m[i] + m[i+1] = 3 (h[i+1] - h[i-1]).
+// scharr smooths across by the weights of Scharr, Optimal Operators in Digital Image Processing, 2000. c2 is the
+// derivative of the interpolating cubic spline; its slopes m solve m[i-1] + 4 m[i] + m[i+1] = 3 (h[i+1] - h[i-1]).
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/relief/height/border.h"
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -19,51 +19,57 @@ enum class Filter {
     order4,
     order6,
     c2,
+    count ///< number of enumerators, not a filter
 };
-inline constexpr Filter all_filters[] = {Filter::central, Filter::sobel,  Filter::scharr,
-                                         Filter::order4,  Filter::order6, Filter::c2};
+/// Every filter of the enum but automatic, in its order.
+inline constexpr auto all_filters = [] {
+    std::array<Filter, std::size_t(Filter::count) - 1> filters{};
+    for (std::size_t i = 0; i < filters.size(); ++i) filters[i] = Filter(i + 1);
+    return filters;
+}();
 /// "auto", "central", "sobel", "scharr", "order4", "order6", "c2"
 std::string_view name(Filter filter) noexcept;
 
-/// The stencil: slope = sum over k of tap[k-1] (s[+k] - s[-k]), s being the row itself or, where side > 0, the row
-/// smoothed across by (side, 1 - 2 side, side).
+/// slope = sum over k of taps[k-1] (s[+k] - s[-k]). s is the row of texels; if side > 0, s is the row smoothed across
+/// by the weights (side, 1 - 2 side, side).
 struct Stencil {
     std::vector<double> taps;
     double side = 0;
-    int border_degree = 2; ///< of the polynomial beyond a clamped border
-    bool spline = false;   ///< the taps are the cubic spline's: SlopeFilter then works by spline_slope.h, to rounding
+    int border_degree = 2; ///< degree of the polynomial beyond a clamped border, at most largest_degree
+    bool spline = false;   ///< taps of the cubic spline: SlopeFilter then uses spline_slope.h
     int reach() const noexcept { return int(taps.size()); }
-    /// Response along the axis at w radians per texel over that of the true derivative, the other axis being at w_cross.
+    /// Frequency response divided by that of the exact derivative, at w radians per texel along the axis and w_cross
+    /// across.
     double gain(double w, double w_cross = 0) const noexcept;
-    /// Root of the sum of the squared weights: standard deviation of the slope for texel noise of standard deviation 1.
+    /// Standard deviation of the slope for texel noise of standard deviation 1: the root of the sum of squared weights.
     double noise() const noexcept;
 };
-/// automatic is not a stencil (assert).
+/// `filter` must not be automatic (assert).
 Stencil stencil(Filter filter);
-/// The central difference of order 128, right to 1e-3 up to .8 of the highest frequency: the reference without oracle.
+/// The central difference of order 128, accurate to 1e-3 up to .8 of the Nyquist frequency: a reference for any height.
 Stencil sharp_stencil();
-/// Noise (as Stencil::noise) of the difference of two filters' slopes.
+/// Noise (as Stencil::noise) of the difference between the slopes of two filters.
 double noise_of_difference(const Stencil& a, const Stencil& b);
 
-/// Slopes of a one-channel image, ready to be computed row by row on any thread.
+/// Computes the slopes of a one-channel image row by row, on any thread.
 template <class T> class SlopeFilter {
 public:
-    /// The image must outlive it.
+    /// The image must outlive this object.
     SlopeFilter(const Image<T>& image, const Stencil& stencil, Wrap wrap_u, Wrap wrap_v);
     SlopeFilter(const Image<T>& image, Filter filter, Wrap wrap_u, Wrap wrap_v)
         : SlopeFilter(image, stencil(filter), wrap_u, wrap_v) {}
 
-    /// Room that row() works in; one per thread. It keeps a block of the spline's slopes across rows, so that rows asked
-    /// for in order cost least.
+    /// Buffers of row(), one object per thread. They keep the spline's slopes across a block of rows, so that row() is
+    /// fastest if it is called for consecutive rows.
     struct Scratch {
         std::vector<T> a, b;
         std::uint64_t filter = 0; ///< id of the filter that filled the block
         int block = -1;
     };
-    /// Writes scale_u * slope along +u and scale_v * slope along +v (v is up: towards row 0) of row y, per texel, as
-    /// width interleaved pairs.
+    /// Writes one pair per texel of row y: scale_u * slope along +u, scale_v * slope along +v (v points up, towards
+    /// row 0). `out` has 2 * width values.
     void row(int y, T scale_u, T scale_v, T* out, Scratch& scratch) const;
-    /// The pair of texel (x, y) alone, to rounding: for samples of a large image.
+    /// The pair of one texel, equal to that of row() up to rounding: for a few samples of a large image.
     std::pair<T, T> at(int x, int y, T scale_u, T scale_v) const noexcept;
 
 private:
@@ -78,7 +84,7 @@ private:
     int reach_;
     std::vector<T> taps_;
     ExtendedRows<T> rows_;
-    std::uint64_t id_; ///< no other filter of this run has it
+    std::uint64_t id_; ///< unique among the filters of the process
 };
 
 } // namespace bake

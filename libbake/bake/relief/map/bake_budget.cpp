@@ -19,6 +19,7 @@ BudgetInput common_input(const HeightTexture& height, const HeightField& field, 
     input.values = &field.values();
     // Averaging whole blocks of texels averages their quantisation too.
     input.step = height.step / std::sqrt(double(height.values.size()) / double(field.values().size()));
+    input.lossy = is_lossy(height.info);
     input.options = options.height_options;
     input.filter = resolve_filter(options.filter, height);
     input.method = options.method;
@@ -85,7 +86,10 @@ BudgetInput table_budget(const HeightTexture& height, const BumpTableOptions& op
         if (code) return code->decode(code->encode(float(value))) / per_uv;
         return float(value) / per_uv;
     };
-    BudgetInput input{.values = &height.values, .step = height.step, .filter = resolve_filter(options.filter, height)};
+    BudgetInput input{.values = &height.values,
+                      .step = height.step,
+                      .lossy = is_lossy(height.info),
+                      .filter = resolve_filter(options.filter, height)};
     input.options = {.amplitude = options.amplitude, .wrap_u = options.wrap_u, .wrap_v = options.wrap_v};
     input.jet = [plane = plane_jet(resolve_extent(options.extent_u, options.extent_v, width, rows))](double, double) {
         return plane;

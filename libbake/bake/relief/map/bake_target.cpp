@@ -26,16 +26,13 @@ ConstantScale<float> mean_scale(const MeshSurface& s) {
 
 } // namespace
 
-BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height) {
+BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height, int tile) {
     if (mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs; unwrap the mesh first");
     BakeTarget target;
     target.surface = make_mesh_surface(mesh);
     target.tangents = corner_tangents(mesh, target.surface.triangles, target.surface.n);
-    target.raster = uv_raster(mesh, target.surface.triangles, width, height);
+    target.raster = chart_raster(mesh, target.surface.triangles, width, height, tile, path);
     target.scale = mean_scale(target.surface);
-    if (target.raster.covered + target.raster.border == 0)
-        throw Error(Refusal::unsuitable,
-                    path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
     return target;
 }
 

@@ -3,7 +3,7 @@
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/displaced_normal.h"
 #include "bake/surface/chart/mesh_surface.h"
-#include "bake/surface/chart/uv_raster.h"
+#include "bake/surface/chart/uv_tiles.h"
 
 namespace bake {
 
@@ -20,6 +20,7 @@ struct NormalMapOptions {
     Space space = Space::tangent;
     bool directx = false; ///< green points down
     int padding = 16;     ///< texels filled beyond the charts' borders
+    int tile = 0;         ///< UDIM number of the tile whose charts are baked; 0: all charts, modulo 1
 };
 
 /// What a bake needs of its mesh, computed once: jets, tangent space, and the triangle under each texel.
@@ -29,7 +30,8 @@ struct BakeTarget {
     UvRaster raster;
     ConstantScale<float> scale; ///< mean |p_u| and |p_v| over the charts
 };
-/// The mesh must outlive the result. Throws Error{Refusal::unsuitable}, which names `path`, for a mesh without uvs.
-BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height);
+/// The mesh must outlive the result. Throws Error{Refusal::unsuitable}, which names `path`, for a mesh without uvs and for
+/// charts that chart_raster() refuses.
+BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height, int tile = 0);
 
 } // namespace bake

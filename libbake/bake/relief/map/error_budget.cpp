@@ -92,6 +92,7 @@ ErrorBudget error_budget(const BudgetInput& in) {
     }
     ErrorBudget budget;
     budget.samples = sum.samples;
+    budget.lossy = in.lossy;
     if (sum.samples == 0) return budget;
     const auto rms_deg = [&](double squares) {
         return std::min(180.0, glm::degrees(std::sqrt(std::max(0.0, squares) / sum.samples)));
@@ -100,12 +101,13 @@ ErrorBudget error_budget(const BudgetInput& in) {
     budget.quantisation_deg = rms_deg(sum.quantisation);
     budget.encoding_deg = rms_deg(sum.encoding);
     budget.method_deg = rms_deg(sum.method);
-    budget.total_deg = 1.5 * std::hypot(std::hypot(budget.filter_deg, budget.quantisation_deg),
-                                        std::hypot(budget.encoding_deg, budget.method_deg));
+    budget.total_deg = std::min(180.0, 1.5 * std::hypot(std::hypot(budget.filter_deg, budget.quantisation_deg),
+                                                        std::hypot(budget.encoding_deg, budget.method_deg)));
     return budget;
 }
 
 std::optional<FilterAdvice> better_filter(const BudgetInput& input, const ErrorBudget& own) {
+    if (input.lossy || !own.judged()) return {};
     // A coarse lattice is enough to rank them; the best is measured again as its own bake would be.
     BudgetInput other = input;
     other.lattice = 24;

@@ -8,6 +8,9 @@
 // - encoding: difference between the normals and the same normals written and read back;
 // - method: difference between the normals of the chosen method and of `exact`;
 // - total: 1.5 times the root of the sum of the squares. Tests check that the measured error is below it.
+//
+// No angle is above 180 degrees. The terms are first-order estimates: a total above judged_up_to_deg says only that the
+// slopes are too steep for their texels. The error of lossy compression of the height is not included.
 #pragma once
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/displaced_normal.h"
@@ -16,14 +19,21 @@
 
 namespace bake {
 
+/// Largest total that means something.
+inline constexpr double judged_up_to_deg = 45;
+
 struct ErrorBudget {
     double filter_deg = 0, quantisation_deg = 0, encoding_deg = 0, method_deg = 0, total_deg = 0;
     int samples = 0;
+    bool lossy = false; ///< the height's compression changed it by an error that is not included
+
+    bool judged() const noexcept { return total_deg <= judged_up_to_deg; }
 };
 
 struct BudgetInput {
     const Image<float>* values = nullptr; ///< the height at the resolution that is baked
     double step = 0;                      ///< quantisation step of the values
+    bool lossy = false;                   ///< see ErrorBudget
     HeightOptions options;
     Filter filter = Filter::central; ///< not automatic
     NormalMethod method = NormalMethod::exact;
@@ -38,7 +48,8 @@ struct BudgetInput {
 ErrorBudget error_budget(const BudgetInput& input);
 
 /// The filter with the smallest total on this height, if that total is below three quarters of the total of `own`, the
-/// budget of input.filter; otherwise nothing.
+/// budget of input.filter; otherwise nothing. Nothing for a lossy height, whose compression noise the budget takes for fine
+/// relief, and nothing if the budget of input.filter cannot be judged.
 struct FilterAdvice {
     Filter filter;
     double total_deg;

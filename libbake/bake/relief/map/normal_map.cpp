@@ -124,7 +124,8 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
         },
         progress);
     const UvRaster& raster = target.raster;
-    report = {raster.covered, raster.border, raster.overlapped, raster.outside_faces, raster.crossing_faces};
+    report = {raster.covered,       raster.border,         raster.overlapped,
+              raster.outside_faces, raster.crossing_faces, raster.tiles};
     report.flat_triangles = raster.degenerate;
     for (const Triangle& t : target.surface.triangles)
         for (const std::uint32_t corner : t.corner)

@@ -13,13 +13,13 @@ class Progress;
 struct NormalMapReport {
     std::int64_t covered = 0, border = 0, overlapped = 0; ///< as UvRaster
     std::int64_t outside_faces = 0, crossing_faces = 0;   ///< as UvRaster
+    std::string tiles;                                    ///< as UvRaster
     std::int64_t flat_triangles = 0;                      ///< without area in uv
     std::int64_t triangles_without_uv = 0;
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
-    std::int64_t folded =
-        0; ///< texels where the displaced surface is inside out (folds()): blinn replaces exact there
+    std::int64_t folded = 0; ///< texels where the displaced surface is inside out (folds()): blinn replaces exact there
 };
 
 /// Height and slopes at the texel centres of a map.

@@ -1,5 +1,6 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/keep_used.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/surface/analytic/parametric_shapes.h"
 
@@ -55,20 +56,6 @@ struct Sharing {
         return grid.at(i == grid.columns && surface.closure_u() != Closure::open ? 0 : i, j);
     }
 };
-
-/// Keeps the values that `index` names, in order of first use, and renumbers it.
-template <class T> std::vector<T> used(const std::vector<T>& values, std::vector<std::uint32_t>& index) {
-    std::vector<std::uint32_t> number(values.size(), no_index);
-    std::vector<T> out;
-    for (std::uint32_t& i : index) {
-        if (number[i] == no_index) {
-            number[i] = std::uint32_t(out.size());
-            out.push_back(values[i]);
-        }
-        i = number[i];
-    }
-    return out;
-}
 
 /// Positions of Bezier patches: corners first, then the inner points of the borders, then those of the patches.
 struct BezierSharing {
@@ -172,8 +159,8 @@ Mesh tessellate(const ParametricSurface& surface, int columns, int rows) {
                 }
                 mesh.face_begin.push_back(std::uint32_t(mesh.corner_position.size()));
             }
-    mesh.positions = used(mesh.positions, mesh.corner_position);
-    mesh.normals = used(mesh.normals, mesh.corner_normal);
+    keep_used(mesh.positions, mesh.corner_position);
+    keep_used(mesh.normals, mesh.corner_normal);
     return mesh;
 }
 

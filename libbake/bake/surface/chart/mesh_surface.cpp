@@ -1,5 +1,6 @@
 #include "bake/surface/chart/mesh_surface.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/facet_normal.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,15 +31,6 @@ Around around_positions(const Mesh& mesh, const std::vector<Triangle>& triangles
 }
 
 Vec3d position(const Mesh& mesh, std::uint32_t corner) { return Vec3d(mesh.positions[mesh.corner_position[corner]]); }
-
-/// The facet normal times the angle at corner k, zero for a triangle without area.
-Vec3d angle_weighted_normal(const Mesh& mesh, const Triangle& t, std::uint32_t k) {
-    const Vec3d p = position(mesh, t.corner[k]);
-    const Vec3d a = unit_or_zero(position(mesh, t.corner[(k + 1) % 3]) - p);
-    const Vec3d b = unit_or_zero(position(mesh, t.corner[(k + 2) % 3]) - p);
-    const Vec3d cross = glm::cross(a, b);
-    return unit_or_zero(cross) * std::atan2(glm::length(cross), glm::dot(a, b));
-}
 
 std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles, const Around& around) {
     std::vector<Vec3f> n(mesh.corners(), Vec3f(0));

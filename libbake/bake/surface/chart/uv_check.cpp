@@ -78,28 +78,13 @@ constexpr int udim_columns = 10, udim_rows = 900; // 1001 to 9999
 void find_tiles(const Mesh& mesh, UvCheck& check) {
     std::vector<char> used(udim_columns * udim_rows, 0);
     for (std::size_t f = 0; f < mesh.faces(); ++f) {
-        Vec2d low(1e30), high(-1e30);
-        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
-            if (mesh.corner_uv[c] == no_index) continue;
-            const Vec2d uv(mesh.uvs[mesh.corner_uv[c]]);
-            low = {std::min(low.x, uv.x), std::min(low.y, uv.y)};
-            high = {std::max(high.x, uv.x), std::max(high.y, uv.y)};
-        }
-        if (!(low.x < high.x && low.y < high.y))
-            continue; // a face without area on the border of two tiles is in neither
-        // A face that ends at the border of a tile, up to rounding, is not in the next tile.
-        constexpr double slack = 1e-5;
-        const auto first = [](double a, double b) { return std::floor(std::min(a + slack, 0.5 * (a + b))); };
-        const auto last = [](double a, double b) {
-            return std::max(std::floor(std::min(a + slack, 0.5 * (a + b))), std::ceil(b - slack) - 1);
-        };
-        const double u0 = first(low.x, high.x), v0 = first(low.y, high.y), u1 = last(low.x, high.x),
-                     v1 = last(low.y, high.y);
-        check.crossing_faces += u0 != u1 || v0 != v1;
-        check.outside_faces += u0 < 0 || v0 < 0 || u1 >= udim_columns || v1 >= udim_rows;
-        const auto column_end = int(std::min(u1, udim_columns - 1.0)), row_end = int(std::min(v1, udim_rows - 1.0));
-        for (int v = int(std::clamp(v0, 0.0, 1.0 * udim_rows)); v <= row_end; ++v)
-            for (int u = int(std::clamp(u0, 0.0, 1.0 * udim_columns)); u <= column_end; ++u)
+        const TileRange range = tiles_of_face(mesh, f);
+        if (range.empty) continue;
+        const auto [first, last] = std::pair(range.first, range.last);
+        check.crossing_faces += first != last;
+        check.outside_faces += first.u < 0 || first.v < 0 || last.u >= udim_columns || last.v >= udim_rows;
+        for (int v = std::clamp(first.v, 0, udim_rows); v <= std::min(last.v, udim_rows - 1); ++v)
+            for (int u = std::clamp(first.u, 0, udim_columns); u <= std::min(last.u, udim_columns - 1); ++u)
                 used[v * udim_columns + u] = 1;
     }
     for (int tile = 0; tile < udim_columns * udim_rows; ++tile)
@@ -141,6 +126,7 @@ UvCheck check_uvs(const Mesh& mesh, const std::vector<Triangle>& triangles, cons
     if (!any) return check;
     measure_triangles(mesh, triangles, options.zero_area, check);
     find_tiles(mesh, check);
+    check.tiles = uv_tiles(mesh, triangles, options.overlap_size);
     measure_overlap(mesh, triangles, options.overlap_size, check);
     return check;
 }

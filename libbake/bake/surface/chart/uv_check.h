@@ -1,6 +1,6 @@
 // Checks the UV charts of a mesh before a bake.
 #pragma once
-#include "bake/mesh/triangulate.h"
+#include "bake/surface/chart/uv_tiles.h"
 
 namespace bake {
 
@@ -25,6 +25,7 @@ struct UvCheck {
     std::vector<int> udim_tiles;          ///< 1001 + floor(u) + 10 floor(v), ascending
     std::size_t outside_faces = 0;        ///< faces that are wholly or partly outside the UDIM tiles
     std::size_t crossing_faces = 0;       ///< faces in more than one tile
+    UvTiles tiles;                        ///< how a bake places the charts
     Spread density;                       ///< sqrt(uv area / area): its median, and p5 and p95 divided by the median
     Spread stretch;                       ///< ratio of the singular values of the map uv to surface, at least 1
 };

@@ -20,6 +20,7 @@ struct UvRaster {
     std::int64_t outside_faces = 0;  ///< faces with no point in the unit square
     std::int64_t crossing_faces = 0; ///< faces partly outside the unit square
     std::int64_t degenerate = 0;     ///< triangles without area in uv, which cover nothing
+    std::string tiles; ///< of chart_raster(): the tiles whose charts lie in it, if not the unit square alone
 };
 
 /// Rasterises the unit square [0,1]^2 of the UV chart to width x height texels; the image is empty if either is below

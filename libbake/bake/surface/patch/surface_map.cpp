@@ -2,10 +2,11 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/picture/pad_texels.h"
-#include "bake/surface/chart/uv_raster.h"
+#include "bake/surface/chart/uv_tiles.h"
 #include "bake/surface/patch/patch_locator.h"
 #include <algorithm>
 #include <atomic>
+#include <glm/common.hpp>
 
 namespace bake {
 
@@ -75,22 +76,23 @@ public:
     TexelFinder(const BaseSurface& surface, const SurfaceMesh& mesh)
         : surface_(surface), mesh_(mesh), locator_(surface) {}
 
-    /// `hit` is the point of the mesh at the texel's centre, or nearest to it.
-    Located find(const TexelHit& hit, const Vec2d& centre) const noexcept {
+    /// `hit` is the point of the mesh at the texel's centre, or nearest to it; it may lie in another tile than the texel.
+    Located find(const TexelHit& hit, const Vec2d& texel_centre) const noexcept {
         const TrianglePlace& place = mesh_.places[hit.triangle];
         const double b1 = hit.b1, b2 = hit.b2;
         const auto mix = [&](const Vec2d& a, const Vec2d& b, const Vec2d& c) {
             return (1 - b1 - b2) * a + b1 * b + b2 * c;
         };
         const Vec2d st = mix(place.st[0], place.st[1], place.st[2]);
-        if (mesh_.kind != SurfaceKind::mesh) return locator_.locate(centre, place.patch, st);
-
-        Located at{place.patch, st, {}, 0};
         const Mesh& mesh = mesh_.mesh;
         const Triangle& triangle = mesh_.triangles[hit.triangle];
         const auto uv = [&](std::uint32_t corner) { return Vec2d(mesh.uvs[mesh.corner_uv[corner]]); };
-        const std::uint32_t first = mesh.face_begin[triangle.face];
         const Vec2d target = mix(uv(triangle.corner[0]), uv(triangle.corner[1]), uv(triangle.corner[2]));
+        const Vec2d centre = texel_centre + glm::round(target - texel_centre);
+        if (mesh_.kind != SurfaceKind::mesh) return locator_.locate(centre, place.patch, st);
+
+        Located at{place.patch, st, {}, 0};
+        const std::uint32_t first = mesh.face_begin[triangle.face];
         if (mesh.face_begin[triangle.face + 1] - first == 4) {
             const Vec2d corners[4] = {uv(first), uv(first + 1), uv(first + 2), uv(first + 3)};
             at.st = invert_bilinear(corners, target, st);
@@ -114,10 +116,7 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
     if (mesh.mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, path + ": has no uvs, which maps need; unwrap the mesh first");
     const int width = options.width, height = options.height;
-    const UvRaster raster = uv_raster(mesh.mesh, mesh.triangles, width, height);
-    if (raster.covered + raster.border == 0)
-        throw Error(Refusal::unsuitable,
-                    path + ": no face has area in the unit square of its uvs; unwrap the mesh into it");
+    const UvRaster raster = chart_raster(mesh.mesh, mesh.triangles, width, height, options.tile, path);
     std::vector<Image<float>> maps;
     for (const MapQuantity q : quantities) maps.emplace_back(width, height, channels(q));
     Image<unsigned char> level(width, height, 1);
@@ -157,6 +156,7 @@ std::vector<Image<float>> surface_maps(const BaseSurface& surface, const Surface
               .degenerate = degenerate,
               .outside_faces = raster.outside_faces,
               .crossing_faces = raster.crossing_faces,
+              .tiles = raster.tiles,
               .residual = *std::max_element(residuals.begin(), residuals.end())};
     Image<float> scratch(width, height, 1);
     std::fill_n(scratch.data(), scratch.size(), 0.0f);

@@ -28,6 +28,7 @@ int channels(MapQuantity quantity) noexcept;
 struct SurfaceMapOptions {
     int width = 1024, height = 1024; ///< texels
     int padding = 16;                ///< texels filled beyond the charts' borders
+    int tile = 0;                    ///< UDIM number of the tile whose charts are shown; 0: all charts, modulo 1
 };
 
 struct SurfaceMapReport {
@@ -38,12 +39,13 @@ struct SurfaceMapReport {
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at zero
     std::int64_t outside_faces = 0, crossing_faces = 0; ///< of the mesh, as UvRaster
+    std::string tiles;                                  ///< as UvRaster
     double residual = 0; ///< largest distance in uv between the centre of a covered texel and the point shown
 };
 
 /// One image per quantity. The rasterised mesh gives the patch of each texel. On limit surfaces and shapes, where uv is not
 /// linear in the parameters of the patch, Newton's method then finds the parameters, in neighbouring patches if need be.
-/// Throws Error{Refusal::unsuitable}, naming `path`, for a surface without uvs or none in the unit square.
+/// Throws Error{Refusal::unsuitable}, naming `path`, for a surface without uvs and for charts that chart_raster() refuses.
 std::vector<Image<float>> surface_maps(const BaseSurface& surface, const SurfaceMesh& mesh,
                                        std::span<const MapQuantity> quantities, const SurfaceMapOptions& options,
                                        const std::string& path, SurfaceMapReport& report, Progress* progress = nullptr);

@@ -1,6 +1,7 @@
 #include "bake/surface/patch/surface_mesh.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/keep_used.h"
 #include "bake/surface/chart/tangent_space.h"
 #include "bake/surface/patch/tessellator.h"
 #include "bake/surface/point/curvature.h"
@@ -53,21 +54,6 @@ SurfaceSample sample_at(const BaseSurface& surface, std::uint32_t patch, const V
     if (out.n == Vec3f(0)) out.n = Vec3f(values.n);
     out.mean = float(values.mean_curvature), out.gauss = float(values.gauss_curvature);
     return out;
-}
-
-/// Keeps the values that `index` names, in order of first use, and renumbers it.
-template <class T> void keep_used(std::vector<T>& values, std::vector<std::uint32_t>& index) {
-    std::vector<std::uint32_t> number(values.size(), no_index);
-    std::vector<T> out;
-    for (std::uint32_t& i : index) {
-        if (i == no_index) continue;
-        if (number[i] == no_index) {
-            number[i] = std::uint32_t(out.size());
-            out.push_back(values[i]);
-        }
-        i = number[i];
-    }
-    values = std::move(out);
 }
 
 /// The place of every triangle of a mesh or a shape, and of every corner in the first triangle that has it. Quads are one

@@ -1,6 +1,6 @@
 #include "bake/surface/patch/tessellator.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
-#include <sys/mman.h>
 
 namespace bake {
 namespace {
@@ -12,38 +12,28 @@ struct CellJob {
     bool whole() const noexcept { return row_end == 0; }
 };
 
-/// Sized, in huge pages where it is large: the system hands those out several times as fast.
-template <class T> void size_in_huge_pages(std::vector<T>& values, std::uint64_t count) {
-    constexpr std::uintptr_t huge = std::uintptr_t(2) << 20;
-    values.reserve(count);
-    const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + huge - 1) / huge * huge;
-    const auto end = reinterpret_cast<std::uintptr_t>(values.data() + count) / huge * huge;
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-    values.resize(count);
-}
-
 Mesh make_arrays(const PatchLayout& layout, const Mesh& base) {
     Mesh mesh;
     // The system clears fresh memory slowly: each array is sized by whichever thread is free.
     for_rows(9, 1, [&](std::int64_t which, std::int64_t) {
         switch (which) {
-        case 0: size_in_huge_pages(mesh.corner_position, layout.corners); break;
-        case 1: size_in_huge_pages(mesh.corner_normal, layout.corners); break;
+        case 0: resize_in_pages(mesh.corner_position, layout.corners); break;
+        case 1: resize_in_pages(mesh.corner_normal, layout.corners); break;
         case 2:
-            if (layout.has_uv) size_in_huge_pages(mesh.corner_uv, layout.corners);
+            if (layout.has_uv) resize_in_pages(mesh.corner_uv, layout.corners);
             break;
-        case 3: size_in_huge_pages(mesh.positions, layout.points); break;
-        case 4: size_in_huge_pages(mesh.normals, layout.normals); break;
-        case 5: size_in_huge_pages(mesh.uvs, layout.uvs); break;
-        case 6: size_in_huge_pages(mesh.face_begin, layout.faces + 1); break;
+        case 3: resize_in_pages(mesh.positions, layout.points); break;
+        case 4: resize_in_pages(mesh.normals, layout.normals); break;
+        case 5: resize_in_pages(mesh.uvs, layout.uvs); break;
+        case 6: resize_in_pages(mesh.face_begin, layout.faces + 1); break;
         case 7:
-            if (!base.face_material.empty()) size_in_huge_pages(mesh.face_material, layout.faces);
+            if (!base.face_material.empty()) resize_in_pages(mesh.face_material, layout.faces);
             break;
         default:
-            if (!base.face_group.empty()) size_in_huge_pages(mesh.face_group, layout.faces);
+            if (!base.face_group.empty()) resize_in_pages(mesh.face_group, layout.faces);
         }
     });
-    mesh.materials = base.materials, mesh.groups = base.groups;
+    mesh.materials = base.materials, mesh.groups = base.groups, mesh.origin = base.origin;
     return mesh;
 }
 

@@ -1,7 +1,8 @@
 // OpenSubdiv accepts non-manifold, flipped and duplicate faces without an error and builds some surface from them. Here
 // the cage is built with OpenMesh's half-edges, which represent oriented manifolds only. If OpenMesh refuses a face, the
 // first fault is located with the edge table of mesh/topology, which represents any polygons. The time of add_face()
-// is proportional to the valence of the vertices.
+// is proportional to the valence of the vertices, so that the faces around a vertex take a time proportional to the
+// square of their number. The edge table takes linear time and alone decides on cages with a vertex of high valence.
 #include "bake/base/error.h"
 #include "bake/mesh/number_distinct.h"
 #include "bake/mesh/topology.h"
@@ -19,6 +20,7 @@ using Index = std::uint32_t;
 using OpenMesh::PolyConnectivity, OpenMesh::VertexHandle;
 
 constexpr Index most_around = 65000; ///< faces at a vertex, corners of a face: OpenSubdiv counts both in 16 bits
+constexpr Index high_valence = 64;   ///< faces at a vertex, from which on OpenMesh is not used
 
 // Counted from 1, as in OBJ files.
 std::string face(Index f) { return "face " + std::to_string(std::uint64_t(f) + 1); }
@@ -28,7 +30,7 @@ class Checker {
 public:
     Checker(const Mesh& cage, const std::string& path) : cage_(cage), path_(path) {}
 
-    void check_sizes(Scheme scheme) const {
+    void check_sizes(Scheme scheme) {
         // OpenSubdiv stores patch numbers in 28 bits.
         if (cage_.corners() >= std::size_t(1) << 28) refuse("the cage has more than 2^28 corners", "split it");
         std::vector<Index> valence(cage_.positions.size(), 0);
@@ -43,6 +45,7 @@ public:
                 if (++valence[v] > most_around)
                     refuse("more than 65000 faces meet at " + vertex(v), "split the cage there");
         }
+        highest_valence_ = valence.empty() ? 0 : *std::max_element(valence.begin(), valence.end());
     }
 
     /// Faces that use a vertex twice, and faces with the same vertices in any order.
@@ -68,30 +71,25 @@ public:
                 refuse(face(first) + " and " + face(f) + " lie on the same vertices", "remove one of them");
     }
 
-    PolyConnectivity connect() const {
-        // OpenMesh reports each refused face on stderr, which is ours to write.
-        [[maybe_unused]] static const bool silenced = (omerr().disable(), true);
-        PolyConnectivity mesh;
-        mesh.reserve(cage_.positions.size(), cage_.corners() / 2, cage_.faces());
-        for (std::size_t v = 0; v < cage_.positions.size(); ++v) mesh.add_vertex();
-        std::vector<VertexHandle> ring;
-        bool manifold = true;
-        for (Index f = 0; f < cage_.faces() && manifold; ++f) {
-            ring.clear();
-            for (const Index v : ring_of(f)) ring.emplace_back(int(v));
-            manifold = mesh.add_face(ring).is_valid();
-        }
-        for (std::size_t v = 0; v < cage_.positions.size() && manifold; ++v)
-            manifold = mesh.is_manifold(VertexHandle(int(v)));
-        if (!manifold) refuse_connectivity();
-        return mesh;
+    void check_connectivity() const {
+        if (highest_valence_ < high_valence && openmesh_accepts()) return;
+        refuse_faults();
+        if (highest_valence_ < high_valence)
+            refuse("OpenMesh cannot represent the faces of the cage", "check the cage");
     }
 
-    void check_tags(const PolyConnectivity& mesh) const {
+    void check_tags() const {
         const std::size_t positions = cage_.positions.size();
+        std::vector<SideEnds> edges; // sorted
+        if (!cage_.tags.creases.empty()) {
+            edges.reserve(cage_.corners());
+            for (Index f = 0; f < cage_.faces(); ++f)
+                for (const std::span<const Index> ring = ring_of(f); const Index v : ring)
+                    edges.push_back(ordered(v, &v == &ring.back() ? ring.front() : *(&v + 1)));
+            std::sort(edges.begin(), edges.end());
+        }
         for (const SubdivisionTags::Crease& crease : cage_.tags.creases) {
-            if (crease.a >= positions || crease.b >= positions ||
-                !mesh.find_halfedge(VertexHandle(int(crease.a)), VertexHandle(int(crease.b))).is_valid())
+            if (!std::binary_search(edges.begin(), edges.end(), ordered(crease.a, crease.b)))
                 refuse("there is a crease between " + vertex(crease.a) + " and " + vertex(crease.b) + ", but no edge",
                        "remove the crease");
             assert(std::isfinite(crease.sharpness));
@@ -113,8 +111,28 @@ private:
     }
     std::span<const Index> ring_of(Index f) const noexcept { return ring_of(f, cage_.corner_position); }
 
+    static SideEnds ordered(Index a, Index b) noexcept { return {std::min(a, b), std::max(a, b)}; }
+
+    bool openmesh_accepts() const {
+        // OpenMesh reports each refused face on stderr, which is ours to write.
+        [[maybe_unused]] static const bool silenced = (omerr().disable(), true);
+        PolyConnectivity mesh;
+        mesh.reserve(cage_.positions.size(), cage_.corners() / 2, cage_.faces());
+        for (std::size_t v = 0; v < cage_.positions.size(); ++v) mesh.add_vertex();
+        std::vector<VertexHandle> ring;
+        for (Index f = 0; f < cage_.faces(); ++f) {
+            ring.clear();
+            for (const Index v : ring_of(f)) ring.emplace_back(int(v));
+            if (!mesh.add_face(ring).is_valid()) return false;
+        }
+        for (std::size_t v = 0; v < cage_.positions.size(); ++v)
+            if (!mesh.is_manifold(VertexHandle(int(v)))) return false;
+        return true;
+    }
+
     /// Names the first faulty edge, or the first faulty vertex if no edge is faulty. "First" is by the lowest corner.
-    [[noreturn]] void refuse_connectivity() const {
+    /// Returns if no edge and no vertex is faulty.
+    void refuse_faults() const {
         const HalfEdges he = make_half_edges(cage_); // no face repeats a vertex: half-edges have the numbers of corners
         const EdgeTable edges = make_edges(he);
         std::span<const Index> faulty;
@@ -144,11 +162,11 @@ private:
                        "give each of the two its own vertex");
             other = c;
         }
-        refuse("OpenMesh cannot represent the faces of the cage", "check the cage");
     }
 
     const Mesh& cage_;
     const std::string& path_;
+    Index highest_valence_ = 0;
 };
 
 } // namespace
@@ -157,10 +175,11 @@ void check_cage(const Mesh& cage, Scheme scheme, const std::string& path) {
     for ([[maybe_unused]] const Index p : cage.corner_position) assert(p < cage.positions.size());
     for ([[maybe_unused]] const Vec3f& p : cage.positions) assert(std::isfinite(p.x + p.y + p.z));
     for (std::size_t f = 0; f < cage.faces(); ++f) assert(cage.face_begin[f + 1] - cage.face_begin[f] >= 3);
-    const Checker checker(cage, path);
+    Checker checker(cage, path);
     checker.check_sizes(scheme);
     checker.check_faces();
-    checker.check_tags(checker.connect());
+    checker.check_connectivity();
+    checker.check_tags();
 }
 
 } // namespace bake

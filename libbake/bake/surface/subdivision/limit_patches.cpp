@@ -113,7 +113,7 @@ void points(const LimitPatches& limit, std::uint32_t patch, std::span<const Vec2
 template <int Degree, class LeafOf>
 int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps, int i, int last,
                const LeafOf& leaf_of) noexcept {
-    const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? 1 : 1 - b;
+    const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? leaf.end_a : 1 - b;
     const double line = (end_a - leaf.origin.x) / leaf.scale;
     int end = std::clamp(int(line * steps), i + 1, last + 1);
     if constexpr (Degree == 3) {

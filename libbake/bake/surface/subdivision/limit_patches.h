@@ -16,6 +16,7 @@ namespace bake {
 struct LimitLeaf {
     double scale;
     Vec2d origin;
+    double end_a = 1; ///< quads: where the leaf ends; below 1 if more leaves follow in the same square
 };
 
 /// A patch: a face of the cage or one corner of a face, and the root of its tree.
@@ -29,7 +30,8 @@ struct LimitPatches {
     bool has_uv = false;
     std::vector<LimitPatch> patches;
     /// Four children per node. A child >= 0 is a node, a child < 0 is the leaf ~child. Children of quads: 0 1 at the lower
-    /// t, 2 3 at the upper t. Children of triangles: 0 1 2 at the corners, 3 (rotated) in the middle.
+    /// t, 2 3 at the upper t. Children of triangles: 0 1 2 at the corners, 3 (rotated) in the middle. Along a semi-sharp
+    /// crease, leaves are strips of a quad: their nodes name each child twice, and all have the a and b of the whole quad.
     std::vector<std::int32_t> nodes;
     std::vector<LimitLeaf> leaves;
     std::vector<double> position; ///< leaves * terms * 3: by exponent of b, then exponent of a, then x y z

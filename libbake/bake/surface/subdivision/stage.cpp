@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/sdc/crease.h>
 
 namespace bake {
 namespace {
@@ -28,12 +29,28 @@ Stage first_stage(const Mesh& cage, const SubdivisionOptions& options, LimitPatc
     return stage;
 }
 
-std::unique_ptr<Far::PatchTable> refine_topology(Stage& stage, bool uvs) {
+/// Whether patches along semi-sharp creases are cut into pieces (crease_pieces.h) and not refined. Far does not keep the crease in uvs
+/// that are smoothed up to a seam which meets it.
+bool cuts_creases(const Stage& stage, bool uvs, const SubdivisionOptions& options) {
+    if (options.scheme != Scheme::catmark) return false;
+    if (!uvs || options.uv != UvSmoothing::all) return true;
+    const Far::TopologyLevel& level = stage.refiner->GetLevel(0);
+    for (int e = 0; e < level.GetNumEdges(); ++e) {
+        const float sharpness = level.GetEdgeSharpness(e);
+        if (!(sharpness > 0 && sharpness < Sdc::Crease::SHARPNESS_INFINITE)) continue;
+        for (const Far::Index v : level.GetEdgeVertices(e))
+            if (!level.DoesVertexFVarTopologyMatch(v)) return false;
+    }
+    return true;
+}
+
+std::unique_ptr<Far::PatchTable> refine_topology(Stage& stage, bool uvs, bool cut_creases) {
     Far::PatchTableFactory::Options options(unsigned(stage.levels));
     options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
     options.SetPatchPrecision<double>();
     options.SetFVarPatchPrecision<double>();
     options.useInfSharpPatch = true;
+    options.useSingleCreasePatch = cut_creases;
     options.generateVaryingTables = false;
     options.generateFVarTables = uvs;
     options.generateFVarLegacyLinearPatches = false;
@@ -77,7 +94,7 @@ void make_patches(const Mesh& cage, const SubdivisionOptions& options, LimitPatc
     Stage stage = first_stage(cage, options, limit);
     const double size = diagonal(bounds(cage));
     for (;;) {
-        const auto table = refine_topology(stage, limit.has_uv);
+        const auto table = refine_topology(stage, limit.has_uv, cuts_creases(stage, limit.has_uv, options));
         refine_values(*stage.refiner, table->GetLocalPointStencilTable<double>(), false, stage.points);
         if (limit.has_uv)
             refine_values(*stage.refiner, table->GetLocalPointFaceVaryingStencilTable<double>(0), true, stage.uvs);

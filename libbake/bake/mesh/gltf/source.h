@@ -1,0 +1,34 @@
+// A glTF file that is being read: its document, the model parsed from it, and the bytes that both name.
+#pragma once
+#include "bake/mesh/gltf/accessor.h"
+#include "bake/mesh/gltf/document.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace bake {
+
+struct GltfSource {
+    const std::string& path;
+    const GltfDocument& document;
+    const tinygltf::Model& model;
+
+    /// Throws Error{Refusal::unreadable}.
+    [[noreturn]] void refuse(const std::string& why) const;
+};
+
+/// The bytes of a view; `what` names who wants them.
+std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what);
+
+/// The accessor of that number, all of its elements inside the buffers. `use` names who wants it.
+/// Throws Error{Refusal::unsuitable} for more elements than fit.
+GltfAccessor accessor_of(const GltfSource& source, int index, const std::string& use);
+
+/// As accessor_of(), for vectors of `components` floats. Throws for others, and for values that are not finite.
+std::vector<float> floats_of(const GltfSource& source, int index, int components, const std::string& use);
+
+/// Whether the accessor has no bytes of its own and no sparse ones: all of its values are 0.
+bool is_without_bytes(const GltfSource& source, int index);
+
+} // namespace bake

@@ -1,0 +1,14 @@
+// Radiance pictures (.hdr, .pic): shared exponents, in every order of the axes, with the run lengths of today and of the
+// first versions. OpenImageIO takes the latter for texels.
+#pragma once
+#include "bake/picture/picture_file.h"
+
+namespace bake {
+
+bool is_rgbe(const PictureFile& file) noexcept;
+
+/// Fills `info` from the header, and `image`, when given, as read_image does. Values are divided by the header's EXPOSURE
+/// and COLORCORR, as the format asks for. Throws as read_image.
+void read_rgbe(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
+
+} // namespace bake

@@ -1,0 +1,21 @@
+// What the sample type of a file says of its values as a height.
+#pragma once
+#include "bake/picture/image_types.h"
+
+namespace bake {
+
+/// Half, float and double: their values are lengths, those of integers fractions of the range.
+bool is_float(const ImageInfo& info) noexcept;
+/// Two's complement integers, read as fractions from -1 to 1.
+bool is_signed_integer(const ImageInfo& info) noexcept;
+
+/// The value of zero height unless the user gives one: 0 for floats and signed integers, which have a zero of their own,
+/// and 0.5 for unsigned integers.
+double default_midlevel(const ImageInfo& info) noexcept;
+
+/// The reader of the format gives fewer bits than the file has, as that of 16-bit DDS does.
+bool is_cut(const ImageInfo& info) noexcept;
+/// The format's compression changes values.
+bool is_lossy(const ImageInfo& info) noexcept;
+
+} // namespace bake
