@@ -83,9 +83,11 @@ public:
         std::vector<SideEnds> edges; // sorted
         if (!cage_.tags.creases.empty()) {
             edges.reserve(cage_.corners());
-            for (Index f = 0; f < cage_.faces(); ++f)
-                for (const std::span<const Index> ring = ring_of(f); const Index v : ring)
-                    edges.push_back(ordered(v, &v == &ring.back() ? ring.front() : *(&v + 1)));
+            for (Index f = 0; f < cage_.faces(); ++f) {
+                const std::span<const Index> ring = ring_of(f);
+                for (std::size_t k = 0; k < ring.size(); ++k)
+                    edges.push_back(ordered(ring[k], ring[(k + 1) % ring.size()]));
+            }
             std::sort(edges.begin(), edges.end());
         }
         for (const SubdivisionTags::Crease& crease : cage_.tags.creases) {
