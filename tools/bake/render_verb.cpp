@@ -1,5 +1,6 @@
 // bake render: a picture of a scene.
 #include "bake/base/output_file.h"
+#include "bake/base/text.h"
 #include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"
 #include "inputs/depth_option.h"
