@@ -60,7 +60,7 @@ nlohmann::json report(const Folder& folder, std::vector<std::string> arguments) 
     return nlohmann::json::parse(displaced(folder, std::move(arguments)).out);
 }
 
-Topology topology(const std::string& file) {
+Connectivity topology(const std::string& file) {
     const Mesh mesh = read_mesh(file);
     return check_mesh(mesh, triangulate(mesh)).welded;
 }
@@ -113,7 +113,7 @@ TEST_SUITE("cli") {
                 std::vector<std::string> arguments = base;
                 arguments.insert(arguments.end(), {"--height", waves(folder), "--amplitude", "1%", "-o", out});
                 const nlohmann::json result = report(folder, arguments);
-                const Topology t = topology(folder / out);
+                const Connectivity t = topology(folder / out);
                 CHECK(t.boundary_edges == 0);
                 CHECK(t.nonmanifold_edges == 0);
                 CHECK(t.flipped_faces == 0);

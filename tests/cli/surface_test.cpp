@@ -66,7 +66,7 @@ std::string cube_of_charts() {
     return text;
 }
 
-Topology topology(const std::string& file) {
+Connectivity topology(const std::string& file) {
     const Mesh mesh = read_mesh(file);
     return check_mesh(mesh, triangulate(mesh)).welded;
 }
@@ -166,7 +166,7 @@ TEST_SUITE("cli") {
             INFO(std::string(cage));
             write_mesh(folder / cage, read_mesh(folder / "cube.obj"));
             surface(folder, {cage, "--subdivide", "catmark", "-o", "limit.ply"});
-            const Topology limit = topology(folder / "limit.ply");
+            const Connectivity limit = topology(folder / "limit.ply");
             CHECK(limit.components == 1);
             CHECK(limit.boundary_edges == 0);
         }
@@ -278,7 +278,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
         CHECK(spot["degenerate_count"] == 0);
         write_mesh(folder / "spot.ply", read_mesh(meshes + "spot/spot_control_mesh.obj"));
         surface(folder, {"spot.ply", "--subdivide", "catmark", "-o", "limit.ply"});
-        const Topology of_ply = topology(folder / "limit.ply"), of_obj = topology(folder / "spot.glb");
+        const Connectivity of_ply = topology(folder / "limit.ply"), of_obj = topology(folder / "spot.glb");
         CHECK(of_ply.components == of_obj.components);
         CHECK(of_ply.boundary_edges == 0);
         // The surface through the limit points of Spot's own fine mesh has nearly its area.

@@ -14,7 +14,7 @@ using bake::Cube;
 using bake::Image;
 using bake::Vec3d;
 
-/// Unit direction through the point (sc, tc) in [-1, 1]^2 of a face, from ORACLES's table.
+/// Unit direction through the point (sc, tc) in [-1, 1]^2 of a face, from OpenGL's table.
 inline Vec3d face_direction(int face, double sc, double tc) {
     const Vec3d d[6] = {{1, -tc, -sc}, {-1, -tc, sc}, {sc, 1, tc}, {sc, -1, -tc}, {sc, -tc, 1}, {-sc, -tc, -1}};
     return glm::normalize(d[face]);

@@ -100,6 +100,11 @@ TEST_SUITE("unit") {
         REQUIRE(info.notes.size() == 1);
         CHECK(info.notes[0].find("orientation 6") != std::string::npos);
 
+        write_file(path, png_bytes(2, 1, 8, 0, {"\x10\x20"}, png_chunk("acTL", std::string("\0\0\0\2\0\0\0\0", 8))));
+        read_image(path, &info);
+        REQUIRE(info.notes.size() == 1);
+        CHECK(info.notes[0].find("animation") != std::string::npos);
+
         write_file(path, png_bytes(2, 1, 1, 3, {"\x40"}, png_chunk("PLTE", std::string("\0\0\0\xff\xff\xff", 6))));
         read_image(path, &info);
         CHECK_FALSE(info.palette); // a ramp of greys

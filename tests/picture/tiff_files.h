@@ -29,7 +29,7 @@ inline std::vector<unsigned char> packed_levels(const TiffPicture& p, std::size_
         const std::uint64_t level = p.levels[first + i * stride];
         for (int bit = 0; bit < p.bits; ++bit) {
             const std::size_t at = i * std::size_t(p.bits) + std::size_t(bit);
-            if (p.bits % 8 == 0 && p.bits <= 64 && p.bits != 24) // little endian
+            if (p.bits % 8 == 0) // little endian
                 bytes[at / 8] |= static_cast<unsigned char>((level >> bit & 1) << (at % 8));
             else bytes[at / 8] |= static_cast<unsigned char>((level >> (p.bits - 1 - bit) & 1) << (7 - at % 8));
         }

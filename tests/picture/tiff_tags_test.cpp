@@ -180,6 +180,15 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("tiff: a step of signed integers is that of their depth, whatever values are used") {
+        const Folder folder;
+        TiffPicture p{.width = 40, .height = 40, .bits = 16, .format = SAMPLEFORMAT_INT};
+        p.levels = some_levels(1600, 16);
+        write_tiff(folder / "a.tif", p);
+        CHECK(level_step(read_image_info(folder / "a.tif")) == doctest::Approx(1 / 32767.0));
+        CHECK(run_bake(folder, {"check", "a.tif"}).out.find("3.05e-05") != std::string::npos);
+    }
+
     TEST_CASE("tiff: colours of 16 bits are tagged by a profile, data are not") {
         const Folder folder;
         const std::string path = folder / "a.tif";

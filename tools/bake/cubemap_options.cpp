@@ -87,7 +87,7 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     sub.add_option("--yaw", args.yaw, "Turn the sky, degrees: what is ahead moves to the right")->capture_default_str();
     sub.add_option("--pitch", args.pitch, "Then what is ahead moves up")->capture_default_str();
     sub.add_option("--roll", args.roll, "Then the picture ahead turns clockwise")->capture_default_str();
-    sub.add_flag("--fix-orientation", args.reading.fix_orientation, "Turn and swap faces so that their seams match");
+    sub.add_flag("--fix-orientation", args.reading.fix_orientation, "Turn, swap or mirror faces so that their seams match");
     add_choice<BadPolicy>(sub, "--bad", args.target.bad,
                           {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}},
                           "NaN, infinite and negative texels, and with --depth half those too bright for it");

@@ -27,14 +27,13 @@ bool is_mirror_image(const Orientation& o) noexcept {
 
 std::string seams_note(const EnvironmentReport& report, bool fix) {
     const OrientationCheck& check = report.orientation;
-    const int open = check.open_given(), left = check.open_best();
-    if (!check.wrong && open > 0) return open_text(check) + "; no arrangement of the faces was found that closes them";
-    if (!check.wrong) return fix ? "all seams match as given; there is nothing to fix" : "";
+    const int open = check.open_given();
+    if (!check.wrong && check.visible())
+        return open_text(check) + "; no arrangement of the faces was found that closes them";
+    if (!check.wrong) return fix ? "no arrangement was found whose seams match better; the faces are as given" : "";
     std::string how = to_text(check.closes, report.files);
     if (is_mirror_image(check.closes)) how += " (seams cannot tell this from six faces that are all mirrored)";
-    const std::string effect = open == 0   ? "the seams match better"
-                               : left == 0 ? "they close"
-                                           : format("%d of them close", open - left);
+    const char* effect = open > 0 && check.open_best() == 0 ? "they close" : "the seams match better";
     const std::string before = open == 0 ? format("seam ratio %.2f", check.given) : open_text(check);
     if (report.fixed) return before + "; " + effect + format(" (seam ratio %.2f), done: ", check.best) + how;
     return before + "; " + effect + format(" (seam ratio %.2f) with ", check.best) + how +

@@ -61,7 +61,6 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     const Scene scene = load(entries);
     for (const std::string& line : scene.notes) note(common, line);
     watch.lap("load");
-    for (const std::string& line : scene.notes) note(common, line);
     Progress progress(common.quiet || common.json);
     RenderStats stats;
     Image<float> image = render(scene, scene.settings, &stats, &progress);
@@ -71,7 +70,6 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     const bool shown = depth == Depth::u8 || depth == Depth::u16;
     write_image(args.out, image, {.depth = depth, .colour = shown ? ColourSpace::srgb : ColourSpace::automatic});
     watch.lap("write");
-    for (const std::string& line : scene.notes) note(common, line);
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples too bright to store are black; dim the lights");
     report(args, scene, stats, watch, common.json);

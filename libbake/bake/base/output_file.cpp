@@ -16,11 +16,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The part of a name that other programs replace by the number of a tile or of a frame; empty if there is none.
-std::string number_place(std::string name) {
+std::string number_place(const std::string& written) {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+    std::string name = written;
     std::transform(name.begin(), name.end(), name.begin(), lower);
     for (const char* place : {"<udim>", "<uvtile>", "<tile>", "%(udim)d"})
-        if (name.find(place) != std::string::npos) return place;
+        if (const std::size_t at = name.find(place); at != std::string::npos)
+            return written.substr(at, std::string(place).size());
     for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
         std::size_t end = at + 1;
         while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end]))) ++end;

@@ -1,4 +1,4 @@
-// Borders that touch, but for the rounding of their positions: gaps along which a mesh would fall apart.
+// Gaps: boundary edges that coincide except for the rounding of their positions.
 #pragma once
 #include "bake/mesh/topology.h"
 

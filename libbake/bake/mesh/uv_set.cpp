@@ -68,6 +68,8 @@ void set_corner_uvs(Mesh& mesh, const CornerUvs& corners) {
         index[i] = std::uint32_t(mesh.uvs.size());
         mesh.uvs.push_back(corners.uv[distinct.first[i]]);
     }
+    mesh.corner_uv.clear();
+    if (mesh.uvs.empty()) return;
     mesh.corner_uv.resize(mesh.corners());
     for (std::size_t c = 0; c < mesh.corners(); ++c) mesh.corner_uv[c] = index[distinct.corner[c]];
 }

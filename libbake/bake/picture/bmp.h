@@ -1,4 +1,4 @@
-// BMP of 16 and 32 bits per texel, whose channels lie where masks say. OpenImageIO takes them to lie where they usually do.
+// Reads BMP of 16 and 32 bits per texel, whose channels are defined by bit masks. OpenImageIO ignores the masks.
 #pragma once
 #include "bake/picture/picture_file.h"
 

@@ -1,4 +1,4 @@
-// How the values of a picture of colour are encoded: what its file says, and the way back to linear light.
+// The encoding of colours as stated by a picture's file, and conversion to linear light.
 #pragma once
 #include "bake/picture/image.h"
 #include <string>
@@ -25,12 +25,12 @@ ToneCurve power_curve(double exponent);
 /// IEC 61966-2-1.
 ToneCurve srgb_curve();
 
-/// What a file says of its colours.
+/// The encoding of colours that a file states.
 struct ColourTag {
     std::string source = {}; ///< "sRGB chunk", "ICC profile", ...; empty: the file says nothing
     std::vector<ToneCurve> curves =
         {};                ///< one for all channels, or one each for red, green and blue; empty: not stated
-    std::string note = {}; ///< what is said and not applied, such as primaries other than those of sRGB
+    std::string note = {}; ///< what is stated but not applied, such as primaries other than those of sRGB
 
     bool is_srgb() const noexcept;
 };
@@ -39,13 +39,13 @@ struct ColourTag {
 /// and all others linear.
 enum class ColourSpace { automatic, srgb, linear };
 
-/// Turns a picture of colour into linear light, alpha left alone. Adds to info.notes what the file says of its colours that
-/// is not applied, and that integers of more than 8 bits without a tag were taken as linear.
+/// Converts a picture of colour to linear light, except alpha. Adds to info.notes what the file states about its colours
+/// but is not applied, and that integers of more than 8 bits without a tag were taken as linear.
 void linearise(Image<float>& image, ColourSpace space, ImageInfo& info);
 
-/// Decodes sRGB colour (IEC 61966-2-1) in place, alpha left alone: for colour textures and skies, never for data.
+/// Decodes sRGB (IEC 61966-2-1) in place, except alpha. For colour textures and skies, not for data.
 void srgb_to_linear(Image<float>& image, int alpha_channel = -1);
-/// The reverse, for pictures that people look at.
+/// Encodes a linear value as sRGB, for pictures that people look at.
 float linear_to_srgb(float linear) noexcept;
 
 } // namespace bake

@@ -1,30 +1,20 @@
 #include "bake/picture/exr.h"
-#include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/exr_frame.h"
 #include "bake/picture/exr_guard.h"
 #include "bake/picture/exr_layers.h"
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfEnvmap.h>
-#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfThreading.h>
-#include <OpenEXR/ImfTileDescriptionAttribute.h>
-#include <OpenEXR/ImfTiledOutputFile.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <mutex>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,16 +22,6 @@ namespace bake {
 namespace {
 
 constexpr int band_rows = 256; // a multiple of every compression's block of scan lines
-constexpr const char *cube_format = "CubeFace Environment", *latlong_format = "LatLong Environment";
-
-/// Threads of OpenEXR's own that help the one that calls it.
-int helpers() {
-    static std::mutex once_at_a_time;
-    const std::lock_guard lock(once_at_a_time);
-    const int wanted = thread_count() > 1 ? thread_count() : 0;
-    if (Imf::globalThreadCount() != wanted) Imf::setGlobalThreadCount(wanted);
-    return wanted;
-}
 
 class InputStream : public Imf::IStream {
 public:
@@ -89,7 +69,8 @@ Window window_of(const Imath::Box2i& box) {
 
 EnvironmentTag environment_tag(const Imf::Header& header, const Window& data) {
     const std::string format = text_attribute(header, "textureformat");
-    if (!Imf::hasEnvmap(header) && format != cube_format && format != latlong_format) return EnvironmentTag::none;
+    if (!Imf::hasEnvmap(header) && format != exr_cube_format && format != exr_latlong_format)
+        return EnvironmentTag::none;
     // The shape tells which of the two: exrenvmap passes the attribute of its input on unchanged.
     return data.height == 6 * std::int64_t(data.width) ? EnvironmentTag::cube : EnvironmentTag::latlong;
 }
@@ -134,21 +115,6 @@ ImageInfo describe(const Imf::Header& header, const LayerChoice& choice, const W
     info.colour.note = primaries_note(header);
     if (!choice.left_out.empty()) info.notes.push_back(left_out(choice));
     return info;
-}
-
-/// Slices of interleaved samples, of which `first` is the one at the window's upper left corner.
-template <class Sample>
-Imf::FrameBuffer frame_of(const Sample* first, const std::vector<std::string>& channels, int x, int y, int width) {
-    const std::size_t step = channels.size() * sizeof(Sample), row = step * std::size_t(width);
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        // The library adds the coordinates back; as numbers, for the origin may lie outside the memory.
-        const auto origin = reinterpret_cast<std::uintptr_t>(first + c) -
-                            std::uintptr_t(std::int64_t(x) * std::int64_t(step) + std::int64_t(y) * std::int64_t(row));
-        frame.insert(channels[c], Imf::Slice(sizeof(Sample) == 2 ? Imf::HALF : Imf::FLOAT,
-                                             reinterpret_cast<char*>(origin), step, row));
-    }
-    return frame;
 }
 
 } // namespace
@@ -208,7 +174,7 @@ int choose_part(const Imf::MultiPartInputFile& in) {
 
 bool read_parts(const PictureFile& file, InputStream& stream, const ReadLimits& limits, ImageInfo& info,
                 Image<float>* image) {
-    Imf::MultiPartInputFile in(stream, helpers());
+    Imf::MultiPartInputFile in(stream, exr_helpers());
     const int chosen = choose_part(in);
     if (chosen < 0) return false;
     Imf::InputPart part(in, chosen);
@@ -232,7 +198,7 @@ bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info
     InputStream stream(file);
     if (head[5] & many) return read_parts(file, stream, limits, info, image);
     if (head[5] & deep) return false;
-    Imf::InputFile in(stream, helpers());
+    Imf::InputFile in(stream, exr_helpers());
     return read_part(in, file, limits, info, image);
 } catch (const Error&) {
     throw;
@@ -240,139 +206,6 @@ bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info
     throw Error(Refusal::unsuitable, file.path() + ": needs more memory than there is; scale it down");
 } catch (const std::exception& error) {
     throw unreadable(file.path(), error.what());
-}
-
-namespace {
-
-/// Keeps the first failure, as the library ends files in destructors that pass none on.
-class OutputStream : public Imf::OStream {
-public:
-    explicit OutputStream(const std::string& temporary)
-        // The file is there and empty: one that is opened anew as empty is written to the disk by ext4 before it is closed.
-        : OStream(temporary.c_str()), file_(std::fopen(temporary.c_str(), "r+b")) {
-        if (!file_) keep_reason();
-    }
-    ~OutputStream() override { close(); }
-
-    void write(const char bytes[], int size) override {
-        if (file_ && std::fwrite(bytes, 1, std::size_t(size), file_) == std::size_t(size)) return;
-        keep_reason();
-        throw std::runtime_error(reason_);
-    }
-    std::uint64_t tellp() override { return std::uint64_t(ftello(file_)); }
-    void seekp(std::uint64_t at) override {
-        if (fseeko(file_, off_t(at), SEEK_SET) != 0) keep_reason();
-    }
-    void close() {
-        if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) keep_reason();
-    }
-    const std::string& reason() const noexcept { return reason_; }
-
-private:
-    void keep_reason() {
-        if (reason_.empty()) reason_ = std::strerror(errno);
-    }
-
-    std::FILE* file_;
-    std::string reason_;
-};
-
-Imf::Header header_for(const PictureSize& size, const WriteOptions& options) {
-    const Imath::Box2i data({0, 0}, {size.width - 1, size.height - 1});
-    const bool cube = options.environment == EnvironmentTag::cube;
-    Imf::Header header(cube ? Imath::Box2i({0, 0}, {size.width - 1, size.width - 1}) : data, data);
-    header.compression() = options.compression == Compression::none ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
-    for (const std::string& name : options.channels)
-        header.channels().insert(name, Imf::Channel(options.depth == Depth::half ? Imf::HALF : Imf::FLOAT));
-    if (options.environment != EnvironmentTag::none)
-        Imf::addEnvmap(header, cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
-    // What OpenImageIO's texture system looks at.
-    const char* const format = options.environment == EnvironmentTag::cube      ? cube_format
-                               : options.environment == EnvironmentTag::latlong ? latlong_format
-                               : options.mips                                   ? "Plain Texture"
-                                                                                : nullptr;
-    if (format) header.insert("textureformat", Imf::StringAttribute(format));
-    if (!options.description.empty()) header.insert("comments", Imf::StringAttribute(options.description));
-    if (options.mips) header.setTileDescription({64, 64, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN});
-    return header;
-}
-
-} // namespace
-
-struct ExrWriter::Impl {
-    std::string path;
-    OutputStream stream;
-    std::vector<std::string> channels;
-    int width;
-    bool half;
-    std::optional<Imf::OutputFile> lines = {};
-    std::optional<Imf::TiledOutputFile> tiles = {};
-    int level = 0, row = 0;
-    std::vector<Imath::half> halves = {};
-
-    [[noreturn]] void fail(const std::string& why) const {
-        throw Error(Refusal::unwritable, path + ": cannot be written (" + why + "); is the disk full?");
-    }
-    /// Calls into the library, whose exceptions become ours.
-    template <class Call> void attempt(Call&& call) {
-        try {
-            call();
-        } catch (const std::exception& error) {
-            fail(stream.reason().empty() ? one_line(error.what(), path) : stream.reason());
-        }
-    }
-    void write(const Imf::FrameBuffer& frame, int rows) {
-        if (lines) {
-            lines->setFrameBuffer(frame);
-            lines->writePixels(rows);
-            return;
-        }
-        const int size = int(tiles->tileYSize()), first = row / size;
-        tiles->setFrameBuffer(frame);
-        tiles->writeTiles(0, tiles->numXTiles(level) - 1, first, first + (rows + size - 1) / size - 1, level);
-    }
-};
-
-ExrWriter::ExrWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
-                     const WriteOptions& options)
-    : impl_(new Impl{path, OutputStream(temporary), options.channels, size.width, options.depth == Depth::half}) {
-    if (!impl_->stream.reason().empty()) impl_->fail(impl_->stream.reason());
-    impl_->attempt([&] {
-        const Imf::Header header = header_for(size, options);
-        if (options.mips) impl_->tiles.emplace(impl_->stream, header, helpers());
-        else impl_->lines.emplace(impl_->stream, header, helpers());
-    });
-}
-
-ExrWriter::~ExrWriter() = default;
-
-void ExrWriter::write(const float* values, int rows) {
-    const std::size_t row_size = std::size_t(impl_->width) * impl_->channels.size();
-    if (impl_->half) {
-        impl_->halves.resize(row_size * std::size_t(rows));
-        for_rows(rows, 64, [&](std::int64_t begin, std::int64_t end) {
-            for (std::size_t i = std::size_t(begin) * row_size; i < std::size_t(end) * row_size; ++i)
-                impl_->halves[i] = Imath::half(values[i]);
-        });
-    }
-    impl_->attempt([&] {
-        const int row = impl_->row, width = impl_->width;
-        impl_->write(impl_->half ? frame_of(impl_->halves.data(), impl_->channels, 0, row, width)
-                                 : frame_of(values, impl_->channels, 0, row, width),
-                     rows);
-    });
-    impl_->row += rows;
-}
-
-void ExrWriter::next_level() {
-    impl_->width = std::max(1, impl_->width / 2);
-    ++impl_->level, impl_->row = 0;
-}
-
-void ExrWriter::finish() {
-    impl_->lines.reset(), impl_->tiles.reset(); // writes the table of offsets
-    impl_->stream.close();
-    if (!impl_->stream.reason().empty()) impl_->fail(impl_->stream.reason());
 }
 
 } // namespace bake

@@ -1,5 +1,5 @@
-// Which channels of an OpenEXR picture are read: files of renderers hold depth, normals and further layers beside the
-// picture itself.
+// Selects the channels of an OpenEXR picture that are read. Files of renderers have depth, normals and further layers
+// beside the picture itself.
 #pragma once
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 
 namespace bake {
 
-/// What an ICC profile says of the pictures that carry it. Curves are those of its tags rTRC, gTRC, bTRC or kTRC, whatever
+/// The colour encoding that an ICC profile states. Curves are those of its tags rTRC, gTRC, bTRC or kTRC, whatever
 /// the profile is called. A profile of tables, or a damaged one, gives a note and no curve.
 ColourTag read_icc(std::string_view profile);
 

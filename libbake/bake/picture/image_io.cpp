@@ -4,6 +4,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/bmp.h"
+#include "bake/picture/dds.h"
 #include "bake/picture/exr.h"
 #include "bake/picture/icc.h"
 #include "bake/picture/picture_formats.h"
@@ -111,6 +112,7 @@ ImageInfo read_picture(const std::string& path, const ReadLimits& limits, Image<
     else if (is_tiff(file)) read_tiff(file, limits, info, image);
     else if (is_rgbe(file)) read_rgbe(file, limits, info, image);
     else if (is_masked_bmp(file)) read_masked_bmp(file, limits, info, image);
+    else if (is_wide_dds(file)) read_wide_dds(file, limits, info, image);
     else if (!is_exr(file) || !read_exr(file, limits, info, image)) read_by_openimageio(file, limits, info, image);
     return info;
 }

@@ -167,6 +167,9 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const Pictu
     const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
     if (spec.deep) throw unsuitable("is a deep image; flatten it");
+    const std::string sides = spec.get_string_attribute("dds:CubeMapSides"); // "+x -x +y -y +z -z"
+    if (!sides.empty() && std::count(sides.begin(), sides.end(), ' ') < 5)
+        throw unsuitable("is a cube map of the faces " + sides + " only; give one of all six faces");
     check_size(path, file.size(),
                {{spec.x, spec.y, spec.width, spec.height},
                 picture_window(spec),

@@ -65,7 +65,7 @@ public:
     /// Up to the first pixels, which are to come out as whole samples of 8 or 16 bits.
     bool read_header() noexcept {
         if (!info_ || setjmp(png_jmpbuf(png_))) return false;
-        keep_colour_chunks(png_);
+        keep_unknown_chunks(png_);
         png_read_info(png_, info_);
         const bool palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
         palette_ = palette && has_own_palette();
@@ -111,6 +111,7 @@ public:
         png_textp texts = nullptr;
         for (int i = png_get_text(png_, info_, &texts, nullptr); i-- > 0;)
             if (!std::strcmp(texts[i].key, "Description")) info.description = texts[i].text;
+        if (is_animation(png_, info_)) info.notes.push_back("is an animation: its first picture is read");
         if (info.channels.back() == "A") info.alpha_channel = int(info.channels.size()) - 1;
         info.colours = info.channels.size() < 3 ? 1 : 3;
         return info;

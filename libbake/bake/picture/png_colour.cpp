@@ -37,8 +37,15 @@ bool has_other_primaries(png_structp png, png_infop info) {
 
 } // namespace
 
-void keep_colour_chunks(png_structp png) {
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP"), 1);
+void keep_unknown_chunks(png_structp png) {
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP\0acTL"), 2);
+}
+
+bool is_animation(png_structp png, png_infop info) {
+    png_unknown_chunkp chunks = nullptr;
+    for (int i = png_get_unknown_chunks(png, info, &chunks); i-- > 0;)
+        if (std::memcmp(chunks[i].name, "acTL", 4) == 0) return true;
+    return false;
 }
 
 ColourTag read_png_colour(png_structp png, png_infop info) {

@@ -1,5 +1,5 @@
-// Radiance pictures (.hdr, .pic): shared exponents, in every order of the axes, with the run lengths of today and of the
-// first versions. OpenImageIO takes the latter for texels.
+// Reads Radiance pictures (.hdr, .pic): shared exponents, in every order of the axes, with the current run-length encoding
+// and with that of the first versions, which OpenImageIO reads as texels.
 #pragma once
 #include "bake/picture/picture_file.h"
 

@@ -189,7 +189,11 @@ void tell_associated_alpha(const TiffHeader& header, const Image<float>& image, 
 
 } // namespace
 
-bool is_tiff(const PictureFile& file) noexcept {
+bool is_tiff(const PictureFile& file) {
+    // The raw samples of cameras are in TIFF too, and need a decoder of their own.
+    constexpr std::string_view raw[] = {".dng", ".cr2", ".nef", ".nrw", ".arw", ".sr2", ".srf", ".pef",
+                                        ".srw", ".3fr", ".iiq", ".erf", ".mef", ".mos", ".dcr", ".kdc"};
+    if (std::find(std::begin(raw), std::end(raw), ending(file.path())) != std::end(raw)) return false;
     const std::string& head = file.head();
     for (const std::string_view magic : {"II*\0", "MM\0*", "II+\0", "MM\0+"})
         if (head.starts_with(std::string_view(magic.data(), 4))) return true;

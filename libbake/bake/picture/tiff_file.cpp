@@ -63,7 +63,8 @@ TiffFile::TiffFile(const PictureFile& file) : source_{file} {
 }
 
 std::string TiffFile::text(std::uint32_t tag) const {
-    const TIFFField* const field = TIFFFieldWithTag(tiff_, tag);
+    // The other look-up takes a tag that libtiff does not know for an error.
+    const TIFFField* const field = TIFFFindField(tiff_, tag, TIFF_ANY);
     if (!field || TIFFFieldDataType(field) != TIFF_ASCII) return {};
     char* text = nullptr;
     if (!TIFFFieldPassCount(field)) return TIFFGetField(tiff_, tag, &text) == 1 && text ? text : "";

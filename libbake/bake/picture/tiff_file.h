@@ -1,4 +1,4 @@
-// A TIFF file in the hands of libtiff, which reads it through PictureFile and prints nothing.
+// A TIFF file opened by libtiff, which reads it through PictureFile and prints nothing.
 #pragma once
 #include "bake/picture/picture_file.h"
 #include <string>
@@ -6,13 +6,13 @@
 
 namespace bake {
 
-/// What libtiff says while a file is open.
+/// Messages of libtiff while a file is open.
 struct TiffMessages {
     std::string error;      ///< the first one, with the system's reason
     bool cut_short = false; ///< a warning says that samples are missing
 };
 
-/// Has what libtiff says of one file kept in `messages`, which outlives the file. libtiff's other files keep their handlers.
+/// Stores libtiff's messages about one file in `messages`, which must outlive the file. Other files keep their handlers.
 class TiffOptions {
 public:
     explicit TiffOptions(TiffMessages& messages);
@@ -37,7 +37,7 @@ public:
     const PictureFile& file() const noexcept { return source_.file; }
     TiffMessages& messages() noexcept { return messages_; }
 
-    /// The value of a tag or its default; 0 where it has none.
+    /// The value of a tag, or its default; 0 if there is none.
     template <class Value> Value value(std::uint32_t tag) const {
         Value value{};
         return TIFFGetFieldDefaulted(tiff_, tag, &value) == 1 ? value : Value{};

@@ -1,4 +1,4 @@
-// What a directory of a TIFF file says of its picture.
+// The description of a picture in a directory of a TIFF file.
 #pragma once
 #include "bake/picture/tiff_file.h"
 #include "bake/picture/tiff_samples.h"
@@ -19,7 +19,7 @@ struct TiffHeader {
 /// Error{Refusal::unreadable} and Error{Refusal::unsuitable}.
 TiffHeader read_tiff_header(TiffFile& tiff, ImageInfo& info);
 
-/// Throws Error{Refusal::unreadable} when strips or tiles lie beyond the end of the file or hold too few bytes.
+/// Throws Error{Refusal::unreadable} if strips or tiles are beyond the end of the file or have too few bytes.
 void check_tiff_data(const TiffFile& tiff, const TiffHeader& header);
 
 } // namespace bake

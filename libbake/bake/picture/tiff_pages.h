@@ -1,4 +1,4 @@
-// Which picture of a TIFF file is read: files hold thumbnails, mip levels and further pages beside the one that is meant.
+// Selects the picture of a TIFF file that is read; others are thumbnails, mip levels and further pages.
 #pragma once
 #include "bake/picture/tiff_file.h"
 

@@ -64,6 +64,17 @@ void packed(const TiffSamples& samples, const unsigned char* from, float* to, st
     }
 }
 
+/// Samples of three bytes in this machine's order, as libtiff gives them.
+void triples(const TiffSamples& samples, const unsigned char* from, float* to, std::int64_t count) noexcept {
+    constexpr bool little = std::endian::native == std::endian::little;
+    const bool with_sign = samples.format == SAMPLEFORMAT_INT;
+    const double step = 1 / (std::ldexp(1.0, 24 - with_sign) - 1);
+    for (std::int64_t i = 0; i < count; ++i, from += 3) {
+        const int level = from[little ? 2 : 0] << 16 | from[1] << 8 | from[little ? 0 : 2];
+        to[i] = float((with_sign && level >> 23 ? level - (1 << 24) : level) * step);
+    }
+}
+
 void indices(const TiffSamples& samples, const unsigned char* from, float* to, std::int64_t count, bool swapped) {
     to_floats({.bits = samples.bits}, from, to, count, swapped);
     const float largest = std::ldexp(1.0f, samples.bits) - 1;
@@ -119,6 +130,7 @@ void to_floats(const TiffSamples& samples, const unsigned char* from, float* to,
     case 16:
         return with_sign ? levels<std::int16_t>(from, to, count, swapped)
                          : levels<std::uint16_t>(from, to, count, swapped);
+    case 24: return triples(samples, from, to, count);
     case 32:
         return with_sign ? levels<std::int32_t>(from, to, count, swapped)
                          : levels<std::uint32_t>(from, to, count, swapped);

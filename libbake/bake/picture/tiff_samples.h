@@ -1,4 +1,4 @@
-// Samples of TIFF files as floats: every depth and format, palettes, inverted greys, inks.
+// Converts the samples of TIFF files to floats: all depths and formats, palettes, inverted greys, inks.
 #pragma once
 #include "bake/picture/image_types.h"
 #include <cstdint>
@@ -22,7 +22,7 @@ SampleType sample_type(const TiffSamples& samples) noexcept;
 int channel_count(const TiffSamples& samples) noexcept;
 
 /// `count` stored samples as floats: unsigned ones in [0, 1], signed ones in [-1, 1]; indices of a palette as they are.
-/// `swapped`: the bytes of a sample come in the other order than this machine's.
+/// `swapped`: the byte order of the samples is not that of this machine.
 void to_floats(const TiffSamples& samples, const unsigned char* from, float* to, std::int64_t count, bool swapped);
 
 /// Whether the floats of a texel's samples are its channels.

@@ -1,4 +1,4 @@
-// TIFF, written by libtiff: strips, or tiles and mip levels; uncompressed samples go past it unconverted.
+// Writes TIFF by libtiff: strips, or tiles and mip levels. Uncompressed samples are written directly.
 #pragma once
 #include "bake/picture/image_types.h"
 #include "bake/picture/tiff_file.h"

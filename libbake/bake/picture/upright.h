@@ -1,4 +1,4 @@
-// Pictures that are stored turned or mirrored.
+// Orientation of pictures that are stored rotated or mirrored.
 #pragma once
 #include "bake/picture/image.h"
 #include <cstddef>
@@ -13,12 +13,12 @@ struct ImageInfo;
 /// bottom, 8 left and bottom. In 5 to 8 the stored rows are columns of the picture.
 constexpr bool swaps_axes(int orientation) noexcept { return orientation >= 5 && orientation <= 8; }
 
-/// The picture the right way up; itself for 1 and for numbers that are none of the eight.
+/// The picture in its upright orientation; unchanged for 1 and for numbers other than these eight.
 Image<float> upright(Image<float> stored, int orientation);
 /// Swaps info's width and height where the orientation swaps the axes, and adds a note to it.
 void turn_upright(ImageInfo& info, int orientation);
 
-/// The orientation that Exif data state, from their TIFF header on; 1 when they state none.
+/// The orientation in Exif data, which begin with their TIFF header; 1 if there is none.
 int exif_orientation(std::string_view exif) noexcept;
 
 } // namespace bake

@@ -58,8 +58,9 @@ void judge_tiles(const UvCheck& uv, Findings& out) {
         out.notes.push_back("the charts lie in one tile, " + names(uv.tiles.tiles) + ": a bake takes them modulo 1");
         break;
     case ChartPlacement::modulo_1:
-        out.notes.push_back("the charts lie in tiles " + names(uv.tiles.tiles) +
-                            " and do not overlap modulo 1: a bake takes them modulo 1");
+        out.notes.push_back(
+            "the charts lie in tiles " + names(uv.tiles.tiles) + ": a bake takes them modulo 1" +
+            (uv.tiles.clash > 0 ? ", where " + percent(uv.tiles.clash) + " of their area overlaps" : ""));
         break;
     case ChartPlacement::several:
         out.warnings.push_back("the charts lie in several tiles (" + names(uv.tiles.tiles) +

@@ -57,6 +57,39 @@ std::string dds_cube(int n, bool mips, int sides = 6) {
     return bytes;
 }
 
+/// A grey float TIFF of ones with the tag by which textures say that they are environments.
+std::string tagged_tiff(int w, int h, const std::string& tag) {
+    struct Entry {
+        std::uint32_t id, type, count, value;
+    };
+    const auto bytes_of_picture = std::uint32_t(4 * w * h);
+    const std::uint32_t text = 8, pixels = text + 32, directory = pixels + bytes_of_picture;
+    const std::vector<Entry> entries = {{256, 4, 1, std::uint32_t(w)},
+                                        {257, 4, 1, std::uint32_t(h)},
+                                        {258, 3, 1, 32},
+                                        {259, 3, 1, 1},
+                                        {262, 3, 1, 1},
+                                        {273, 4, 1, pixels},
+                                        {277, 3, 1, 1},
+                                        {278, 4, 1, std::uint32_t(h)},
+                                        {279, 4, 1, bytes_of_picture},
+                                        {339, 3, 1, 3},
+                                        {33302, 2, std::uint32_t(tag.size() + 1), text}};
+    std::string bytes(directory + 2 + 12 * entries.size() + 4, '\0');
+    bytes.replace(0, 4, std::string("II*\0", 4));
+    put(bytes, 4, directory);
+    bytes.replace(text, tag.size(), tag);
+    for (std::uint32_t i = 0; i < bytes_of_picture; i += 4) put(bytes, pixels + i, 0x3f800000);
+    bytes[directory] = char(entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::size_t at = directory + 2 + 12 * i;
+        put(bytes, at, entries[i].id | entries[i].type << 16);
+        put(bytes, at + 4, entries[i].count);
+        put(bytes, at + 8, entries[i].value);
+    }
+    return bytes;
+}
+
 } // namespace
 
 TEST_SUITE("unit") {
@@ -73,6 +106,28 @@ TEST_SUITE("unit") {
             for (int k = 0; k < 6; ++k)
                 for (const auto& [x, y] : {std::pair(0, 0), std::pair(7, 0), std::pair(2, 5)})
                     CHECK(sky.cube.faces[k].at(x, y, 1) == doctest::Approx((40 * k + x + y) / 255.0));
+        }
+    }
+
+    TEST_CASE("environment_io: a TIFF that is tagged as an environment has its samples at the centres") {
+        const Folder folder;
+        test::write_file(folder / "wide.tif", tagged_tiff(16, 8, "LatLong Environment"));
+        CHECK(read_image_info(folder / "wide.tif").environment == EnvironmentTag::latlong);
+        CHECK(read_as(folder / "wide.tif") == SkyFormat::latlong);
+        test::write_file(folder / "strip.tif", tagged_tiff(4, 24, "CubeFace Environment"));
+        CHECK(read_image_info(folder / "strip.tif").environment == EnvironmentTag::cube);
+        CHECK(read_as(folder / "strip.tif") == SkyFormat::strip);
+    }
+
+    TEST_CASE("environment_io: a DDS cube map without all six faces is refused, because the others would be black") {
+        const Folder folder;
+        test::write_file(folder / "five.dds", dds_cube(8, false, 5));
+        try {
+            read_as(folder / "five.dds");
+            FAIL("not refused");
+        } catch (const Error& error) {
+            CHECK(error.refusal == Refusal::unsuitable);
+            CHECK(std::string(error.what()).find("+x -x +y -y +z only") != std::string::npos);
         }
     }
 

@@ -37,9 +37,10 @@ Cube smooth_behind(int n) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 const Vec3d d = glm::normalize(cube_direction(CubePoint<double>{face, (x + 0.5) / n, (y + 0.5) / n}));
-                const double detail = std::clamp((d.z + 0.45) / 0.5, 0.0, 1.0), noise = (x * 7 + y * 13) % 5 / 5.0;
+                const double detail = std::clamp((d.z + 0.45) / 0.5, 0.0, 1.0),
+                             lines = std::sin(11 * d.x + 1) * std::sin(9 * d.y + 2) * std::cos(10 * d.z);
                 for (int c = 0; c < 3; ++c)
-                    cube[face].at(x, y, c) = float(0.3 + 0.02 * d.x + 0.06 * d.y + 0.4 * detail * noise);
+                    cube[face].at(x, y, c) = float(0.3 + 0.02 * d.x + 0.06 * d.y + 0.2 * detail * lines);
             }
     return cube;
 }
@@ -202,7 +203,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
                     const OrientationCheck check = check_orientation(cube);
                     const double worst = *std::max_element(check.given_seams.begin(), check.given_seams.end());
                     CAPTURE(worst);
-                    CHECK(check.open_given() == 0);
+                    CHECK(!check.visible());
                     CHECK(!check.wrong);
                     if (size < 64) continue;
                     for (int face = 0; face < 6; ++face) {
@@ -211,7 +212,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
                         mistake.turns[face] = 2;
                         const OrientationCheck found = check_orientation(reorient(cube, mistake));
                         // A face that looks the same from both sides may not be noticed, but is never named wrongly.
-                        if (found.open_given() > 0) CHECK(found.closes == mistake);
+                        if (found.wrong || found.visible()) CHECK(found.closes == mistake);
                     }
                 }
             }

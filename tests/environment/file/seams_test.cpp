@@ -22,7 +22,7 @@ TEST_SUITE("unit") {
         Cube sky = test::sky_of(32, 3, test::smooth_radiance);
         for (std::size_t i = 0; i < sky.faces[0].size(); ++i)
             sky.faces[0].data()[i] += 0.5f * float(i * 2654435761u % 100) / 100;
-        const SideRatios sides = compare_sides(sky);
+        const SideSteps sides = compare_sides(sky);
         CHECK(!sides.unknown);
         const auto side = [](FaceSide at) { return 4 * at.face + at.side; };
         for (const Seam& seam : seams()) {
@@ -36,8 +36,6 @@ TEST_SUITE("unit") {
     TEST_CASE("seams: faces of one value or of fewer than four texels tell nothing") {
         CHECK(compare_sides(test::even_sky(8, 3, 1)).unknown);
         CHECK(compare_sides(test::sky_of(3, 3, test::smooth_radiance)).unknown);
-        CHECK(mean_seam_ratio(test::even_sky(8, 3, 1)) == 0);
-        CHECK(mean_seam_ratio(test::sky_of(32, 3, test::smooth_radiance)) < 1.02);
     }
 
 } // TEST_SUITE

@@ -102,7 +102,7 @@ TEST_SUITE("unit") {
         const Cube sky = test::sky_of(32, 1, smooth);
         Image<float> picture = cross_of(sky, CubeLayout::hcross, {0, 0});
         for (std::size_t i = 0; i < picture.size(); ++i)
-            if (picture.data()[i] == 0) picture.data()[i] = 0.01f * float(i * 2654435761u % 3);
+            if (picture.data()[i] == 0) picture.data()[i] = 0.005f * float(i * 2654435761u % 3);
         CHECK(find_cross(picture, CubeLayout::hcross) == CrossShape{0, 0});
     }
 

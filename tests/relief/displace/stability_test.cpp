@@ -249,7 +249,7 @@ TEST_SUITE("stability") {
     }
 
     TEST_CASE("displace, beyond the focal radius: folded points are counted on both sides, with the worst place") {
-        // A torus folds at b = -r, and at b = R - r where v = pi (the inner side); ORACLES.md section 2.
+        // A torus folds at b = -r, and at b = R - r where v = pi (the inner side).
         const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 24, 12);
         const auto run = [&](double b) { return displace(base, constant(b), levels(2)).report; };
         CHECK(run(-0.39).folded == 0);

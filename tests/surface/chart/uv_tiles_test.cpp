@@ -59,15 +59,19 @@ TEST_SUITE("unit") {
         CHECK(raster(moved).tiles == "(1, -1), 1001");
 
         // One chart from u = 3/4 to 5/4 fills both ends of the square.
-        const UvRaster across = raster(charts({{{0.75f, 0}, 0.5f, 1}}));
+        const Mesh chart = charts({{{0.75f, 0}, 0.5f, 1}});
+        const UvRaster across = raster(chart);
         CHECK(across.covered == 64 * 64 / 2);
         CHECK(across.crossing_faces == 0);
         CHECK(across.hits.at(0, 5).triangle != no_index);
         CHECK(across.hits.at(63, 5).triangle != no_index);
         CHECK(across.hits.at(32, 5).triangle == no_index);
-        // b1 and b2 are those of the triangle where it lies: u = 1 + 1/128 is 33/64 of the way along the chart.
+        // The hit is the point of the triangle where it lies.
         const TexelHit hit = across.hits.at(0, 63);
-        CHECK(std::max({1 - hit.b1 - hit.b2, hit.b1, hit.b2}) == doctest::Approx(33.0 / 64).epsilon(0.02));
+        const auto u = [&](int k) {
+            return double(chart.uvs[chart.corner_uv[triangulate(chart)[hit.triangle].corner[k]]].x);
+        };
+        CHECK(u(0) + hit.b1 * (u(1) - u(0)) + hit.b2 * (u(2) - u(0)) == doctest::Approx(1 + 1.0 / 128));
     }
 
     TEST_CASE(

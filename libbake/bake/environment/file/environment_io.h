@@ -42,7 +42,7 @@ struct EnvironmentReport {
 Environment read_environment(const std::vector<std::string>& inputs, const ReadEnvironmentOptions& options = {},
                              EnvironmentReport* report = nullptr);
 
-/// What the user should know of how a sky was read: one line each. `by_name`: of ReadEnvironmentOptions.
+/// Notes for the user about how a sky was read, one line each. `by_name` is that of ReadEnvironmentOptions.
 std::vector<std::string> reading_notes(const EnvironmentReport& report, bool by_name = true);
 
 } // namespace bake

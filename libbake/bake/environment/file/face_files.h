@@ -23,7 +23,7 @@ FaceFiles name_faces(const std::vector<std::string>& paths);
 /// Six paths in the order px nx py ny pz nz, whatever their names are. Throws Error{Refusal::usage} for equal ones.
 FaceFiles faces_in_order(const std::vector<std::string>& paths);
 
-/// The six existing files of a pattern with one `%s`, in whose place stand words of one kind, all written in the same way.
+/// The six existing files of a pattern with one `%s`, which is replaced by words of one kind that are written alike.
 /// Throws Error{Refusal::usage} when the pattern does not contain exactly one `%s`, and Error{Refusal::unreadable}, naming
 /// the missing file, when no six files are complete.
 FaceFiles find_faces(const std::string& pattern);
@@ -35,10 +35,10 @@ inline bool is_face_pattern(const std::string& file) { return file.find("%s") !=
 /// Error{Refusal::usage} when the pattern does not contain exactly one `%s`.
 std::array<std::string, 6> cube_files(const std::string& pattern);
 
-/// Reads six faces with the channels they have, one to four, and all their values. `first`: the header of px, with the notes
-/// of all six files behind their names. Throws Error
-/// naming the file: unreadable; unsuitable for a face that is not square, or whose size, number of channels or sample type
-/// is not that of the first.
+/// Reads six faces with the channels they have, one to four, and all their values. `first` is the header of px, with
+/// the notes of all six files, each after the name of its file. Throws Error naming the file: unreadable, or
+/// unsuitable for a face that is not square, or whose size, number of channels or sample type is not that of the
+/// first.
 Cube read_faces(const std::array<std::string, 6>& files, ColourSpace space = ColourSpace::automatic,
                 ImageInfo* first = nullptr);
 

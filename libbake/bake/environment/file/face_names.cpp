@@ -14,7 +14,7 @@ constexpr std::array<Table, int(FaceWords::count)> tables = {{
     {"right rgt", "left lft", "up top upper above ceiling zenith", "down bottom bot btm lower below floor ground nadir",
      "front forward fwd frt fore ahead", "back backward bwd bck rear behind"},
     {"rt", "lf lt", "up", "dn", "bk", "ft"},
-    {"rt rgt", "lf lt lft", "up tp top", "dn dw bt bot btm", "fr frt fw fwd", "bk bck ba"},
+    {"rt rgt", "lf lt lft", "up tp top", "dn dw dwn bt bot btm", "fr frt fnt fw fwd", "bk bck ba"},
     {"r", "l", "u t", "d", "f", "b"},
     {"east e", "west w", "up top u t", "down bottom d b", "north n", "south s"},
     {"0", "1", "2", "3", "4", "5"},

@@ -2,12 +2,13 @@
 #include "bake/environment/sky/layout.h"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace bake {
 namespace {
 
-constexpr float moved_cost = 0.5f, mirrored_cost = 0.5f;
+constexpr float moved_cost = 0.5f, mirrored_cost = 1.5f;
 /// Arrangements whose costs differ by less are equally good.
 constexpr float same_cost = 1e-4f;
 
@@ -18,9 +19,9 @@ int side_of_file(const Orientation& o, FaceSide side) noexcept {
     return 4 * o.source[side.face] + own;
 }
 
-float ratio_at(const SideRatios& sides, const Orientation& o, const Seam& seam) noexcept {
+float value_at(const SideTable& table, const Orientation& o, const Seam& seam) noexcept {
     const bool same_direction = o.mirrored[seam.a.face] != o.mirrored[seam.b.face];
-    return sides.ratio[same_direction][side_of_file(o, seam.a)][side_of_file(o, seam.b)];
+    return table[same_direction][side_of_file(o, seam.a)][side_of_file(o, seam.b)];
 }
 
 /// Score for keeping files as given, larger for more; px and nx decide between equals.
@@ -37,14 +38,14 @@ int kept(const Orientation& o) noexcept {
 /// Depth-first search over the faces, which abandons a branch as soon as it costs more than the best arrangement.
 class OrientationSearch {
 public:
-    explicit OrientationSearch(const SideRatios& sides) {
+    explicit OrientationSearch(const SideSteps& sides) {
         for (int mirrored = 0; mirrored < 2; ++mirrored)
             for (int a = 0; a < 24; ++a)
                 for (int b = 0; b < 24; ++b)
-                    costs_.ratio[mirrored][a][b] = 2 * std::log(std::max(1.0f, sides.ratio[mirrored][a][b]));
+                    costs_[mirrored][a][b] = 2 * std::log(std::max(1.0f, sides.ratio[mirrored][a][b]));
         for (const Seam& seam : seams()) {
             ends_[std::max(seam.a.face, seam.b.face)].push_back(seam);
-            limit_ += ratio_at(costs_, {}, seam);
+            limit_ += value_at(costs_, {}, seam);
         }
         visit_places(0, 0);
         now_ = {};
@@ -88,35 +89,47 @@ private:
         const bool mirrored = now_.mirrored[face];
         const bool moved = now_.source[face] != face || now_.turns[face] != 0 || mirrored;
         float sum = (moved ? moved_cost : 0) + (mirrored ? mirrored_cost : 0);
-        for (const Seam& seam : ends_[face]) sum += ratio_at(costs_, now_, seam);
+        for (const Seam& seam : ends_[face]) sum += value_at(costs_, now_, seam);
         return sum;
     }
 
-    SideRatios costs_;
+    SideTable costs_;
     float limit_ = 0;
     std::array<std::vector<Seam>, 6> ends_; ///< seams that are complete once this face is placed
     std::array<bool, 6> used_{};
     Orientation now_;
 };
 
-std::array<double, 12> ratios_of(const SideRatios& sides, const Orientation& o) noexcept {
-    std::array<double, 12> ratios;
-    for (int i = 0; i < 12; ++i) ratios[i] = double(ratio_at(sides, o, seams()[i]));
-    return ratios;
+std::array<double, 12> values_of(const SideTable& table, const Orientation& o) noexcept {
+    std::array<double, 12> values;
+    for (int i = 0; i < 12; ++i) values[i] = double(value_at(table, o, seams()[i]));
+    return values;
+}
+
+double mean_of(const std::array<double, 12>& values) noexcept {
+    return std::accumulate(values.begin(), values.end(), 0.0) / 12;
 }
 
 int count_open(const std::array<double, 12>& ratios) noexcept {
     return int(std::count_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio > open_seam; }));
 }
 
-bool closes_what_it_moves(const OrientationCheck& check) noexcept {
+/// Whether the seams of the faces that `closes` moves show that it is right: each of them closes, or becomes four times
+/// better, and on average their ratios fall by a quarter.
+bool is_shown(const OrientationCheck& check) noexcept {
     const Orientation& o = check.closes;
     const auto moved = [&](int k) { return o.source[k] != k || o.turns[k] != 0 || o.mirrored[k]; };
+    double gain = 0;
+    int count = 0;
     for (int i = 0; i < 12; ++i) {
         const Seam& seam = seams()[i];
-        if ((moved(seam.a.face) || moved(seam.b.face)) && check.best_seams[i] > open_seam) return false;
+        if (!moved(seam.a.face) && !moved(seam.b.face)) continue;
+        const double before = check.given_seams[i], after = check.best_seams[i];
+        if (after > open_seam && after > before / 4) return false;
+        gain += std::log(std::max(before, 1.0) / std::max(after, 1.0));
+        ++count;
     }
-    return true;
+    return count > 0 && gain / count > std::log(1 / 0.75);
 }
 
 Image<float> mirrored(const Image<float>& face) {
@@ -134,18 +147,24 @@ bool Orientation::as_given() const noexcept { return *this == Orientation{}; }
 int OrientationCheck::open_given() const noexcept { return count_open(given_seams); }
 int OrientationCheck::open_best() const noexcept { return count_open(best_seams); }
 
+bool OrientationCheck::visible() const noexcept {
+    int open[6] = {};
+    for (int i = 0; i < 12; ++i)
+        if (given_seams[i] > open_seam) ++open[seams()[i].a.face], ++open[seams()[i].b.face];
+    return *std::max_element(open, open + 6) >= 3;
+}
+
 OrientationCheck check_orientation(const Cube& cube) {
     OrientationCheck check;
-    const SideRatios sides = compare_sides(cube);
+    const SideSteps sides = compare_sides(cube);
     check.unknown = sides.unknown;
     if (check.unknown) return check;
     check.closes = OrientationSearch(sides).best;
-    check.given_seams = ratios_of(sides, {});
-    check.best_seams = ratios_of(sides, check.closes);
-    check.given = check.best = mean_seam_ratio(cube);
-    if (check.closes.as_given()) return check;
-    check.wrong = closes_what_it_moves(check);
-    check.best = mean_seam_ratio(reorient(cube, check.closes));
+    check.given_seams = values_of(sides.ratio, {});
+    check.best_seams = values_of(sides.ratio, check.closes);
+    check.given = mean_of(values_of(sides.mean, {}));
+    check.best = mean_of(values_of(sides.mean, check.closes));
+    check.wrong = !check.closes.as_given() && is_shown(check);
     return check;
 }
 

@@ -22,19 +22,25 @@ struct Orientation {
 inline constexpr double open_seam = 2.5;
 
 struct OrientationCheck {
-    double given = 0, best = 0; ///< mean_seam_ratio of the faces as given, and as `closes` arranges them
+    /// Seam ratios of the faces as given, and as `closes` arranges them: the mean step across the seams over the mean step
+    /// between neighbouring texels of the whole sky, at most about 1 if all faces match.
+    double given = 0, best = 0;
     std::array<double, 12> given_seams{}, best_seams{}; ///< ratios, in the order of seams()
     /// The most probable arrangement: the one with the smallest sum of log(ratio^2) over the seams, ratios below 1 counted
-    /// as 1, plus 0.5 for each face that is not as given and 0.5 for each that is mirrored. Among all 720 permutations of
+    /// as 1, plus 0.5 for each face that is not as given and 1.5 for each that is mirrored. Among all 720 permutations of
     /// the faces with all their turns, and all turns and mirrorings of every face in its place.
     Orientation closes;
-    /// `closes` is not as given, and all seams of all faces that it moves are closed.
+    /// `closes` is not as given, and the seams of the faces that it moves show that it is right: each of them is closed or
+    /// its ratio becomes a quarter, and on average their ratios fall by a quarter.
     bool wrong = false;
     /// The seams tell nothing: all texels are equal, or faces have fewer than four texels.
     bool unknown = false;
 
     int open_given() const noexcept; ///< number of open seams
     int open_best() const noexcept;
+    /// Whether three or more seams of one face are open as given. Fewer may be edges of things in the sky that happen to lie
+    /// on a seam, but a face in a wrong place opens more.
+    bool visible() const noexcept;
 };
 
 /// Uses the first three channels. At most 1 second at 2048 texels.

@@ -33,10 +33,18 @@ std::vector<float> row_on(const Cube& cube, FaceSide side, int depth) {
     return row;
 }
 
-double mean_square(const std::vector<float>& a, const std::vector<float>& b) noexcept {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += double((a[i] - b[i]) * (a[i] - b[i]));
-    return sum / double(a.size());
+/// Of the steps between two rows.
+struct Means {
+    double step = 0, square = 0;
+};
+Means means_of(const std::vector<float>& a, const std::vector<float>& b) noexcept {
+    Means sum;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double step = std::abs(double(a[i] - b[i]));
+        sum.step += step;
+        sum.square += step * step;
+    }
+    return {sum.step / double(a.size()), sum.square / double(a.size())};
 }
 
 std::vector<float> reversed(const std::vector<float>& row, int channels) {
@@ -100,13 +108,14 @@ const std::array<Seam, 12>& seams() {
     return found;
 }
 
-SideRatios compare_sides(const Cube& cube) {
-    SideRatios sides;
+SideSteps compare_sides(const Cube& cube) {
+    SideSteps sides;
     const int n = cube.size(), channels = colours(cube);
     const FaceSums sums = face_sums(cube);
     if (n < 4 || !(sums.steps > 0)) return sides;
     sides.unknown = false;
-    const double level = 0.01 * sums.values / (6.0 * n * n * channels), invisible = level * level;
+    const double level = 0.01 * sums.values / (6.0 * n * n * channels), invisible = level * level,
+                 everywhere = sums.steps / (12.0 * n * (n - 1) * channels);
     std::array<std::vector<float>, 24> rows, back;
     std::array<double, 24> beside;
     for (int s = 0; s < 24; ++s) {
@@ -114,29 +123,19 @@ SideRatios compare_sides(const Cube& cube) {
         const std::vector<float> second = row_on(cube, side, 1);
         rows[s] = row_on(cube, side, 0);
         back[s] = reversed(rows[s], channels);
-        beside[s] = (mean_square(rows[s], second) + mean_square(second, row_on(cube, side, 2))) / 2;
+        beside[s] = (means_of(rows[s], second).square + means_of(second, row_on(cube, side, 2)).square) / 2;
     }
     for_rows(24, 1, [&](std::int64_t begin, std::int64_t end) {
         for (int a = int(begin); a < int(end); ++a)
-            for (int b = 0; b < 24; ++b) {
-                const double inside = std::max((beside[a] + beside[b]) / 2, invisible);
-                sides.ratio[0][a][b] = float(std::sqrt(mean_square(rows[a], back[b]) / inside));
-                sides.ratio[1][a][b] = float(std::sqrt(mean_square(rows[a], rows[b]) / inside));
-            }
+            for (int b = 0; b < 24; ++b)
+                for (const bool mirrored : {false, true}) {
+                    const Means across = means_of(rows[a], mirrored ? rows[b] : back[b]);
+                    const double inside = std::max((beside[a] + beside[b]) / 2, invisible);
+                    sides.ratio[mirrored][a][b] = float(std::sqrt(across.square / inside));
+                    sides.mean[mirrored][a][b] = float(across.step / everywhere);
+                }
     });
     return sides;
-}
-
-double mean_seam_ratio(const Cube& cube) {
-    const int n = cube.size(), channels = colours(cube);
-    const double inside = face_sums(cube).steps / (12.0 * n * std::max(1, n - 1) * channels);
-    if (!(inside > 0)) return 0;
-    double across = 0;
-    for (const Seam& seam : seams()) {
-        const std::vector<float> a = row_on(cube, seam.a, 0), b = reversed(row_on(cube, seam.b, 0), channels);
-        for (std::size_t i = 0; i < a.size(); ++i) across += double(std::abs(a[i] - b[i]));
-    }
-    return across / (12.0 * n * channels) / inside;
 }
 
 } // namespace bake

@@ -20,19 +20,19 @@ struct Seam {
 };
 const std::array<Seam, 12>& seams();
 
-/// Step across over steps beside, as root mean squares, of side i of file a against side j of file b:
-/// ratio[r][4 a + i][4 b + j], r = 1 if one of the two is mirrored, so that the sides run in the same direction.
-struct SideRatios {
-    std::array<std::array<std::array<float, 24>, 24>, 2> ratio{};
-    bool unknown = true; ///< faces of fewer than 4 texels, or all texels are equal
+/// Values for side i of file a against side j of file b: table[r][4 a + i][4 b + j], r = 1 if one of the two is mirrored,
+/// so that the sides run in the same direction.
+using SideTable = std::array<std::array<std::array<float, 24>, 24>, 2>;
+
+/// How every side matches every other one.
+struct SideSteps {
+    SideTable ratio{};   ///< step across over steps beside, root mean squares
+    SideTable mean{};    ///< mean step across over the mean step between neighbouring texels of the whole sky
+    bool unknown = true; ///< faces of fewer than four texels, or all texels are equal
 };
 
-/// Compares all sides with all others; uses the first three channels. Steps below 1 % of the sky's mean square root of
-/// radiance, which are not visible, count as that.
-SideRatios compare_sides(const Cube& cube);
-
-/// Mean step across the seams over the mean step between neighbouring texels inside the faces: at most about 1 if all faces
-/// match. 0 if all texels are equal.
-double mean_seam_ratio(const Cube& cube);
+/// Compares all sides with all others; uses the first three channels. Steps beside a seam of less than 1 % of the sky's mean
+/// square root of radiance, which are not visible, count as that.
+SideSteps compare_sides(const Cube& cube);
 
 } // namespace bake

@@ -18,10 +18,10 @@ struct GltfSource {
     [[noreturn]] void refuse(const std::string& why) const;
 };
 
-/// The bytes of a view; `what` names who wants them.
+/// The bytes of a view; `what` names their use in messages.
 std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what);
 
-/// The accessor of that number, all of its elements inside the buffers. `use` names who wants it.
+/// The accessor of that number, all of its elements inside the buffers. `use` names its use in messages.
 /// Throws Error{Refusal::unsuitable} for more elements than fit.
 GltfAccessor accessor_of(const GltfSource& source, int index, const std::string& use);
 

@@ -1,4 +1,4 @@
-// Reasons to doubt that a picture is the height that a bake takes it for.
+// Reasons to doubt that a picture is suitable as a height.
 #pragma once
 #include "bake/relief/height/height.h"
 

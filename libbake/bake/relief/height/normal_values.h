@@ -44,7 +44,7 @@ NormalStats measure_normals(const Image<float>& image, const NormalValues& value
 /// a mean nearest to the z axis. Integers are never signed, signed integers always; an sRGB encoding needs clear evidence.
 NormalValues guess_normal_values(const Image<float>& image, const ImageInfo& info);
 
-/// What is said of values that are not the usual ones: "two channels: z is rebuilt from x and y". Empty for usual values.
+/// A note on unusual values, such as "two channels: z is rebuilt from x and y"; empty for usual values.
 std::string describe(const NormalValues& values);
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// What the sample type of a file says of its values as a height.
+// Meaning of the values of a height by the sample type of its file.
 #pragma once
 #include "bake/picture/image_types.h"
 

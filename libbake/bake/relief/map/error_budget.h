@@ -19,7 +19,7 @@
 
 namespace bake {
 
-/// Largest total that means something.
+/// Largest total that is a meaningful estimate.
 inline constexpr double judged_up_to_deg = 45;
 
 struct ErrorBudget {

@@ -143,6 +143,21 @@ UvRaster raster_tile(const Mesh& mesh, const std::vector<Triangle>& triangles, i
     return uv_raster(charts, triangles, width, height);
 }
 
+/// Counts the faces of the tile, which it returns, and the others; those that end at the border of the tile are outside.
+std::int64_t count_faces(const Mesh& mesh, const UvTile& tile, UvRaster& out) {
+    std::int64_t inside_faces = 0;
+    out.outside_faces = out.crossing_faces = 0;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+        const TileRange range = tiles_of_face(mesh, f);
+        if (range.empty) continue;
+        const bool inside =
+            range.first.u <= tile.u && tile.u <= range.last.u && range.first.v <= tile.v && tile.v <= range.last.v;
+        ++(inside ? inside_faces : out.outside_faces);
+        out.crossing_faces += inside && range.first != range.last;
+    }
+    return inside_faces;
+}
+
 UvRaster raster_modulo_1(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height) {
     const FoldedCharts folded = fold_faces(mesh, triangles);
     UvRaster out = uv_raster(folded.mesh, folded.triangles, width, height);
@@ -203,7 +218,7 @@ UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int s
     } else if (used.size() == 1) {
         out.placement = out.tiles[0] == UvTile{} ? ChartPlacement::as_they_are : ChartPlacement::one_tile;
     } else if (used.size() > 1) {
-        samples = std::max(64, samples);
+        samples = std::clamp(samples, 64, 1024);
         const std::vector<UvTile> home = home_tiles(mesh);
         out.clash = clash_of(mesh, triangles, samples, nullptr);
         const bool apart = out.clash > most_leak || clash_of(mesh, triangles, samples, &home) > most_clash;
@@ -218,7 +233,7 @@ UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, 
     if (tile != 0) {
         const UvTile wanted{(tile - 1001) % 10, (tile - 1001) / 10};
         out = raster_tile(mesh, triangles, width, height, wanted);
-        if (out.covered + out.border == 0)
+        if (count_faces(mesh, wanted, out) == 0)
             throw Error(Refusal::unsuitable, path + ": no face has area in tile " + std::to_string(tile) +
                                                  " of its uvs; name another one (`tile`)");
         return out;

@@ -3,13 +3,16 @@
 #pragma once
 #include "bake/surface/chart/uv_raster.h"
 #include <compare>
+#include <utility>
 
 namespace bake {
 
 /// The square [u, u + 1] x [v, v + 1].
 struct UvTile {
     int u = 0, v = 0;
-    auto operator<=>(const UvTile&) const = default;
+    bool operator==(const UvTile&) const = default;
+    /// Rows from below, as UDIM counts.
+    auto operator<=>(const UvTile& other) const { return std::pair(v, u) <=> std::pair(other.v, other.u); }
 };
 
 /// 1001 + u + 10 v where UDIM numbers the tile, else "(u, v)".
@@ -38,7 +41,7 @@ struct UvTiles {
     ChartPlacement placement = ChartPlacement::as_they_are;
     double clash = 0; ///< part of the covered area, modulo 1, where charts of different tiles overlap
 };
-/// Overlaps are measured with `samples` samples along a tile's side, at least 64.
+/// Overlaps are measured with `samples` samples along a tile's side, at least 64 and at most 1024.
 UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int samples);
 
 /// As uv_raster(), of all charts modulo 1. Where charts leak a little over the border of their tile and overlap others, those
