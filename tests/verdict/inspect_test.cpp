@@ -164,7 +164,7 @@ TEST_SUITE("unit") {
         CHECK(rebuilt.check.scale == doctest::Approx(scale).epsilon(0.001));
         CHECK(says(rebuilt.findings.notes, "z is rebuilt"));
         CHECK(rebuilt.findings.warnings.empty());
-        CHECK(bake_options(rebuilt).starts_with("--amplitude 0.15"));
+        CHECK(bake_options(rebuilt).starts_with("`amplitude` 0.15"));
     }
 
     TEST_CASE("inspect: JSON is valid for names that are not UTF-8") {
