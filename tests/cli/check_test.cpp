@@ -101,6 +101,28 @@ TEST_SUITE("cli") {
         CHECK(folder.check("--pair a.png").code == 2);
     }
 
+    TEST_CASE("bake check --expect: exit 1 unless green points the way that is asked for") {
+        const Folder folder;
+        const std::string bricks = (bake::test::own_meshes() / "bricks.png").string(),
+                          bake = "'" + std::string(std::getenv("BAKE")) + "' normal-map '" + bricks + "' --quiet -o ";
+        const std::string up = (folder.path / "up.png").string(), down = (folder.path / "down.png").string();
+        REQUIRE(std::system((bake + up).c_str()) == 0);
+        REQUIRE(std::system((bake + down + " --directx").c_str()) == 0);
+        const auto expect = [&](const std::string& convention, const std::string& normals) {
+            return folder.check("--pair '" + bricks + "' " + normals + " --expect " + convention);
+        };
+        CHECK(expect("opengl", up).code == 0);
+        CHECK(expect("directx", down).code == 0);
+        CHECK(expect("directx", down).out.find("warning: DirectX") == std::string::npos);
+        const Result wrong = expect("opengl", down);
+        CHECK(wrong.code == 1);
+        CHECK(wrong.out.find("green points down (DirectX), where OpenGL is expected") != std::string::npos);
+        CHECK(expect("directx", up).code == 1);
+        // What shows another relief says nothing of its green.
+        CHECK(expect("opengl", (bake::test::own_meshes() / "dots.png").string()).code != 0);
+        CHECK(folder.check("--expect opengl " + up).code == 2); // no pair
+    }
+
     TEST_CASE("bake check --against: distances of two meshes, and exit 1 over --limit") {
         const Folder folder;
         const std::string low = folder.write("low.obj", std::string(square) + "f 1/1 2/2 3/3 4/4\n");

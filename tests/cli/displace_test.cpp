@@ -368,8 +368,11 @@ TEST_SUITE("cli") {
         const std::string vast = notes({torus, "--height", waves(folder), "--amplitude", "1e6"});
         CHECK(vast.find("of its diagonal") != std::string::npos);
         CHECK(vast.find("inside out") != std::string::npos);
-        CHECK(notes({torus, "--height", "ramp.tif", "--amplitude", "20%", "--wrap", "clamp"}).find("--seam blend") !=
-              std::string::npos);
+        const std::vector<std::string> ramp = {torus, "--height", "ramp.tif", "--amplitude", "20%", "--wrap", "clamp"};
+        CHECK(notes(ramp).find("--seam blend") == std::string::npos); // the default
+        std::vector<std::string> stepped = ramp;
+        stepped.insert(stepped.end(), {"--seam", "average"});
+        CHECK(notes(stepped).find("--seam blend") != std::string::npos);
         CHECK(notes({torus, "--height", waves(folder)}).find("--amplitude sets it") != std::string::npos);
         CHECK(notes({torus, "--height", waves(folder), "--amplitude", "1e6", "--quiet"}) == "");
         for (const Vec3f& p : read_mesh(folder / "a.ply").positions) CHECK(std::isfinite(glm::length(p)));

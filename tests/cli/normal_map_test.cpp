@@ -114,6 +114,69 @@ TEST_SUITE("cli") {
         check_unit(map(folder, {"--height", "tiny.exr", "--amplitude", "1e-12", "--wrap", "clamp"}), 1e-6);
     }
 
+    TEST_CASE("normal-map: a lone picture is the height of a flat rectangle, as --height is") {
+        const Folder folder;
+        const std::string dots = (own_meshes() / "dots.png").string();
+        REQUIRE(run_bake(folder, {"normal-map", dots, "-o", "alone.png"}).code == 0);
+        REQUIRE(run_bake(folder, {"normal-map", "--height", dots, "-o", "named.png"}).code == 0);
+        CHECK((contents(folder / "alone.png") == contents(folder / "named.png")));
+        check_refused(folder, {"normal-map", (own_meshes() / "torus.obj").string(), "-o", "a.png"}, 2,
+                      "--height: is required");
+    }
+
+    TEST_CASE("amplitude: object units, or per cent of the mesh's diagonal or the picture's width, in every verb") {
+        const Folder folder;
+        const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_meshes() / "torus.obj").string();
+        const auto said = [&](std::vector<std::string> arguments) {
+            arguments.insert(arguments.end(), {"--json", "--quiet"});
+            const Run run = run_bake(folder, arguments);
+            REQUIRE_MESSAGE(run.code == 0, run.err);
+            return nlohmann::json::parse(run.out);
+        };
+        const auto amplitude = [&](const std::vector<std::string>& arguments) {
+            return said(arguments)["amplitude"].get<double>();
+        };
+        write_image(folder / "lengths.exr", height_of(8, 8, [](int x, int) { return x % 2 * 0.01; }),
+                    {.depth = Depth::float32});
+        const nlohmann::json displaced = said({"displace", torus, "--height", dots, "-o", "a.ply"});
+        const double diagonal = displaced["diagonal"];
+        // Without an amplitude: 1 % of what the relief lies on; bump tables are in the picture's own units.
+        CHECK(displaced["amplitude"].get<double>() == doctest::Approx(0.01 * diagonal));
+        CHECK(amplitude({"normal-map", torus, "--height", dots, "--size", "16", "-o", "a.png"}) ==
+              doctest::Approx(0.01 * diagonal));
+        CHECK(amplitude({"normal-map", dots, "-o", "a.png"}) == doctest::Approx(0.01));
+        CHECK(amplitude({"normal-map", dots, "--extent", "3,1", "-o", "a.png"}) == doctest::Approx(0.03));
+        CHECK(amplitude({"bump-table", dots, "-o", "a.exr"}) == 1);
+        // A per cent of the same.
+        CHECK(amplitude({"displace", torus, "--height", dots, "--amplitude", "2%", "-o", "a.ply"}) ==
+              doctest::Approx(0.02 * diagonal));
+        CHECK(amplitude({"normal-map", torus, "--height", dots, "--amplitude", "2%", "--size", "16", "-o", "a.png"}) ==
+              doctest::Approx(0.02 * diagonal));
+        CHECK(amplitude({"normal-map", dots, "--amplitude", "2%", "--extent", "3,1", "-o", "a.png"}) ==
+              doctest::Approx(0.06));
+        CHECK(amplitude({"bump-table", dots, "--amplitude", "2%", "--extent", "3,1", "-o", "a.exr"}) ==
+              doctest::Approx(0.06));
+        CHECK(amplitude({"bump-table", dots, "--amplitude", "-2%", "-o", "a.exr"}) == doctest::Approx(-0.02));
+        // Floats are lengths, and zero is no displacement.
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"normal-map", "lengths.exr", "-o", "a.png"},
+              {"normal-map", torus, "--height", "lengths.exr", "--size", "16", "-o", "a.png"},
+              {"displace", torus, "--height", "lengths.exr", "-o", "a.ply"}}) {
+            const nlohmann::json object = said(arguments);
+            CHECK(object["amplitude"] == 1);
+            CHECK(object["midlevel"] == 0);
+        }
+        const Run words = run_bake(folder, {"normal-map", dots, "-o", "a.png"});
+        CHECK(words.out.find("amplitude 0.01, midlevel 0.5") != std::string::npos);
+        CHECK(words.err.find("amplitude 0.01, 1 % of the picture's width; --amplitude sets it") != std::string::npos);
+        CHECK(run_bake(folder, {"normal-map", "lengths.exr", "-o", "a.png"}).err.find("taken as lengths") !=
+              std::string::npos);
+        CHECK(run_bake(folder, {"normal-map", dots, "-o", "a.png", "--amplitude", "1%"}).err.find("amplitude") ==
+              std::string::npos);
+        // The default tilts the normal by degrees, not beyond seeing: one level of 256.
+        CHECK(said({"normal-map", dots, "-o", "a.png"})["step_tilt_deg"].get<double>() < 5);
+    }
+
     TEST_CASE("normal-map: an sRGB tag and a tint of one level change nothing") {
         const Folder folder;
         std::vector<std::string> grey, tinted;

@@ -30,7 +30,8 @@ Mesh strips(int n, const Vec3f& gap, bool zigzag = false) {
 std::size_t boundary_edges(const Mesh& mesh) { return check_mesh(mesh, triangulate(mesh)).topology.boundary_edges; }
 
 BorderGaps gaps(const Mesh& mesh, double distance) {
-    return find_border_gaps(mesh, first_equal(mesh.positions), distance);
+    const HalfEdges he = make_half_edges(mesh, first_equal(mesh.positions));
+    return find_border_gaps(mesh, he, make_edges(he), distance);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 #include "bump_table_output.h"
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace bake {
@@ -10,8 +9,9 @@ constexpr const char* bumpslopes_channels[] = {"b0_h", "b1_dhds", "b2_dhdt", "b3
 
 WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png,
                            const std::optional<SlopeCode>& code = {}) {
-    WriteOptions options{
-        .depth = depth, .compression = args.compression, .mips = args.layout == TableLayout::bumpslopes};
+    WriteOptions options{.depth = depth,
+                         .compression = args.compression,
+                         .mips = args.layout == TableLayout::bumpslopes && !args.no_mips};
     if (args.layout == TableLayout::bumpslopes)
         options.channels.assign(std::begin(bumpslopes_channels), std::end(bumpslopes_channels));
     else options.channels = {"b_u", "b_v"};
@@ -82,7 +82,7 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
     };
     for_bands(
         table, [&](const float* values, int rows) { write(values, rows, table.width()); }, &progress);
-    if (table.width() > 1 || table.height() > 1) {
+    if (!args.no_mips && (table.width() > 1 || table.height() > 1)) {
         Image<float> level = halve(table);
         for (;;) {
             writer.next_level();
@@ -104,24 +104,6 @@ std::string_view name(SlopeUnits units) {
     return "";
 }
 
-void print_json(const BumpTableArgs& args, const BumpTableReport& r, const Stopwatch& watch) {
-    nlohmann::json result = {{"out", args.out},
-                             {"width", r.table.width()},
-                             {"height", r.table.height()},
-                             {"channels", r.table.channels()},
-                             {"filter", name(r.table.filter())},
-                             {"units", name(args.options.units)},
-                             {"levels", r.height.levels},
-                             {"step", r.height.step},
-                             {"step_tilt_deg", r.tilt_deg},
-                             {"error_budget", to_json(r.budget)},
-                             {"seconds", watch.to_json()}};
-    if (!r.notes.empty()) result["notes"] = r.notes;
-    if (r.advice) result["better_filter"] = to_json(*r.advice);
-    if (r.code) result["bias"] = {{"range", r.code->range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
-    std::printf("%s\n", result.dump(2).c_str());
-}
-
 } // namespace
 
 void write_table(const BumpTableArgs& args, const BumpTable& table, Depth depth, const std::optional<SlopeCode>& code,
@@ -130,16 +112,34 @@ void write_table(const BumpTableArgs& args, const BumpTable& table, Depth depth,
     else write_moments(args, table, depth, progress);
 }
 
-void print(const BumpTableArgs& args, const BumpTableReport& r, const Stopwatch& watch, bool json) {
-    if (json) return print_json(args, r, watch);
-    std::printf("%s: %d x %d, slopes %s, filter %s (%s)\n", args.out.c_str(), r.table.width(), r.table.height(),
-                std::string(name(args.options.units)).c_str(), std::string(name(r.table.filter())).c_str(),
-                describe_levels(r.height).c_str());
-    if (r.code) std::printf("stored biased: %s\n", to_text(*r.code).c_str());
+std::string to_text(const BumpTableArgs& args, const BumpTableReport& r) {
+    std::string text =
+        format("%s: %d x %d, slopes %s, filter %s (%s), amplitude %g\n", args.out.c_str(), r.table.width(),
+               r.table.height(), std::string(name(args.options.units)).c_str(),
+               std::string(name(r.table.filter())).c_str(), describe_levels(r.height).c_str(), args.options.amplitude);
+    if (r.code) text += "stored biased: " + to_text(*r.code) + "\n";
     if (r.height.step > 0)
-        std::printf("one level of the height tilts the normal by %.3f deg at extent %g x %g\n", r.tilt_deg, r.extent.x,
-                    r.extent.y);
-    std::printf("%s\n%s\n", to_text(r.budget).c_str(), watch.to_text().c_str());
+        text += format("one level of the height tilts the normal by %.3f deg at extent %g x %g\n", r.tilt_deg,
+                       r.extent.x, r.extent.y);
+    return text + to_text(r.budget) + "\n";
+}
+
+nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& r) {
+    nlohmann::json result = {{"out", args.out},
+                             {"width", r.table.width()},
+                             {"height", r.table.height()},
+                             {"channels", r.table.channels()},
+                             {"filter", name(r.table.filter())},
+                             {"units", name(args.options.units)},
+                             {"amplitude", args.options.amplitude},
+                             {"levels", r.height.levels},
+                             {"step", r.height.step},
+                             {"step_tilt_deg", r.tilt_deg},
+                             {"error_budget", to_json(r.budget)}};
+    if (!r.notes.empty()) result["notes"] = r.notes;
+    if (r.advice) result["better_filter"] = to_json(*r.advice);
+    if (r.code) result["bias"] = {{"range", r.code->range}, {"zero_level", 32768}, {"levels_per_range", 32767}};
+    return result;
 }
 
 } // namespace bake

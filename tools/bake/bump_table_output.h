@@ -2,22 +2,22 @@
 #pragma once
 #include "bake/relief/map/bake_budget.h"
 #include "options.h"
-#include "verb.h"
-#include <optional>
 
 namespace bake {
 
 struct BumpTableArgs {
-    HeightArgs height;
-    std::string out, amplitude = "1", extent;
+    HeightInput height;
+    std::string out;
+    std::optional<Vec2d> extent;
     BumpTableOptions options;
     std::optional<SlopeUnits> units;
     TableLayout layout = TableLayout::slopes;
+    bool no_mips = false;
     Depth depth = Depth::automatic;
     Compression compression = Compression::automatic;
 };
 
-/// Writes the slopes, or with layout `bumpslopes` the six moments and their mips, to args.out. `code`: of 16-bit files.
+/// Writes the slopes, or with layout `bumpslopes` the six moments and, unless no_mips, their mips, to args.out. `code`: of 16-bit files.
 void write_table(const BumpTableArgs& args, const BumpTable& table, Depth depth, const std::optional<SlopeCode>& code,
                  Progress& progress);
 
@@ -32,6 +32,7 @@ struct BumpTableReport {
     Vec2d extent{1};                ///< object units
     std::vector<std::string> notes; ///< doubts about the height
 };
-void print(const BumpTableArgs& args, const BumpTableReport& report, const Stopwatch& watch, bool json);
+std::string to_text(const BumpTableArgs& args, const BumpTableReport& report);
+nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& report);
 
 } // namespace bake

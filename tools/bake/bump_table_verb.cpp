@@ -1,4 +1,5 @@
 #include "bump_table_output.h"
+#include "inputs/file_kind.h"
 
 namespace bake {
 namespace {
@@ -6,26 +7,23 @@ namespace {
 /// Resolves the options that depend on others, and refuses what a table cannot be. Returns the depth of the file.
 Depth resolve(BumpTableArgs& args) {
     const Depth depth = resolve_depth(args.out, args.depth);
-    const Amplitude amplitude = parse_amplitude(args.amplitude);
-    if (amplitude.percent)
-        throw Error(Refusal::usage,
-                    "--amplitude " + args.amplitude + ": a table has no bounding box; give object units");
-    args.options.amplitude = amplitude.value;
-    if (!args.extent.empty()) {
-        const Vec2d extent = parse_pair("--extent", args.extent);
-        args.options.extent_u = extent.x, args.options.extent_v = extent.y;
-        check_steepness(args.amplitude, amplitude.value, std::min(extent.x, extent.y));
-    }
-    args.options.units =
-        args.units.value_or(args.layout == TableLayout::bumpslopes ? SlopeUnits::texel : SlopeUnits::uv);
+    const bool bumpslopes = args.layout == TableLayout::bumpslopes;
+    const Vec2d extent = args.extent.value_or(Vec2d(0));
+    args.options.amplitude = args.height.amplitude.value_or(Length{}).in_units(args.extent ? extent.x : 1);
+    args.options.extent_u = extent.x, args.options.extent_v = extent.y;
+    if (args.extent) check_steepness(args.height, args.options.amplitude, std::min(extent.x, extent.y));
+    args.options.units = args.units.value_or(bumpslopes ? SlopeUnits::texel : SlopeUnits::uv);
     args.options.filter = args.height.filter;
     args.options.wrap_u = args.height.wrap_u(), args.options.wrap_v = args.height.wrap_v();
     if (depth == Depth::u8)
         throw Error(Refusal::usage, args.out + ": 8 bits are too few for slopes; use --depth 16, half or float");
-    if (depth == Depth::u16 && args.layout == TableLayout::bumpslopes)
+    if (depth == Depth::u16 && bumpslopes)
         throw Error(Refusal::usage,
                     args.out + ": bumpslopes are signed; write .exr or .tif with --depth half or float");
+    if (args.no_mips && !bumpslopes)
+        throw Error(Refusal::usage, "--no-mips: a table of slopes has none; it is for --layout bumpslopes");
     check_not_input(args.out, args.height.path);
+    expect_picture(args.height.path);
     return depth;
 }
 
@@ -33,6 +31,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     const Depth depth = resolve(args);
     Stopwatch watch;
     Progress progress(common.quiet);
+    progress.start("read", 0);
     const HeightTexture height = load_height(args.height, common);
     watch.lap("read");
     const BumpTable table(height, args.options, args.layout);
@@ -51,7 +50,7 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     watch.lap("budget");
     report.extent = resolve_extent(args.options.extent_u, args.options.extent_v, table.width(), table.height());
     report.tilt_deg = step_tilt_deg(height.step, args.options.amplitude, report.extent.x, table.width());
-    print(args, report, watch, common.json);
+    print_result(common, to_text(args, report), to_json(args, report), watch);
     return 0;
 }
 
@@ -59,46 +58,34 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
 
 std::function<int()> bump_table_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<BumpTableArgs>();
-    sub.add_option("grey", args->height.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
-        ->required()
-        ->check(not_empty());
-    sub.add_option("-o,--out", args->out,
-                   "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises")
-        ->required()
-        ->check(not_empty());
+    add_height_path(sub, "grey", args->height)->required();
+    add_output_option(sub, args->out,
+                      "Table to write (.exr, .tif, .png): channels b_u, b_v, v up, positive where the height rises");
     add_height_options(sub, args->height);
-    sub.add_option_function<std::string>(
-           "--units",
-           [args](const std::string& given) {
-               args->units = given == "difference" || given == "lecture" ? SlopeUnits::difference
-                             : given == "texel"                          ? SlopeUnits::texel
-                             : given == "uv"                             ? SlopeUnits::uv
-                                                                         : SlopeUnits::world;
-           },
-           "Slopes: difference h[+1] - h[-1]; texel; uv per unit of u and v (default for slopes); world per object "
-           "unit "
-           "(needs --extent to differ from 1 wide)")
-        ->check(one_of({"difference", "texel", "uv", "world", "lecture"}))
-        ->type_name("difference|texel|uv|world");
-    sub.add_option("--amplitude", args->amplitude, "Height of white above black, object units")
-        ->check(not_empty())
-        ->capture_default_str();
-    sub.add_option("--extent", args->extent, "Object units the picture is wide and high [1,H/W]")
-        ->check(not_empty())
-        ->type_name("W,H");
+    add_choice<std::optional<SlopeUnits>>(sub, "--units", args->units,
+                                          {{"difference", SlopeUnits::difference},
+                                           {"texel", SlopeUnits::texel},
+                                           {"uv", SlopeUnits::uv},
+                                           {"world", SlopeUnits::world},
+                                           {"lecture", SlopeUnits::difference}},
+                                          "Slopes: difference h[+1] - h[-1]; texel; uv per unit of u and v (default "
+                                          "for slopes); world per object unit (needs --extent to differ from 1 wide)",
+                                          1);
+    add_length_option(sub, "--amplitude", args->height.amplitude,
+                      "Height of white above black: object units, or a per cent of the picture's width [1]", false);
+    add_extent_option(sub, args->extent, "Object units the picture is wide and high [1,H/W]");
     add_choice<TableLayout>(sub, "--layout", args->layout,
                             {{"slopes", TableLayout::slopes}, {"bumpslopes", TableLayout::bumpslopes}},
                             "slopes: (b_u, b_v); bumpslopes: OpenImageIO's h, s, t, s2, t2, st with mips, t down, per "
                             "texel unless --units");
-    add_choice<Depth>(
-        sub, "--depth", args->depth,
-        {{"auto", Depth::automatic}, {"half", Depth::half}, {"float", Depth::float32}, {"16", Depth::u16}},
-        "auto: half for .exr, float for .tif, 16 for .png; 16 is biased and says by how much");
+    sub.add_flag("--no-mips", args->no_mips, "Of bumpslopes: the finest level alone, in scanlines");
+    add_depth_option(sub, args->depth,
+                     "auto: half for .exr, float for .tif, 16 for .png; 16 is biased and says by how much", false);
     add_choice<Compression>(sub, "--compression", args->compression,
                             {{"auto", Compression::automatic}, {"none", Compression::none}, {"zip", Compression::zip}},
                             "Lossless; auto: zip for .exr, none for .tif");
     add_examples(sub, "  bake bump-table meshes/bricks.png -o bricks.exr\n"
-                      "  bake bump-table meshes/bricks.png -o bricks.tif --units world --extent 2,2 --amplitude 0.03\n"
+                      "  bake bump-table meshes/bricks.png -o bricks.tif --units world --extent 2,2 --amplitude 3%\n"
                       "  bake bump-table meshes/bricks.png -o bumpslopes.exr --layout bumpslopes\n");
     return [args, &common] { return run(*args, common); };
 }

@@ -1,5 +1,6 @@
 // bake check: what is in each file, and what is wrong with it.
 #include "bake/verdict/inspect.h"
+#include "inputs/file_kind.h"
 #include "options.h"
 #include <cstdio>
 #include <new>
@@ -20,26 +21,31 @@ struct Results {
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     int code = 0;         ///< of the first bad file
     bool wrong = false;   ///< some file has a warning
-    bool over = false;    ///< some distance is over --limit
+    bool over = false;    ///< some distance is over --limit, or some green is not that of --expect
     bool printed = false; ///< a report has been printed as text
 };
 
 bool over_limit(const DistanceReport& report) { return report.over_limit(); }
+bool over_limit(const PairReport& report) { return report.unexpected(); }
 template <class Report> bool over_limit(const Report&) { return false; }
 
-template <class Inspect> void add_result(Results& results, const std::string& file, bool json, const Inspect& inspect) {
+template <class Inspect>
+void add_result(Results& results, const std::string& file, const CommonArgs& common, const Inspect& inspect) {
     const auto refuse = [&](const std::string& message, Refusal why) {
         std::fprintf(stderr, "bake: %s\n", message.c_str());
         if (results.code == 0) results.code = int(why);
         results.files.push_back({{"file", file}, {"error", message}, {"code", int(why)}});
     };
     try {
+        Progress progress(common.quiet);
+        progress.start("check " + file, 0);
         auto report = inspect();
+        progress.finish();
         for (auto* lines : {&report.findings.warnings, &report.findings.notes})
             for (std::string& line : *lines) line = with_flags(line);
         results.wrong = results.wrong || !report.findings.warnings.empty();
         results.over = results.over || over_limit(report);
-        if (json) {
+        if (common.json) {
             results.files.push_back(nlohmann::ordered_json::parse(to_json(report)));
         } else {
             std::printf("%s%s", results.printed ? "\n" : "", to_text(report).c_str());
@@ -57,13 +63,17 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     Results results;
     for (const std::string& file : args.files) {
         if (!args.against.empty())
-            add_result(results, file, common.json, [&] { return inspect_distance(file, args.against, args.options); });
+            add_result(results, file, common, [&] { return inspect_distance(file, args.against, args.options); });
         else if (named_like_a_mesh(file))
-            add_result(results, file, common.json, [&] { return inspect_mesh(file, args.options); });
-        else add_result(results, file, common.json, [&] { return inspect_image(file, args.options); });
+            add_result(results, file, common, [&] { return inspect_mesh(file, args.options); });
+        else
+            add_result(results, file, common, [&] {
+                expect_picture(file);
+                return inspect_image(file, args.options);
+            });
     }
     for (const auto& [height, normals] : args.pairs)
-        add_result(results, height, common.json,
+        add_result(results, height, common,
                    [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
     if (common.json) {
         const nlohmann::ordered_json all = {{"files", results.files}};
@@ -83,6 +93,10 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                           ->allow_extra_args(false) // a file may follow
                           ->type_name("HEIGHT NORMAL");
     add_channel_option(sub, "--height-channel", args->options.height_channel, "Grey of the pair's height");
+    add_choice<std::optional<bool>>(sub, "--expect", args->options.directx, {{"opengl", false}, {"directx", true}},
+                                    "With --pair: exit with 1 unless the green of the normal map points up (opengl) or "
+                                    "down (directx)")
+        ->needs(pair);
     add_mesh_options(sub, args->options.read);
     sub.add_option("--overlap-size", args->options.uv.overlap_size,
                    "Samples along a UV tile for measuring overlaps; 0: not measured")
@@ -108,7 +122,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                       "  bake check --audit meshes/torus.obj\n"
                       "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
                       "  bake normal-map --height meshes/bricks.png -o bricks_normal.png\n"
-                      "  bake check --pair meshes/bricks.png bricks_normal.png --height-channel r\n");
+                      "  bake check --pair meshes/bricks.png bricks_normal.png --expect opengl\n");
     return [args, &common, files, pair] {
         if (files->empty() && pair->empty())
             throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");

@@ -1,4 +1,5 @@
 #include "cubemap_options.h"
+#include "inputs/file_kind.h"
 #include "options.h"
 #include <cmath>
 #include <cstdio>
@@ -124,16 +125,18 @@ void check_cubemap_options(CubemapArgs& args) {
     if (args.capture.empty() != args.at.empty())
         throw usage(args.at.empty() ? "--capture: needs --at x,y,z, the point to look from"
                                     : "--at: is for --capture; add a scene");
-    for (const std::string& input : args.inputs) check_not_input(args.target.file, input);
+    for (const std::string& input : args.inputs) {
+        expect_picture(input);
+        check_not_input(args.target.file, input);
+    }
+    if (!args.capture.empty()) expect_scene(args.capture);
     if (!args.at.empty()) args.position = parse_point(args.at);
     if (!args.irradiance.empty()) args.wanted_irradiance = parse_irradiance(args.irradiance);
     if (specular)
         args.wanted_specular = {.lobe = args.specular == Specular::ggx ? SpecularLobe::ggx : SpecularLobe::phong,
                                 .roughness = parse_numbers("--roughness", args.roughness)};
     args.resampling.turn = turn_of(args.yaw, args.pitch, args.roll);
-    args.reading.space = args.linear ? ColourSpace::linear
-                         : args.srgb ? ColourSpace::srgb
-                                     : ColourSpace::automatic;
+    args.reading.space = args.linear ? ColourSpace::linear : args.srgb ? ColourSpace::srgb : ColourSpace::automatic;
     args.reading.bad = args.target.bad;
     args.target.encode_srgb = !args.linear;
 }

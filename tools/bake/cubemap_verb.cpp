@@ -12,7 +12,6 @@
 #include "options.h"
 #include "verb.h"
 #include <algorithm>
-#include <cstdio>
 
 namespace bake {
 namespace {
@@ -51,7 +50,9 @@ Environment load_sky(const CubemapArgs& args, const CommonArgs& common, Progress
 /// The sky as texel-centred faces, for the filters.
 Cube plain_cube(const Environment& sky, int edge, const CubemapArgs& args, Progress& progress) {
     progress.start("convert", 0);
-    return to_cube(sky, {edge, false}, args.resampling, &progress);
+    Cube cube = to_cube(sky, {edge, false}, args.resampling, &progress);
+    progress.start("filter", 0);
+    return cube;
 }
 
 EnvironmentWritten write(CubemapArgs& args, const Environment& sky, Progress& progress) {
@@ -59,20 +60,22 @@ EnvironmentWritten write(CubemapArgs& args, const Environment& sky, Progress& pr
     std::vector<Cube> levels;
     if (args.wanted_irradiance) {
         if (wanted > 0) args.wanted_irradiance->size = wanted;
-        levels.push_back(irradiance(plain_cube(sky, source, args, progress), *args.wanted_irradiance));
+        levels.push_back(irradiance(plain_cube(sky, source, args, progress), *args.wanted_irradiance, &progress));
     } else if (args.wanted_specular) {
         args.wanted_specular->size = wanted;
-        levels = prefilter(plain_cube(sky, source, args, progress), *args.wanted_specular);
+        levels = prefilter(plain_cube(sky, source, args, progress), *args.wanted_specular, &progress);
     } else if (args.mips) {
         levels = mip_chain(plain_cube(sky, wanted > 0 ? wanted : source, args, progress));
     } else {
         return write_environment(sky, args.target, args.resampling, &progress);
     }
+    progress.start("write", 0);
     return write_levels(std::move(levels), args.target, &progress);
 }
 
 /// Refuses names that cannot be written, before the work.
-void check_output(const EnvironmentTarget& target) {
+void check_output(const CubemapArgs& args) {
+    const EnvironmentTarget& target = args.target;
     std::vector<std::string> files = {target.file};
     if (is_face_pattern(target.file)) {
         const auto six = cube_files(target.file);
@@ -83,13 +86,19 @@ void check_output(const EnvironmentTarget& target) {
         OutputFile{file};
     }
     complete_target(target, 512);
+    check_levels(target,
+                 args.wanted_specular ? args.wanted_specular->roughness.size()
+                 : args.mips          ? 2
+                                      : 1,
+                 wanted_edge(target));
 }
 
 int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     check_cubemap_options(args);
-    check_output(args.target);
+    check_output(args);
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
+    progress.start("read", 0);
     EnvironmentReport report;
     const Environment sky = load_sky(args, common, progress, report);
     watch.lap("read");
@@ -100,16 +109,13 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
 
     const std::vector<std::string> notes = cubemap_notes(args, report, written);
     for (const std::string& line : notes) note(common, line);
-    if (common.json) {
-        nlohmann::json json = cubemap_json(args, report, written, sky.channels());
-        json["notes"] = notes;
-        json["seconds"] = watch.to_json();
-        std::printf("%s\n", json.dump(2).c_str());
-    } else {
-        std::printf("%s: %s, %d x %d%s%s; %s\n", args.target.file.c_str(), name(written.target.to), written.width,
-                    written.height, written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
-                    seam_text(report).c_str(), watch.to_text().c_str());
-    }
+    nlohmann::json json = cubemap_json(args, report, written, sky.channels());
+    json["notes"] = notes;
+    print_result(common,
+                 format("%s: %s, %d x %d%s%s\n", args.target.file.c_str(), name(written.target.to), written.width,
+                        written.height, written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
+                        seam_text(report).c_str()),
+                 json, watch);
     return 0;
 }
 

@@ -1,5 +1,5 @@
 #include "displace_report.h"
-#include <cstdio>
+#include "inputs/byte_option.h"
 
 namespace bake {
 namespace {
@@ -10,7 +10,7 @@ const char* name(Seam seam) { return seam == Seam::average ? "average" : seam ==
 
 nlohmann::json to_json(const Vec3d& p) { return {p.x, p.y, p.z}; }
 
-void print(const MeshAudit& audit) {
+std::string to_text(const MeshAudit& audit) {
     const std::string cuts =
         audit.self_intersections > 0
             ? format("%zu pairs of triangles cut each other, the first at ", audit.self_intersections) +
@@ -19,7 +19,7 @@ void print(const MeshAudit& audit) {
     const std::string inside = !audit.closed ? "not closed"
                                              : (audit.outward ? "closed, outward" : "closed, inside out") +
                                                    format(", volume %.6g", audit.volume);
-    std::printf("audit: %s; %s\n", cuts.c_str(), inside.c_str());
+    return "audit: " + cuts + "; " + inside + "\n";
 }
 
 nlohmann::json to_json(const MeshAudit& audit) {
@@ -36,29 +36,27 @@ nlohmann::json to_json(const MeshAudit& audit) {
 
 } // namespace
 
-void print(const DisplaceArgs& args, const DisplaceOutcome& o) {
+std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& o) {
     const DisplaceReport& r = o.report;
-    std::printf("%s: %llu points, %llu faces (%llu triangles) over %zu patches of %s, %s\n", args.out.c_str(),
-                static_cast<unsigned long long>(r.count.points), static_cast<unsigned long long>(r.count.faces),
-                static_cast<unsigned long long>(r.triangles), o.patches, o.base.c_str(),
-                describe_bytes(double(o.file_bytes)).c_str());
-    std::printf("%s: amplitude %g, midlevel %g; b from %.6g to %.6g\n", o.described.c_str(), o.amplitude, o.midlevel,
-                r.height_min, r.height_max);
+    const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    std::string text = format("%s: %llu points, %llu faces (%llu triangles) over %zu patches of %s, %s\n",
+                              args.out.c_str(), count(r.count.points), count(r.count.faces), count(r.triangles),
+                              o.patches, o.base.c_str(), describe_bytes(double(o.file_bytes)).c_str()) +
+                       format("%s: amplitude %g, midlevel %g; b from %.6g to %.6g\n", o.described.c_str(), o.amplitude,
+                              o.midlevel, r.height_min, r.height_max);
     if (r.seam_points > 0)
-        std::printf("uv seams: %llu points, largest mismatch %.6g at %s; %s\n",
-                    static_cast<unsigned long long>(r.seam_points), r.seam_mismatch, place(r.seam_worst).c_str(),
-                    name(args.seam));
-    std::printf("fold margin (1 + b a, to stay above 0): %.4g at %s, uv (%.6g, %.6g); %llu points folded\n",
-                r.fold_margin, place(r.fold_worst).c_str(), r.fold_worst_uv.x, r.fold_worst_uv.y,
-                static_cast<unsigned long long>(r.folded));
-    if (args.measure || !args.max_error.empty())
-        std::printf("distance from the displaced surface: max %.4g, rms %.4g (%.4g %% of the diagonal)\n", r.error_max,
-                    r.error_rms, 100 * r.error_max / o.size);
+        text += format("uv seams: %llu points, largest mismatch %.6g at %s; %s\n", count(r.seam_points),
+                       r.seam_mismatch, place(r.seam_worst).c_str(), name(args.seam));
+    text += format("fold margin (1 + b a, to stay above 0): %.4g at %s, uv (%.6g, %.6g); %llu points folded\n",
+                   r.fold_margin, place(r.fold_worst).c_str(), r.fold_worst_uv.x, r.fold_worst_uv.y, count(r.folded));
+    if (args.measure || args.max_error)
+        text += format("distance from the displaced surface: max %.4g, rms %.4g (%.4g %% of the diagonal)\n",
+                       r.error_max, r.error_rms, 100 * r.error_max / o.size);
     if (r.uniform_triangles > 0)
-        std::printf("%llu triangles where a uniform rate of the same error needs %llu (%.2f times as many)\n",
-                    static_cast<unsigned long long>(r.triangles), static_cast<unsigned long long>(r.uniform_triangles),
-                    double(r.uniform_triangles) / double(r.triangles));
-    if (o.audit && o.audit->available) print(*o.audit);
+        text +=
+            format("%llu triangles where a uniform rate of the same error needs %llu (%.2f times as many)\n",
+                   count(r.triangles), count(r.uniform_triangles), double(r.uniform_triangles) / double(r.triangles));
+    return o.audit && o.audit->available ? text + to_text(*o.audit) : text;
 }
 
 void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutcome& o) {
@@ -66,10 +64,7 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutc
     const std::string& base = args.surface.name();
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     note_all(common, base, o.mesh_notes);
-    if (o.default_amplitude)
-        note(common,
-             format("amplitude %g, %s; --amplitude sets it", o.amplitude,
-                    o.amplitude == 1 ? "the file's values being lengths" : "1 % of the bounding box's diagonal"));
+    note(common, o.amplitude_note);
     const double most = std::max(std::abs(r.height_min), std::abs(r.height_max));
     if (most > 0.25 * o.size)
         note(common, format("%s: displaced by up to %.4g, %.0f %% of its diagonal: more than relief can be on it; give "
@@ -126,11 +121,11 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                                {"worst_uv", {r.fold_worst_uv.x, r.fold_worst_uv.y}}}},
                              {"no_normal", r.no_normal},
                              {"no_tangents", r.no_tangents}};
-    if (args.measure || !args.max_error.empty()) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
+    if (args.measure || args.max_error) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
     if (!o.notes.empty()) object["notes"] = o.notes;
-    if (o.audit) object["audit"] = to_json(*o.audit);
     if (!o.mesh_notes.empty()) object["mesh_notes"] = o.mesh_notes;
+    if (o.audit) object["audit"] = to_json(*o.audit);
     return object;
 }
 

@@ -14,7 +14,7 @@ struct DisplaceOutcome {
     double edge = 0;      ///< mean edge of the result
     double max_error = 0; ///< the limit that the user gave, object units
     double amplitude = 0, midlevel = 0;
-    bool default_amplitude = false;
+    std::string amplitude_note;     ///< as in ReliefFile
     std::vector<std::string> notes; ///< doubts about the height
     DisplaceReport report;
     std::optional<MeshAudit> audit;
@@ -22,7 +22,7 @@ struct DisplaceOutcome {
     std::vector<std::string> mesh_notes; ///< of reading the mesh
 };
 
-void print(const DisplaceArgs& args, const DisplaceOutcome& outcome);
+std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& outcome);
 nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& outcome);
 /// A note for everything in the result that the user probably did not want.
 void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutcome& outcome);

@@ -2,7 +2,6 @@
 #include "bake/base/output_file.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "displace_report.h"
-#include <cstdio>
 #include <filesystem>
 
 namespace bake {
@@ -36,15 +35,16 @@ std::string describe_base(const DisplaceArgs& args) {
     return args.kind == BaseKind::loop ? "a Loop limit" : "a mesh";
 }
 
-int run(const DisplaceArgs& args, const CommonArgs& common) {
-    check_usage(args);
+int run(DisplaceArgs& args, const CommonArgs& common) {
+    complete(args);
     for (const std::string* input : {&args.height.path, &args.surface.mesh})
         if (!input->empty()) check_not_input(args.out, *input);
     OutputFile(args.out); // a file that cannot be written is refused before the work
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
-    DisplaceOutcome o;
+    progress.start("read", 0);
     const BaseSurface base = make_base(args);
+    DisplaceOutcome o;
     o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
@@ -56,7 +56,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
     o.described = file.described;
     o.notes = file.notes;
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
-    o.default_amplitude = file.default_amplitude;
+    o.amplitude_note = file.amplitude_note;
     watch.lap("height");
     Displaced displaced = displace(base, file.relief, options, &progress);
     progress.finish();
@@ -71,14 +71,7 @@ int run(const DisplaceArgs& args, const CommonArgs& common) {
         o.audit = audit(displaced.mesh, triangulate(displaced.mesh));
         watch.lap("audit");
     }
-    if (common.json) {
-        nlohmann::json object = to_json(args, o);
-        object["seconds"] = watch.to_json();
-        std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    } else {
-        print(args, o);
-        std::printf("%s\n", watch.to_text().c_str());
-    }
+    print_result(common, to_text(args, o), to_json(args, o), watch);
     warn(args, common, o);
     return 0;
 }

@@ -1,18 +1,32 @@
 // bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
 #include "bake/base/parallel.h"
 #include "bake/base/version.h"
+#include "nearest.h"
 #include "verb.h"
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <unistd.h>
 
 namespace bake {
 
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!common.quiet && !common.json) std::fprintf(stderr, "bake: %s\n", with_flags(line).c_str());
+    if (line.empty() || common.quiet || common.json) return;
+    const char* const wipe = isatty(STDERR_FILENO) ? "\r\033[K" : ""; // a bar that is drawn there
+    std::fprintf(stderr, "%sbake: %s\n", wipe, with_flags(line).c_str());
+}
+
+void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch) {
+    if (common.json) {
+        if (!object.contains("seconds")) object["seconds"] = watch.to_json();
+        std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    } else if (!common.quiet) {
+        std::printf("%s%s\n", text.c_str(), watch.to_text().c_str());
+    }
 }
 
 namespace {
@@ -47,14 +61,65 @@ std::string one_line(std::string text) {
     return text;
 }
 
+/// "; did you mean --amplitude", or nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+    const std::string meant = nearest(word, names);
+    return meant.empty() ? "" : "; did you mean " + meant + "?";
+}
+
+int refuse_verb(const std::string& word) {
+    std::vector<std::string> names;
+    for (const VerbEntry& entry : verbs) names.emplace_back(entry.name);
+    std::error_code absent;
+    if (std::filesystem::is_regular_file(word, absent))
+        return fail(one_line(word) + ": is a file, not a verb; bake check " + one_line(word) + " says what is in it",
+                    Refusal::usage);
+    return fail(one_line(word) + ": is not a verb" + suggestion(word, names) + "; see bake --help", Refusal::usage);
+}
+
+int refuse_arguments(const CLI::App& sub, const std::string& reason) {
+    const std::string verb = sub.get_parent() ? "bake " + sub.get_name() : "bake";
+    std::vector<std::string> names;
+    for (const CLI::Option* option : sub.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    // An unknown option is the better reason than what its absence or its value led to.
+    for (const std::string& word : sub.remaining())
+        if (word.size() > 1 && word[0] == '-')
+            return fail(one_line(word) + ": is not an option of " + verb + suggestion(word, names) + "; see " + verb +
+                            " --help",
+                        Refusal::usage);
+    return fail(one_line(reason) + "; see " + verb + " --help", Refusal::usage);
+}
+
+/// An option's value that begins with two dashes is an option whose predecessor lacks its value.
+void refuse_options_as_values(CLI::App& sub) {
+    const CLI::Validator plain(
+        [](std::string& text) {
+            return text.starts_with("--") && text.size() > 2 ? text + " stands where its value is expected" : "";
+        },
+        "");
+    for (CLI::Option* option : sub.get_options())
+        if (option->nonpositional() && option->get_items_expected_max() > 0) option->check(plain);
+}
+
+/// The arguments, with `help [VERB]` and nothing at all turned into --help.
+std::vector<std::string> arguments(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty()) return {"--help"};
+    if (words[0] != "help") return words;
+    if (words.size() == 1 || words[1].starts_with("-")) return {"--help"};
+    return {words[1], "--help"};
+}
+
 int run(int argc, char** argv) {
     CLI::App app{"bake: normal maps, bump tables, displaced meshes, environment maps, and previews of them", "bake"};
-    app.set_version_flag("--version", std::string("bake ") + version());
+    app.set_version_flag("-V,--version", std::string("bake ") + version(), "Print the version");
     app.require_subcommand(1);
-    app.set_help_flag("-h,--help", "Print this help");
+    app.set_help_flag("-h,--help", "Print this help; bake help VERB prints that of a verb");
     add_examples(app, "  bake check meshes/torus.obj meshes/bricks.png\n"
+                      "  bake normal-map meshes/bricks.png -o flat.png\n"
                       "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o normal.png\n"
-                      "  bake <verb> --help\n");
+                      "  bake help normal-map\n");
 
     CommonArgs common;
     std::function<int()> chosen;
@@ -64,23 +129,22 @@ int run(int argc, char** argv) {
         sub->add_option("--threads", common.threads, "Threads to use; 0: one per core")
             ->check(CLI::Range(0, 1024))
             ->capture_default_str();
-        sub->add_flag("--quiet", common.quiet, "No progress bar, no notes");
+        sub->add_flag("--quiet", common.quiet, "No progress bar, no notes, no result as text");
         sub->add_flag("--json", common.json, "Print one JSON object");
+        refuse_options_as_values(*sub);
         sub->callback([&chosen, job] { chosen = job; });
     }
-    const std::string first = argc > 1 ? argv[1] : "";
-    const auto known = [&](const VerbEntry& entry) { return entry.name == first; };
-    if (!first.empty() && first[0] != '-' && std::none_of(std::begin(verbs), std::end(verbs), known))
-        return fail(one_line(first) + ": is not a verb; see bake --help", Refusal::usage);
+    std::vector<std::string> words = arguments(argc, argv);
+    const auto known = [&](const VerbEntry& entry) { return entry.name == words[0]; };
+    if (words[0][0] != '-' && std::none_of(std::begin(verbs), std::end(verbs), known)) return refuse_verb(words[0]);
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(words);
     } catch (const CLI::Success& success) { // --help, --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
         const auto used = app.get_subcommands();
-        const std::string verb = used.empty() ? "bake" : "bake " + used.front()->get_name();
-        if (argc == 1) return fail("no verb; see bake --help", Refusal::usage);
-        return fail(one_line(error.what()) + "; see " + verb + " --help", Refusal::usage);
+        return refuse_arguments(used.empty() ? app : *used.front(), error.what());
     }
     const ThreadLimit limit(common.threads);
     return chosen();

@@ -1,27 +1,28 @@
 #include "normal_map_output.h"
-#include <cstdio>
 
 namespace bake {
-namespace {
 
-void print_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
-                const NormalMapOptions& options) {
-    std::printf("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\n", args.out.c_str(), options.width,
-                options.height, options.space == Space::tangent ? "tangent" : "object",
-                options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
-                std::string(name(result.filter)).c_str(), describe_levels(height).c_str());
+std::string to_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result) {
+    const NormalMapOptions& options = result.options;
     const NormalMapReport& r = result.report;
     const double share = 100.0 / (double(options.width) * options.height);
+    std::string text =
+        format("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\namplitude %g, midlevel %g",
+               args.out.c_str(), options.width, options.height, options.space == Space::tangent ? "tangent" : "object",
+               options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
+               std::string(name(result.filter)).c_str(), describe_levels(height).c_str(),
+               options.height_options.amplitude, options.height_options.midlevel);
+    if (height.step > 0)
+        text += format("; one level of the height tilts the normal by %.3f deg along u", result.tilt_deg);
     if (!args.mesh.empty())
-        std::printf("charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat\n",
-                    share * double(r.covered), share * double(r.border), share * double(r.padded),
-                    share * double(r.empty));
-    if (height.step > 0) std::printf("one level of the height tilts the normal by %.3f deg along u\n", result.tilt_deg);
-    std::printf("%s\n", to_text(result.budget).c_str());
+        text += format("\ncharts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat",
+                       share * double(r.covered), share * double(r.border), share * double(r.padded),
+                       share * double(r.empty));
+    return text + "\n" + to_text(result.budget) + "\n";
 }
 
-nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
-                       const NormalMapOptions& options) {
+nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result) {
+    const NormalMapOptions& options = result.options;
     const NormalMapReport& r = result.report;
     nlohmann::json object = {{"out", args.out},
                              {"width", options.width},
@@ -31,13 +32,14 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                              {"method", name(options.method)},
                              {"filter", name(result.filter)},
                              {"amplitude", options.height_options.amplitude},
+                             {"midlevel", options.height_options.midlevel},
                              {"levels", height.levels},
                              {"step", height.step},
                              {"step_tilt_deg", result.tilt_deg},
-                             {"error_budget", bake::to_json(result.budget)}};
+                             {"error_budget", to_json(result.budget)}};
     if (!result.mesh_notes.empty()) object["mesh_notes"] = result.mesh_notes;
     if (!result.notes.empty()) object["notes"] = result.notes;
-    if (result.advice) object["better_filter"] = bake::to_json(*result.advice);
+    if (result.advice) object["better_filter"] = to_json(*result.advice);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
                             {"border", r.border},
@@ -52,20 +54,6 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                             {"flat_triangles", r.flat_triangles},
                             {"triangles_without_uv", r.triangles_without_uv}};
     return object;
-}
-
-} // namespace
-
-void print(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
-           const NormalMapOptions& options, const Stopwatch& watch, bool json) {
-    if (json) {
-        nlohmann::json object = to_json(args, height, result, options);
-        object["seconds"] = watch.to_json();
-        std::printf("%s\n", object.dump(2).c_str());
-        return;
-    }
-    print_text(args, height, result, options);
-    std::printf("%s\n", watch.to_text().c_str());
 }
 
 void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& r) {

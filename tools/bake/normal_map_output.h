@@ -6,19 +6,18 @@
 namespace bake {
 
 struct NormalMapResult {
+    NormalMapOptions options;
     Image<float> map;
     NormalMapReport report;
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
-    double tilt_deg = 0;
-    std::vector<std::string> notes; ///< doubts about the height
+    double tilt_deg = 0; ///< of the normal, by one level of the height
     Filter filter = Filter::central;
-    std::vector<std::string> mesh_notes; ///< of reading the mesh
+    std::vector<std::string> notes, mesh_notes; ///< doubts about the height; of reading the mesh
 };
 
-/// The result as text or as one JSON object.
-void print(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result,
-           const NormalMapOptions& options, const Stopwatch& watch, bool json);
+std::string to_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result);
+nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result);
 /// Notes on faces and texels that were not baked as they are.
 void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapReport& report);
 

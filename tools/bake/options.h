@@ -20,7 +20,4 @@ void add_tile_option(CLI::App& sub, int& tile);
 /// Prints the notes of reading `path`.
 void note_all(const CommonArgs& common, const std::string& path, const std::vector<std::string>& notes);
 
-using HeightArgs = HeightInput;
-inline std::pair<int, int> parse_size(const std::string& text) { return parse_size("--size", text); }
-
 } // namespace bake

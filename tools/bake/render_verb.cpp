@@ -1,14 +1,15 @@
 // bake render: a picture of a scene.
 #include "bake/base/output_file.h"
+#include "bake/base/text.h"
 #include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"
 #include "inputs/depth_option.h"
+#include "inputs/file_kind.h"
 #include "inputs/output_name.h"
 #include "inputs/size_option.h"
 #include "inputs/stopwatch.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bake {
 namespace {
@@ -31,37 +32,37 @@ void encode(Image<float>& image, Depth depth, float exposure) {
     }
 }
 
-void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats, const Stopwatch& watch, bool json) {
+void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats, const Stopwatch& watch,
+            const CommonArgs& common) {
     const RenderSettings& settings = scene.settings;
     const double seconds = watch.seconds("render"), rate = seconds > 0 ? double(stats.rays) / seconds : 0;
     const std::size_t triangles = scene.bvh->triangle_count();
-    if (!json) {
-        std::printf("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s, %.2f s (load %.2f s, render %.2f s)\n",
-                    args.out.c_str(), settings.width, settings.height, settings.spp, triangles, rate * 1e-6,
-                    watch.total(), watch.seconds("load"), seconds);
-        return;
-    }
-    nlohmann::json result = {
+    nlohmann::json object = {
         {"out", args.out},           {"width", settings.width},          {"height", settings.height},
         {"spp", settings.spp},       {"triangles", triangles},           {"rays", stats.rays},
         {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
         {"render_seconds", seconds}, {"seconds", watch.total()}};
-    if (!scene.notes.empty()) result["notes"] = scene.notes;
-    std::printf("%s\n", result.dump(2).c_str());
+    if (!scene.notes.empty()) object["notes"] = scene.notes;
+    print_result(common,
+                 format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s\n", args.out.c_str(), settings.width,
+                        settings.height, settings.spp, triangles, rate * 1e-6),
+                 object, watch);
 }
 
 int run(const RenderArgs& args, const CommonArgs& common) {
+    expect_scene(args.scene);
     Stopwatch watch;
     const Depth depth = resolve_display_depth(args.out, args.depth);
+    Progress progress(common.quiet || common.json);
+    progress.start("read", 0);
     SceneEntries entries = read_scene(args.scene);
     RenderSettings& settings = entries.settings;
     if (args.size) std::tie(settings.width, settings.height) = *args.size;
     if (args.spp > 0) settings.spp = args.spp;
     OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
-    for (const std::string& line : scene.notes) note(common, line);
     watch.lap("load");
-    Progress progress(common.quiet || common.json);
+    for (const std::string& line : scene.notes) note(common, line);
     RenderStats stats;
     Image<float> image = render(scene, scene.settings, &stats, &progress);
     progress.finish();
@@ -72,7 +73,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     watch.lap("write");
     if (stats.bad_samples > 0)
         note(common, std::to_string(stats.bad_samples) + " samples too bright to store are black; dim the lights");
-    report(args, scene, stats, watch, common.json);
+    report(args, scene, stats, watch, common);
     return 0;
 }
 
@@ -81,7 +82,9 @@ int run(const RenderArgs& args, const CommonArgs& common) {
 std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<RenderArgs>();
     sub.add_option("scene", args->scene, "Scene file (TOML): meshes, materials, lights, camera, sky")->required();
-    add_output_option(sub, args->out, "Picture: .png exposed and sRGB-encoded; .exr, .tif linear radiance")->required();
+    add_output_option(
+        sub, args->out,
+        "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance");
     add_size_option(sub, args->size, "Pixels, instead of the scene's", 32768);
     sub.add_option("--spp", args->spp, "Samples per pixel, instead of the scene's")->check(CLI::Range(1, 65536));
     add_depth_option(sub, args->depth, "auto: 8 for .png, half for .exr, float for .tif");

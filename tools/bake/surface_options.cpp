@@ -6,16 +6,6 @@ namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
-void check_resolution(const SurfaceArgs& args) {
-    const auto [n, m] = parse_resolution(args.resolution);
-    if (args.surface.shape.empty() && !args.surface.scheme)
-        throw usage("--resolution " + args.resolution +
-                    ": a mesh is taken as it is, with its own faces; --subdivide makes a smooth surface of it");
-    if (args.surface.scheme && (n != m || n > 1024))
-        throw usage("--resolution " + args.resolution +
-                    ": cells along every edge of the cage's patches; write one number up to 1024");
-}
-
 /// "  torus:R=1,r=0.4   a ring" for every shape.
 std::string shapes_text() {
     std::string out = "Shapes, their keys and defaults:\n  ";
@@ -27,31 +17,24 @@ std::string shapes_text() {
 
 void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
     add_surface_input(sub, args.surface);
-    sub.add_option_function<std::string>(
-           "--subdivide",
-           [&args](const std::string& name) { args.surface.scheme = name == "loop" ? Scheme::loop : Scheme::catmark; },
-           "The mesh is a cage: take its limit surface")
-        ->check(one_of({"catmark", "loop"}))
-        ->type_name("catmark|loop");
-    sub.add_option("--resolution", args.resolution,
-                   "Cells of a shape along u and v, or along every edge of a cage's patches [4]")
-        ->check(not_empty())
+    add_choice<std::optional<Scheme>>(sub, "--subdivide", args.surface.scheme,
+                                      {{"catmark", Scheme::catmark}, {"loop", Scheme::loop}},
+                                      "The mesh is a cage: take its limit surface");
+    add_size_option(sub, args.resolution, "Cells of a shape along u and v, or along every edge of a cage's patches [4]",
+                    65536, "--resolution")
         ->type_name("NxM|N");
-    sub.add_option("-o,--out", args.out,
-                   "Mesh to write (.ply, .glb, .gltf): normals, tangents, mean_curvature, gauss_curvature")
-        ->check(not_empty());
-    sub.add_option(
-           "--maps", args.maps,
+    add_output_option(sub, args.out,
+                      "Mesh to write (.ply, .glb, .gltf): normals, tangents, mean_curvature, gauss_curvature")
+        ->required(false);
+    sub.add_option_function<std::string>(
+           "--maps", [&args](const std::string& text) { args.maps = parse_maps(text); },
            "Maps to write, apart by commas [all]: position, normal, pu, pv, tangent, mean-curvature, gauss-curvature")
         ->check(not_empty())
         ->type_name("NAMES");
     sub.add_option("--maps-out", args.maps_out, "What the maps' names begin with: PREFIX_normal.exr and so on")
         ->check(not_empty())
         ->type_name("PREFIX");
-    sub.add_option("--size", args.size, "Texels of the maps")
-        ->check(not_empty())
-        ->type_name("N|WxH")
-        ->capture_default_str();
+    add_size_option(sub, args.size, "Texels of the maps [1024]");
     add_tile_option(sub, args.tile);
     sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
         ->check(CLI::Range(0, 4096))
@@ -63,23 +46,18 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
                "  bake surface meshes/torus.obj --maps normal,mean-curvature --size 512 --maps-out torus\n");
 }
 
-std::pair<int, int> parse_resolution(const std::string& text) {
-    try {
-        return parse_size(text);
-    } catch (const Error&) {
-        throw usage("--resolution " + text + ": is no number of cells; write 64x32, or 8, up to 65536");
-    }
-}
-
 void check_usage(const SurfaceArgs& args) {
     check_usage(args.surface, "surface");
     if (args.out.empty() && args.maps_out.empty())
         throw usage("surface: nothing to write; give -o for a mesh, --maps-out for maps, or both");
     if (args.maps_out.empty() && !args.maps.empty())
         throw usage("--maps: needs --maps-out, what the maps' names begin with");
-    if (!args.maps.empty()) parse_maps(args.maps);
-    parse_size(args.size);
-    if (!args.resolution.empty()) check_resolution(args);
+    if (args.resolution && args.surface.shape.empty() && !args.surface.scheme)
+        throw usage("--resolution: a mesh is taken as it is, with its own faces; --subdivide makes a smooth surface of "
+                    "it");
+    if (args.surface.scheme && args.resolution)
+        if (const auto [n, m] = *args.resolution; n != m || n > 1024)
+            throw usage("--resolution: cells along every edge of the cage's patches; write one number up to 1024");
     if (args.out.empty()) return;
     const MeshFormat format = mesh_format(args.out);
     if (format != MeshFormat::ply && format != MeshFormat::gltf)

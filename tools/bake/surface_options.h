@@ -7,14 +7,15 @@ namespace bake {
 
 struct SurfaceArgs {
     SurfaceInput surface;
-    std::string out, resolution, maps, maps_out, size = "1024";
+    std::string out, maps_out;
+    std::vector<MapQuantity> maps; ///< empty: all of them
+    std::optional<std::pair<int, int>> resolution;
+    std::optional<std::pair<int, int>> size = std::pair(1024, 1024);
     int padding = SurfaceMapOptions{}.padding, tile = 0;
 };
 
 void add_surface_options(CLI::App& sub, SurfaceArgs& args);
 /// Throws Error{Refusal::usage} for everything that can be refused before a file is read.
 void check_usage(const SurfaceArgs& args);
-/// "NxM", or N for both. Throws Error{Refusal::usage}.
-std::pair<int, int> parse_resolution(const std::string& text);
 
 } // namespace bake

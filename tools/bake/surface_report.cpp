@@ -1,6 +1,5 @@
 #include "surface_report.h"
 #include "bake/base/text.h"
-#include <cstdio>
 
 namespace bake {
 namespace {
@@ -26,21 +25,22 @@ std::vector<std::pair<const char*, ValueRange>> ranges(const SurfaceSummary& s, 
 
 } // namespace
 
-void print(const std::string& what, const SurfaceMesh& mesh, const SurfaceSummary& s) {
+std::string to_text(const std::string& what, const SurfaceMesh& mesh, const SurfaceSummary& s) {
     const bool has_uv = !mesh.mesh.corner_uv.empty();
-    std::printf("%s\n%-16s %14s %14s %14s\n", what.c_str(), "", "min", "max", "mean");
+    std::string text = what + format("\n%-16s %14s %14s %14s\n", "", "min", "max", "mean");
     for (const auto& [label, range] : ranges(s, has_uv))
-        std::printf("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
-    std::printf("area %.7g, %zu faces, %zu vertices\n", s.area, mesh.mesh.faces(), mesh.mesh.positions.size());
-    std::printf("degenerate points: %zu\n", s.degenerate.size());
+        text += format("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
+    text += format("area %.7g, %zu faces, %zu vertices\ndegenerate points: %zu\n", s.area, mesh.mesh.faces(),
+                   mesh.mesh.positions.size(), s.degenerate.size());
     for (std::size_t i = 0; i < std::min(points_printed, s.degenerate.size()); ++i) {
         const DegeneratePoint& d = s.degenerate[i];
         const std::string uv = has_uv ? format(", uv (%.5g, %.5g)", double(d.uv.x), double(d.uv.y)) : "";
         const auto p = Vec3d(d.p) + 0.0; // no -0
-        std::printf("  (%.5g, %.5g, %.5g)%s, face %zu: %s\n", p.x, p.y, p.z, uv.c_str(), d.face, describe(d.what));
+        text += format("  (%.5g, %.5g, %.5g)%s, face %zu: %s\n", p.x, p.y, p.z, uv.c_str(), d.face, describe(d.what));
     }
     if (s.degenerate.size() > points_printed)
-        std::printf("  and %zu more; --json lists them\n", s.degenerate.size() - points_printed);
+        text += format("  and %zu more; --json lists them\n", s.degenerate.size() - points_printed);
+    return text;
 }
 
 nlohmann::json to_json(const SurfaceSummary& s, bool has_uv) {
@@ -70,9 +70,9 @@ nlohmann::json to_json(const SurfaceMapReport& r) {
             {"largest_uv_distance", r.residual}};
 }
 
-void print(const SurfaceMapReport& r, const SurfaceMapOptions& options) {
+std::string to_text(const SurfaceMapReport& r, const SurfaceMapOptions& options) {
     const double share = 100.0 / (double(options.width) * options.height);
-    std::printf(
+    return format(
         "maps %d x %d: charts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left at zero\n",
         options.width, options.height, share * double(r.covered), share * double(r.border), share * double(r.padded),
         share * double(r.empty));

@@ -7,8 +7,8 @@
 namespace bake {
 
 /// `what` describes the surface in one line, such as "torus; 96 x 48 cells".
-void print(const std::string& what, const SurfaceMesh& mesh, const SurfaceSummary& summary);
-void print(const SurfaceMapReport& report, const SurfaceMapOptions& options);
+std::string to_text(const std::string& what, const SurfaceMesh& mesh, const SurfaceSummary& summary);
+std::string to_text(const SurfaceMapReport& report, const SurfaceMapOptions& options);
 nlohmann::json to_json(const SurfaceSummary& summary, bool has_uv);
 nlohmann::json to_json(const SurfaceMapReport& report);
 /// One note for each kind of texel or face that the maps could not show.

@@ -3,7 +3,6 @@
 #include "surface_map_files.h"
 #include "surface_options.h"
 #include "surface_report.h"
-#include <cstdio>
 
 namespace bake {
 namespace {
@@ -11,13 +10,13 @@ namespace {
 struct Loaded {
     BaseSurface surface;
     SurfaceKind kind;
-    int rate = 1;                     ///< cells along the edges of a cage's patches
-    std::string what;                 ///< one line, such as "torus; 96 x 48 cells"
+    int rate = 1;     ///< cells along the edges of a cage's patches
+    std::string what; ///< one line, such as "torus; 96 x 48 cells"
 };
 
 Loaded load(const SurfaceArgs& args) {
     constexpr int default_rate = 4;
-    const std::pair<int, int> cells = args.resolution.empty() ? std::pair(0, 0) : parse_resolution(args.resolution);
+    const std::pair<int, int> cells = args.resolution.value_or(std::pair(0, 0));
     BaseSurface surface = read_surface(args.surface, cells);
     const std::size_t faces = surface.mesh().faces(), patches = surface.complex().patches.size();
     if (!args.surface.shape.empty()) {
@@ -41,15 +40,16 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     const std::string& title = args.surface.name();
     Stopwatch watch;
     Progress progress(common.quiet);
+    progress.start("read", 0);
     const Loaded loaded = load(args);
     watch.lap("read");
 
     if (!args.out.empty()) const OutputFile writable(args.out);
     SurfaceMapOptions options{.padding = args.padding, .tile = args.tile};
-    std::tie(options.width, options.height) = parse_size(args.size);
-    std::vector<MapQuantity> quantities;
-    if (!args.maps.empty()) quantities = parse_maps(args.maps);
-    else if (!args.maps_out.empty()) quantities.assign(std::begin(all_map_quantities), std::end(all_map_quantities));
+    std::tie(options.width, options.height) = *args.size;
+    std::vector<MapQuantity> quantities = args.maps;
+    if (!args.maps_out.empty() && quantities.empty())
+        quantities.assign(std::begin(all_map_quantities), std::end(all_map_quantities));
     auto writers = open_maps(args.maps_out, quantities, options);
     progress.start("surface", std::int64_t(loaded.surface.complex().patches.size()));
     const SurfaceMesh mesh = surface_mesh(loaded.surface, loaded.kind, loaded.rate, &progress);
@@ -71,21 +71,15 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     write_maps(writers, maps);
     watch.lap("write");
 
-    if (common.json) {
-        nlohmann::json object = {
-            {"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
-        object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
-        if (!args.out.empty()) object["out"] = args.out;
-        for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
-        if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
-        if (!maps.empty()) object["texels"] = to_json(report);
-        object["seconds"] = watch.to_json();
-        std::printf("%s\n", object.dump(2).c_str());
-        return 0;
-    }
-    print(loaded.what, mesh, summary);
-    if (!maps.empty()) print(report, options);
-    std::printf("%s\n", watch.to_text().c_str());
+    nlohmann::json object = {
+        {"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
+    object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
+    if (!args.out.empty()) object["out"] = args.out;
+    for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
+    if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
+    if (!maps.empty()) object["texels"] = to_json(report);
+    print_result(common, to_text(loaded.what, mesh, summary) + (maps.empty() ? "" : to_text(report, options)), object,
+                 watch);
     note_all(common, title, loaded.surface.mesh().notes);
     warn(common, title, report);
     return 0;

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
+#include "inputs/stopwatch.h"
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
@@ -13,7 +14,7 @@ namespace bake {
 /// Options that every verb has.
 struct CommonArgs {
     int threads = 0;    ///< 0: one per core
-    bool quiet = false; ///< no progress, no notes
+    bool quiet = false; ///< no progress, no notes, no result as text
     bool json = false;  ///< one JSON object on stdout instead of text
 };
 
@@ -35,5 +36,8 @@ void add_examples(CLI::App& sub, const std::string& examples);
 std::string with_flags(const std::string& message);
 /// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
+/// The result of a verb that writes files, on stdout: the object under --json, else the lines of text unless --quiet, each
+/// with the seconds of the steps.
+void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch);
 
 } // namespace bake

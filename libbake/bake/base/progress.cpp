@@ -55,6 +55,10 @@ void Progress::start(const std::string& step, std::int64_t total) {
     total_ = total;
     done_ = 0;
     percent_ = -1;
+    if (!visible_ || total > 0) return;
+    std::fprintf(stderr, "\r%s ...", step_.c_str());
+    std::fflush(stderr);
+    drawn_ = true;
 }
 
 void Progress::add(std::int64_t units) noexcept {

@@ -15,7 +15,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Begins a step of `total` units under a short name, such as "bake" or "write".
+    /// Begins a step of `total` units under a short name, such as "bake"; 0: unknown, and the name stands for the bar.
     void start(const std::string& step, std::int64_t total);
     void add(std::int64_t units) noexcept;
     /// Wipes the bar, so that results can be printed.

@@ -2,10 +2,10 @@
 #include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/mesh/number_distinct.h"
-#include "bake/mesh/topology.h"
 #include "bake/mesh/weld.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bake {
 namespace {
@@ -15,17 +15,15 @@ using Index = std::uint32_t;
 /// The half-edges on borders, found by the place of their origin.
 class Borders {
 public:
-    Borders(const Mesh& mesh, std::span<const Index> vertex, double distance)
-        : mesh_(mesh), he_(make_half_edges(mesh, vertex)), distance_(distance),
-          cell_(std::max(4 * distance, 1e-9 * diagonal(bounds(mesh)))) {
-        const EdgeTable edges = make_edges(he_);
+    Borders(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges, double distance)
+        : mesh_(mesh), he_(half_edges), distance_(distance),
+          cell_(std::max({4 * distance, 1e-9 * diagonal(bounds(mesh)), std::numeric_limits<double>::min()})) {
         for (Index e = 0; e < edges.edges(); ++e)
             if (edges.of(e).size() == 1) sides_.push_back(edges.of(e)[0]);
         for (const Index h : sides_) by_cell_.emplace_back(key(cell_of(at(he_.origin[h]))), h);
         std::sort(by_cell_.begin(), by_cell_.end());
     }
     const std::vector<Index>& sides() const noexcept { return sides_; }
-    const HalfEdges& half_edges() const noexcept { return he_; }
 
     struct Match {
         Index side = no_index;
@@ -69,7 +67,7 @@ private:
     }
 
     const Mesh& mesh_;
-    HalfEdges he_;
+    const HalfEdges& he_;
     double distance_, cell_;
     std::vector<Index> sides_;
     std::vector<std::pair<std::uint64_t, Index>> by_cell_;
@@ -86,9 +84,9 @@ template <class Join> void for_matches(const Borders& borders, const Join& join)
 
 } // namespace
 
-BorderGaps find_border_gaps(const Mesh& mesh, std::span<const Index> vertex, double distance) {
+BorderGaps find_border_gaps(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges, double distance) {
     BorderGaps gaps;
-    const Borders borders(mesh, vertex, distance);
+    const Borders borders(mesh, half_edges, edges, distance);
     for_matches(borders, [&](Index h, Index g, double d) {
         if (d > 0.05 * std::min(borders.length(h), borders.length(g))) return;
         gaps.edges += 2;
@@ -100,8 +98,8 @@ BorderGaps find_border_gaps(const Mesh& mesh, std::span<const Index> vertex, dou
 BorderGaps weld_borders(Mesh& mesh, double distance, const std::string& path) {
     BorderGaps gaps;
     weld_positions(mesh);
-    const Borders borders(mesh, {}, distance);
-    const HalfEdges& he = borders.half_edges();
+    const HalfEdges he = make_half_edges(mesh);
+    const Borders borders(mesh, he, make_edges(he), distance);
     DisjointSets sets(mesh.positions.size());
     for_matches(borders, [&](Index h, Index g, double d) {
         sets.join(he.origin[h], he.target(g));

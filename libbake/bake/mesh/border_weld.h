@@ -1,7 +1,6 @@
 // Gaps: boundary edges that coincide except for the rounding of their positions.
 #pragma once
-#include "bake/mesh/mesh.h"
-#include <span>
+#include "bake/mesh/topology.h"
 
 namespace bake {
 
@@ -10,9 +9,9 @@ struct BorderGaps {
     double widest = 0;     ///< largest distance between the ends of two such edges
 };
 
-/// The gaps with ends at most `distance` apart, and at most a twentieth of the edges' lengths. `vertex` is that of
-/// make_half_edges(); ends at distance zero are those of one vertex already.
-BorderGaps find_border_gaps(const Mesh& mesh, std::span<const std::uint32_t> vertex, double distance);
+/// The gaps with ends at most `distance` apart, and at most a twentieth of the edges' lengths. Equal positions are one
+/// vertex of the half-edges.
+BorderGaps find_border_gaps(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges, double distance);
 
 /// Joins equal positions, and the ends of boundary edges that lie on each other within `distance`: each edge with the nearest
 /// one of opposite direction, if each of the two is the nearest one of the other. The position of the lowest index stays.

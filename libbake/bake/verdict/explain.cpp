@@ -69,7 +69,7 @@ RouteStep surface_step(const ExplainInput& in, const BakeTarget& target, const T
     RouteStep step{"mesh_surface: " + in.mesh_path, {}};
     step.entries.push_back({"face, triangle", {double(triangle.face), double(hit.triangle)}, "from 0"});
     step.entries.push_back({"barycentrics", {double(1 - hit.b1 - hit.b2), double(hit.b1), double(hit.b2)}, ""});
-    step.entries.push_back({"p", list(Vec3d(jet.p)), ""});
+    step.entries.push_back({"p", list(target.surface.mesh->origin + Vec3d(jet.p)), ""});
     step.entries.push_back({"p_u", list(Vec3d(jet.p_u)), ""});
     step.entries.push_back({"p_v", list(Vec3d(jet.p_v)), ""});
     step.entries.push_back({"n", list(Vec3d(jet.n)), "outward, unit"});

@@ -103,6 +103,10 @@ Findings judge(const ImageReport& report) {
     return out;
 }
 
+bool PairReport::unexpected() const noexcept {
+    return directx && (check.flat || check.corr < pair_tells || !check.green_decided || check.directx != *directx);
+}
+
 Findings judge(const PairReport& report) {
     Findings out;
     const PairCheck& c = report.check;
@@ -116,7 +120,11 @@ Findings judge(const PairReport& report) {
         out.warnings.push_back("the two agree only roughly (correlation " + number(c.corr) + ")");
     if (c.inverted)
         out.warnings.push_back("inverted height: the normal map is that of the negative height; bake with `invert`");
-    if (c.directx)
+    if (report.directx && c.corr >= pair_tells && c.green_decided && c.directx != *report.directx)
+        out.warnings.push_back(std::string("green points ") +
+                               (c.directx ? "down (DirectX), where OpenGL" : "up (OpenGL), where DirectX") +
+                               " is expected; flip the green channel");
+    else if (c.directx && !report.directx)
         out.warnings.push_back(
             "DirectX green: y points down in the normal map; bake with `directx` to match, or flip its green");
     if (c.corr >= pair_tells && !c.green_decided)

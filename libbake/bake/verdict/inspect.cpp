@@ -108,6 +108,7 @@ PairReport inspect_pair(const std::string& height_path, const std::string& norma
     report.normal_width = normals.width();
     report.normal_height = normals.height();
     report.check = check_pair(height.values, decode_normals(normals, report.normal_values));
+    report.directx = options.directx;
     report.recipe = pair_recipe(report.check, double(report.height_height) / report.height_width);
     report.height_channel = option_name(options.height_channel);
     report.findings = judge(report);

@@ -23,6 +23,7 @@ struct InspectOptions {
     MeshCheckOptions mesh;
     UvCheckOptions uv;
     Grey height_channel = Grey::mean; ///< pairs: channel of the height
+    std::optional<bool> directx;      ///< pairs: whether green is expected to point down; none: nothing is expected
     MeshDistanceOptions distance;
     double limit = 0; ///< distances: warn if the upper bound is larger; 0 for no limit
 };
@@ -59,9 +60,12 @@ struct PairReport {
     int height_width = 0, height_height = 0, normal_width = 0, normal_height = 0;
     NormalValues normal_values;
     PairCheck check;
+    std::optional<bool> directx; ///< what InspectOptions expects of the green
     std::optional<PairRecipe> recipe;
     std::string height_channel; ///< as an option of the bake; empty for the mean
     Findings findings;
+    /// The green is not what is expected, or unknown.
+    bool unexpected() const noexcept;
 };
 
 struct DistanceReport {

@@ -1,4 +1,6 @@
 // What becomes of heights that differ across a UV seam.
+#include "bake/mesh/file/mesh_io.h"
+#include "folders.h"
 #include "relief/displace/displace_meshes.h"
 
 using namespace bake;
@@ -178,6 +180,22 @@ TEST_SUITE("unit") {
         for (const Vec3f& p : out.mesh.positions)
             if (p.x == 0) highest = std::max(highest, double(p.z));
         CHECK(highest == doctest::Approx(0.05).epsilon(1e-3));
+    }
+
+} // TEST_SUITE
+
+TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
+
+    TEST_CASE("displace: on Spot under noise the default leaves no edge that is longer for lying on a seam") {
+        const BaseSurface base(read_mesh((shared_data() / "meshes/spot/spot_quadrangulated.obj").string()));
+        const double size = diagonal(bounds(base.mesh()));
+        const Relief height = relief(noise(256), 0.02 * size);
+        DisplaceOptions by_default;
+        by_default.rates.levels = 3;
+        const double blend = longest(displace(base, height, by_default).mesh),
+                     average = longest(displace(base, height, levels(3, Seam::average)).mesh);
+        MESSAGE("longest edge in medians: " << blend << " by default, " << average << " averaged");
+        CHECK(blend < 0.8 * average);
     }
 
 } // TEST_SUITE

@@ -2,15 +2,15 @@
 #include "bake/base/text.h"
 #include "bake/relief/height/dequantise.h"
 #include "bake/relief/height/height_notes.h"
+#include "bake/relief/height/sample_type.h"
 #include "inputs/choice.h"
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
 namespace bake {
 
-void add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
-    sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
-        ->required()
+CLI::Option* add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
+    return sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
         ->check(not_empty());
 }
 
@@ -57,6 +57,15 @@ void add_height_options(CLI::App& sub, HeightInput& input) {
     add_height_reading_options(sub, input);
 }
 
+void add_relief_options(CLI::App& sub, HeightInput& input) {
+    add_length_option(sub, "--amplitude", input.amplitude,
+                      "Height of white above black: object units, or a per cent of the mesh's diagonal, without a mesh "
+                      "of the picture's width [1%; 1 for float files, whose values are lengths]",
+                      false);
+    add_number_option(sub, "--midlevel", input.midlevel, -1e12, 1e12,
+                      "Value that lies on the surface [0.5; 0 for float files]");
+}
+
 void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info) {
     for (const std::string& line : info.notes) note(common, file + ": " + line);
 }
@@ -64,7 +73,7 @@ void print_notes(const CommonArgs& common, const std::string& file, const ImageI
 HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     HeightTexture height = read_height(input.path, input.grey);
     print_notes(common, input.path, height.info);
-    if (input.invert) invert(height);
+    if (input.invert) invert(height, input.midlevel);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
     return height;
 }
@@ -76,6 +85,30 @@ std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput
         note(common, line);
     }
     return notes;
+}
+
+HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole) {
+    const Length by_default = is_float(file) ? Length{1, false} : Length{0.01, true};
+    return {.amplitude = input.amplitude.value_or(by_default).in_units(whole.length),
+            .midlevel = input.midlevel.value_or(default_midlevel(file)),
+            .wrap_u = input.wrap_u(),
+            .wrap_v = input.wrap_v()};
+}
+
+std::string default_amplitude_note(const HeightInput& input, const ImageInfo& file, const HeightOptions& used,
+                                   const Whole& whole) {
+    if (input.amplitude) return "";
+    return format("amplitude %g, ", used.amplitude) +
+           (is_float(file) ? "because the values of a float file are taken as lengths"
+                           : std::string("1 % of ") + whole.name) +
+           "; --amplitude sets it";
+}
+
+void check_steepness(const HeightInput& input, double amplitude, double length) {
+    if (std::abs(amplitude) > 1e9 * length)
+        throw Error(Refusal::usage,
+                    "--amplitude " + input.amplitude.value_or(Length{}).text +
+                        format(": is more than 1e9 times the %g over which it rises; write less", length));
 }
 
 std::string describe_levels(const HeightTexture& height) {

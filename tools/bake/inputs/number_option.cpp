@@ -8,13 +8,6 @@ namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
-std::optional<Amplitude> read_length(const std::string& text) {
-    const bool percent = text.ends_with('%');
-    const auto value = parse_number(percent ? text.substr(0, text.size() - 1) : text);
-    if (!value || std::abs(*value) > 1e12) return {};
-    return Amplitude{percent ? *value / 100 : *value, percent, text};
-}
-
 } // namespace
 
 std::optional<double> parse_number(const std::string& text) {
@@ -29,33 +22,31 @@ std::optional<double> parse_number(const std::string& text) {
     return value;
 }
 
-Amplitude parse_amplitude(const std::string& text) {
-    const auto amplitude = read_length(text);
-    if (!amplitude)
-        throw usage("--amplitude " + text +
-                    ": is not a number up to 1e12; write 0.02, or 1% of the bounding box's diagonal");
-    return *amplitude;
+CLI::Option* add_number_option(CLI::App& sub, const std::string& flag, std::optional<double>& value, double least,
+                               double most, const std::string& help) {
+    const auto parse = [&value, flag, least, most](const std::string& text) {
+        value = parse_number(text);
+        if (!value || *value < least || *value > most)
+            throw usage(flag + " " + text + format(": is not a number from %g to %g; write such as 0.5", least, most));
+    };
+    return sub.add_option_function<std::string>(flag, parse, help)->check(not_empty())->type_name("NUMBER");
 }
 
-CLI::Option* add_amplitude_option(CLI::App& sub, std::optional<Amplitude>& amplitude, const std::string& help) {
-    return sub
-        .add_option_function<std::string>(
-            "--amplitude", [&](const std::string& text) { amplitude = parse_amplitude(text); }, help)
-        ->check(not_empty());
+Length parse_length(const std::string& flag, const std::string& text, bool positive) {
+    const bool percent = text.ends_with('%');
+    const auto value = parse_number(percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || std::abs(*value) > 1e12 || (positive && !(*value > 0)))
+        throw usage(flag + " " + text + ": is not a " + (positive ? "positive " : "") +
+                    "number up to 1e12; write such as 0.02, or 1% of the mesh's diagonal or the picture's width");
+    return {percent ? *value / 100 : *value, percent, text};
 }
 
-Amplitude parse_length(const std::string& flag, const std::string& text) {
-    const auto length = read_length(text);
-    if (!length || !(length->value > 0))
-        throw usage(flag + " " + text +
-                    ": is not a positive number up to 1e12; write 0.02, or 1% of the bounding box's diagonal");
-    return *length;
-}
-
-void check_steepness(const std::string& amplitude, double value, double length) {
-    if (std::abs(value) > 1e9 * length)
-        throw usage("--amplitude " + amplitude +
-                    format(": is more than 1e9 times the %g over which it rises; write less", length));
+CLI::Option* add_length_option(CLI::App& sub, const std::string& flag, std::optional<Length>& length,
+                               const std::string& help, bool positive) {
+    const auto parse = [&length, flag, positive](const std::string& text) {
+        length = parse_length(flag, text, positive);
+    };
+    return sub.add_option_function<std::string>(flag, parse, help)->check(not_empty())->type_name("LENGTH|N%");
 }
 
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive) {

@@ -9,21 +9,23 @@ namespace bake {
 /// The whole of `text` as a finite number.
 std::optional<double> parse_number(const std::string& text);
 
-/// "2.5" in object units, or "1%" of the diagonal of a mesh's bounding box.
-struct Amplitude {
+/// Adds an option for a number from `least` to `most`.
+CLI::Option* add_number_option(CLI::App& sub, const std::string& flag, std::optional<double>& value, double least,
+                               double most, const std::string& help);
+
+/// "2.5" in object units, or "1%" of a length that the verb names: the diagonal of the mesh's bounding box, or the width
+/// of the picture where there is no mesh.
+struct Length {
     double value = 1;
     bool percent = false;
     std::string text = "1"; ///< as it was given
 
-    double in_units(double diagonal) const { return percent ? value * diagonal : value; }
+    double in_units(double whole) const { return percent ? value * whole : value; }
 };
-/// At most 1e12 in magnitude.
-Amplitude parse_amplitude(const std::string& text);
-CLI::Option* add_amplitude_option(CLI::App& sub, std::optional<Amplitude>& amplitude, const std::string& help);
-/// The same for any length: positive, at most 1e12.
-Amplitude parse_length(const std::string& flag, const std::string& text);
-/// Refuses slopes that floats cannot hold: an amplitude above 1e9 times the length over which it rises.
-void check_steepness(const std::string& amplitude, double value, double length);
+/// At most 1e12 in magnitude; `positive`: and above 0.
+Length parse_length(const std::string& flag, const std::string& text, bool positive = true);
+CLI::Option* add_length_option(CLI::App& sub, const std::string& flag, std::optional<Length>& length,
+                               const std::string& help, bool positive = true);
 
 /// "A,B", from 1e-12 to 1e12 if `positive`.
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive = true);

@@ -16,11 +16,11 @@ std::pair<int, int> parse_size(const std::string& flag, const std::string& text,
     return {int(*width), int(*height)};
 }
 
-CLI::Option* add_size_option(CLI::App& sub, std::optional<std::pair<int, int>>& size, const std::string& help,
-                             int most) {
+CLI::Option* add_size_option(CLI::App& sub, std::optional<std::pair<int, int>>& size, const std::string& help, int most,
+                             const std::string& flag) {
     return sub
         .add_option_function<std::string>(
-            "--size", [&size, most](const std::string& text) { size = parse_size("--size", text, most); }, help)
+            flag, [&size, most, flag](const std::string& text) { size = parse_size(flag, text, most); }, help)
         ->check(not_empty())
         ->type_name("N|WxH");
 }

@@ -8,8 +8,7 @@ namespace bake {
 
 /// Width and height from 1 to `most`. Throws Error{Refusal::usage} that names the flag.
 std::pair<int, int> parse_size(const std::string& flag, const std::string& text, int most = 65536);
-/// Adds --size.
 CLI::Option* add_size_option(CLI::App& sub, std::optional<std::pair<int, int>>& size, const std::string& help,
-                             int most = 65536);
+                             int most = 65536, const std::string& flag = "--size");
 
 } // namespace bake

@@ -1,6 +1,7 @@
 #include "inputs/surface_input.h"
 #include "bake/mesh/border_weld.h"
 #include "bake/mesh/weld.h"
+#include "inputs/file_kind.h"
 
 namespace bake {
 namespace {
@@ -18,10 +19,9 @@ void add_surface_input(CLI::App& sub, SurfaceInput& input) {
         sub, "--uv-smoothing", input.uv_smoothing,
         {{"none", UvSmoothing::none}, {"inside", UvSmoothing::inside}, {"all", UvSmoothing::all}},
         "Of a cage: which uvs are smoothed with the surface; inside: all except the charts' borders");
-    sub.add_option("--weld", input.weld,
-                   "Join borders that touch within this distance: object units, or 0.001% of the diagonal [not joined]")
-        ->check(not_empty())
-        ->type_name("DISTANCE");
+    add_length_option(
+        sub, "--weld", input.weld,
+        "Join borders that touch within this distance: object units, or 0.001% of the diagonal [not joined]");
     add_mesh_options(sub, input.reading);
 }
 
@@ -29,14 +29,13 @@ void check_usage(const SurfaceInput& input, const std::string& verb) {
     if (input.mesh.empty() && input.shape.empty())
         throw usage(verb + ": neither a mesh nor a --shape is named; give one of them");
     if (!input.mesh.empty() && !input.shape.empty()) throw usage("--shape: stands instead of a mesh; give one of them");
+    if (!input.mesh.empty()) expect_mesh(input.mesh);
     if (!input.shape.empty() && input.scheme)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
     if (!input.shape.empty() && (input.reading.flip_v || input.reading.uv_set >= 0))
         throw usage(std::string(input.reading.flip_v ? "--flip-v" : "--uv-set") +
                     ": applies to mesh files; leave it out with --shape");
-    if (!input.shape.empty() && !input.weld.empty())
-        throw usage("--weld: applies to mesh files; leave it out with --shape");
-    if (!input.weld.empty()) parse_length("--weld", input.weld);
+    if (!input.shape.empty() && input.weld) throw usage("--weld: applies to mesh files; leave it out with --shape");
     if (!input.scheme && input.uv_smoothing != UvSmoothing::inside)
         throw usage("--uv-smoothing: applies to --subdivide catmark and loop; leave it out");
 }
@@ -48,10 +47,7 @@ BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
         return BaseSurface(shape, cells.first, cells.second);
     }
     Mesh mesh = read_mesh(input.mesh, input.reading);
-    if (!input.weld.empty()) {
-        const Amplitude weld = parse_length("--weld", input.weld);
-        weld_borders(mesh, weld.value * (weld.percent ? diagonal(bounds(mesh)) : 1), input.mesh);
-    }
+    if (input.weld) weld_borders(mesh, input.weld->in_units(diagonal(bounds(mesh))), input.mesh);
     if (!input.scheme) return BaseSurface(std::move(mesh));
     if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);

@@ -10,7 +10,7 @@ struct SurfaceInput {
     std::optional<Scheme> scheme; ///< set: the mesh is a cage, and the surface is its limit
     UvSmoothing uv_smoothing = UvSmoothing::inside;
     MeshOptions reading;
-    std::string weld; ///< empty: none; a length, or per cent of the diagonal
+    std::optional<Length> weld; ///< in per cent of the diagonal, or object units
 
     const std::string& name() const { return shape.empty() ? mesh : shape; }
 };

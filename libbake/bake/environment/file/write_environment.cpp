@@ -197,20 +197,6 @@ EnvironmentTarget complete_for(const EnvironmentTarget& wanted, int edge, float 
     return target;
 }
 
-void check_levels(const std::vector<Cube>& levels, const EnvironmentTarget& target) {
-    if (levels.size() < 2 || target.to == SkyFormat::faces) return;
-    if (!entry_of(target.to).mips) {
-        std::string able;
-        for (const SkyFormatEntry& format : sky_formats)
-            if (format.mips) able += (able.empty() ? "" : ", ") + std::string(format.name);
-        throw usage(target.file + ": " + name(target.to) +
-                    " cannot be written with mip levels; give one of these formats in `to`: " + able);
-    }
-    if (!std::has_single_bit(unsigned(levels[0].size())))
-        throw usage(target.file + ": mip levels of six faces of " + std::to_string(levels[0].size()) +
-                    " texels in one picture do not halve evenly; give a `size` that is a power of two");
-}
-
 } // namespace
 
 SkyFormat format_of_name(const std::string& file) {
@@ -243,6 +229,24 @@ EnvironmentTarget complete_target(EnvironmentTarget target, int edge) {
     return target;
 }
 
+void check_levels(const EnvironmentTarget& target, std::size_t levels, int edge) {
+    if (levels < 2) return;
+    if (picture_format(target.file) == PictureFormat::png)
+        throw usage(target.file + ": PNG has no mips; write .exr or .tif");
+    const SkyFormat to = target.to == SkyFormat::automatic ? format_of_name(target.file) : target.to;
+    if (to == SkyFormat::faces) return;
+    if (!entry_of(to).mips) {
+        std::string able;
+        for (const SkyFormatEntry& format : sky_formats)
+            if (format.mips) able += (able.empty() ? "" : ", ") + std::string(format.name);
+        throw usage(target.file + ": " + name(to) +
+                    " cannot be written with mip levels; give one of these formats in `to`: " + able);
+    }
+    if (edge > 0 && !std::has_single_bit(unsigned(edge)))
+        throw usage(target.file + ": mip levels of six faces of " + std::to_string(edge) +
+                    " texels in one picture do not halve evenly; give a `size` that is a power of two");
+}
+
 EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTarget& wanted,
                                      const ResampleOptions& options, Progress* progress) {
     // Resampling gives no value beyond those of the source.
@@ -261,7 +265,7 @@ EnvironmentWritten write_levels(std::vector<Cube> levels, const EnvironmentTarge
     float largest = 0;
     for (const Cube& level : levels) largest = std::max(largest, largest_of(level));
     const EnvironmentTarget target = complete_for(wanted, levels[0].size(), largest);
-    check_levels(levels, target);
+    check_levels(target, levels.size(), levels[0].size());
     const bool mips = levels.size() > 1, six = target.to == SkyFormat::faces;
     while (mips && levels.back().size() > 1) levels.push_back(next_mip(levels.back()));
     const SkyFormatEntry& format = entry_of(target.to);

@@ -37,14 +37,18 @@ SkyFormat format_of_name(const std::string& file);
 /// Error{Refusal::usage} for a size, depth or file name that the format cannot have.
 EnvironmentTarget complete_target(EnvironmentTarget target, int edge);
 
+/// Refuses what write_levels() would refuse, before the levels are computed: more than one level in a format without mips,
+/// or in one picture of faces whose edge is not a power of two. `edge`: of level 0; 0 where it is not known yet. Throws
+/// Error{Refusal::usage}.
+void check_levels(const EnvironmentTarget& target, std::size_t levels, int edge);
+
 /// Converts an environment and writes it. Six files and strips are made and written in bands of rows. Files appear under
 /// their names all together or not at all.
 EnvironmentWritten write_environment(const Environment& sky, const EnvironmentTarget& target,
                                      const ResampleOptions& options = {}, Progress* progress = nullptr);
 
 /// Writes texel-centred cubes, level 0 first, each half as large as the one before, rounded down. More than one level gives
-/// files with mip levels; the chain is completed to one texel by next_mip. Throws Error{Refusal::usage} for levels in a
-/// format without mips, and in one picture of faces whose edge is not a power of two.
+/// files with mip levels; the chain is completed to one texel by next_mip. Throws as check_levels().
 EnvironmentWritten write_levels(std::vector<Cube> levels, const EnvironmentTarget& target,
                                 Progress* progress = nullptr);
 

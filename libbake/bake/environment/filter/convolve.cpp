@@ -1,5 +1,6 @@
 #include "bake/environment/filter/convolve.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -166,7 +167,8 @@ int finest_level_for(int sky_size, float lobe_width) noexcept {
 }
 
 template <class Lobe>
-Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options) {
+Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options,
+              Progress* progress) {
     const int channels = tree.channels();
     // Tiles are not much wider than the lobe, so that few nodes are subdivided for only a few directions of a tile.
     int edge = 8;
@@ -178,7 +180,9 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
     const bool integral_known = width_of(lobe) > 1.2f * 2 / float(tree.size(0));
 
     Cube out = make_cube(size, channels);
-    for_rows(std::int64_t(6) * tiles * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
+    const std::int64_t all = std::int64_t(6) * tiles * tiles;
+    if (progress) progress->start("filter", all);
+    const auto fill = [&](std::int64_t begin, std::int64_t end) {
         Sources found;
         for (std::int64_t i = begin; i < end; ++i) {
             const int face = int(i / (tiles * tiles)), x0 = int(i % tiles) * edge, y0 = int(i / tiles % tiles) * edge;
@@ -193,11 +197,12 @@ Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const Convol
                     out.faces[tile.face].at(x, y, c) = mean_light(tree, lobe, tile, sums, k, c, integral_known);
             }
         }
-    });
+    };
+    for_rows(all, 1, fill, progress);
     return out;
 }
 
-template Cube convolve(const RadianceTree&, const GgxLobe&, int, const ConvolveOptions&);
-template Cube convolve(const RadianceTree&, const PhongLobe&, int, const ConvolveOptions&);
+template Cube convolve(const RadianceTree&, const GgxLobe&, int, const ConvolveOptions&, Progress*);
+template Cube convolve(const RadianceTree&, const PhongLobe&, int, const ConvolveOptions&, Progress*);
 
 } // namespace bake

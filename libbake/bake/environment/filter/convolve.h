@@ -15,6 +15,8 @@
 
 namespace bake {
 
+class Progress;
+
 /// Width of a lobe about its centre, radians; 2 for the clamped cosine.
 template <class Lobe> float width_of(const Lobe& lobe) noexcept {
     return 1 / std::sqrt(std::max(lobe.sharpness(), 0.25f));
@@ -33,6 +35,7 @@ struct ConvolveOptions {
 
 /// The convolution at the centres of the texels of a cube of `size` texels along an edge.
 template <class Lobe>
-Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options = {});
+Cube convolve(const RadianceTree& tree, const Lobe& lobe, int size, const ConvolveOptions& options = {},
+              Progress* progress = nullptr);
 
 } // namespace bake

@@ -14,7 +14,7 @@ void scale(Cube& cube, double factor) noexcept {
 
 } // namespace
 
-Cube irradiance(const Cube& sky, const IrradianceOptions& options) {
+Cube irradiance(const Cube& sky, const IrradianceOptions& options, Progress* progress) {
     if (options.size < 1)
         throw Error(Refusal::usage, "`size` " + std::to_string(options.size) + ": is not positive; give 1 or more");
     if (options.method == IrradianceMethod::direct) {
@@ -22,7 +22,7 @@ Cube irradiance(const Cube& sky, const IrradianceOptions& options) {
         // that of a lobe.
         const GgxLobe cosine;
         const RadianceTree tree(sky, finest_level_for(sky.size(), width_of(cosine)));
-        Cube mean = convolve(tree, cosine, options.size, {.node_width = 0.5f, .tolerance = 1e-5f});
+        Cube mean = convolve(tree, cosine, options.size, {.node_width = 0.5f, .tolerance = 1e-5f}, progress);
         scale(mean, pi);
         return mean;
     }

@@ -11,6 +11,8 @@
 
 namespace bake {
 
+class Progress;
+
 enum class IrradianceMethod { direct, sh };
 
 struct IrradianceOptions {
@@ -21,6 +23,6 @@ struct IrradianceOptions {
 
 /// Irradiance in the direction of every texel's centre, in cube space; as many channels as `sky`, which is finite and
 /// not empty. Throws Error{Refusal::usage} when bands or size is out of range.
-Cube irradiance(const Cube& sky, const IrradianceOptions& options = {});
+Cube irradiance(const Cube& sky, const IrradianceOptions& options = {}, Progress* progress = nullptr);
 
 } // namespace bake

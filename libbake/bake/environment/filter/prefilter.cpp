@@ -24,7 +24,7 @@ void check(const PrefilterOptions& options) {
 
 } // namespace
 
-std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options) {
+std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options, Progress* progress) {
     check(options);
     const bool ggx = options.lobe == SpecularLobe::ggx;
     float narrowest = 2;
@@ -39,8 +39,8 @@ std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options) {
     for (std::size_t level = 0; level < options.roughness.size(); ++level) {
         const int size = std::max(1, level < 31 ? first >> level : 0);
         const double value = options.roughness[level];
-        if (!ggx) chain.push_back(convolve(tree, PhongLobe{float(value)}, size));
-        else if (value > 0) chain.push_back(convolve(tree, GgxLobe::of_alpha(value), size));
+        if (!ggx) chain.push_back(convolve(tree, PhongLobe{float(value)}, size, {}, progress));
+        else if (value > 0) chain.push_back(convolve(tree, GgxLobe::of_alpha(value), size, {}, progress));
         else chain.push_back(resize_by_area(sky, size));
     }
     return chain;

@@ -16,6 +16,8 @@
 
 namespace bake {
 
+class Progress;
+
 enum class SpecularLobe { ggx, phong };
 
 struct PrefilterOptions {
@@ -28,6 +30,6 @@ struct PrefilterOptions {
 
 /// Level k has max(1, size >> k) texels along an edge, as many channels as `sky`, and roughness[k]. `sky` is finite and
 /// not empty. Throws Error{Refusal::usage} when roughness is empty or out of range, or size negative.
-std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options);
+std::vector<Cube> prefilter(const Cube& sky, const PrefilterOptions& options, Progress* progress = nullptr);
 
 } // namespace bake

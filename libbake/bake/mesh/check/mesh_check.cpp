@@ -156,7 +156,9 @@ void count_components(const Mesh& mesh, const std::vector<Triangle>& triangles, 
         });
 }
 
-Connectivity topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const Index> vertex) {
+/// Finds the gaps too where `gaps` is given.
+Connectivity topology_of(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const Index> vertex,
+                         double gap_distance, BorderGaps* gaps) {
     Connectivity topology;
     const HalfEdges he = make_half_edges(mesh, vertex);
     const EdgeTable edges = make_edges(he);
@@ -170,6 +172,7 @@ Connectivity topology_of(const Mesh& mesh, const std::vector<Triangle>& triangle
     topology.boundary_loops = count_boundary_loops(he, edges, mate, turned);
     topology.nonmanifold_vertices = count_nonmanifold_vertices(he, edges);
     count_components(mesh, triangles, he, edges, turned, topology);
+    if (gaps && topology.boundary_edges > 1) *gaps = find_border_gaps(mesh, he, edges, gap_distance);
     return topology;
 }
 
@@ -250,9 +253,10 @@ MeshCheck check_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles, c
 
     const std::vector<Index> welded = first_equal(mesh.positions);
     for (Index p = 0; p < welded.size(); ++p) check.coincident_positions += welded[p] != p;
-    check.topology = topology_of(mesh, triangles, {});
-    check.welded = check.coincident_positions > 0 ? topology_of(mesh, triangles, welded) : check.topology;
-    if (check.welded.boundary_edges > 1) check.gaps = find_border_gaps(mesh, welded, 1e-4 * check.diagonal);
+    const double gap_distance = 1e-4 * check.diagonal;
+    const bool welds = check.coincident_positions > 0;
+    check.topology = topology_of(mesh, triangles, {}, gap_distance, welds ? nullptr : &check.gaps);
+    check.welded = welds ? topology_of(mesh, triangles, welded, gap_distance, &check.gaps) : check.topology;
     check.duplicate_faces = count_duplicates(mesh, welded);
 
     std::vector<char> used(mesh.positions.size(), 0);

@@ -2,9 +2,10 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/base/text.h"
 #include "bake/relief/displace/points.h"
 #include "bake/relief/displace/rates.h"
-#include <cstdio>
+#include <cmath>
 #include <unistd.h>
 
 namespace bake {
@@ -32,10 +33,14 @@ DisplaceCount count_of(const PatchLayout& layout, const BaseSurface& base, bool 
     return count;
 }
 
-std::string in_megabytes(std::uint64_t bytes) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f MB", std::ceil(double(bytes) / 1e6));
-    return text;
+/// "1.21 GiB": to three digits, up or down, so that a need above the limit is not printed as the limit.
+std::string in_binary_units(std::uint64_t bytes, bool up) {
+    const char* const units[] = {"KiB", "MiB", "GiB", "TiB", "PiB"};
+    double value = double(bytes) / 1024;
+    int unit = 0;
+    for (; value >= 1000 && unit < 4; ++unit) value /= 1024;
+    const double digit = value < 10 ? 100 : value < 100 ? 10 : 1;
+    return format("%g ", (up ? std::ceil(value * digit) : std::floor(value * digit)) / digit) + units[unit];
 }
 
 struct Plan {
@@ -56,22 +61,24 @@ void refuse_too_large(const BaseSurface& base, const DisplaceOptions& options, c
         return c.bytes <= limit && std::max(c.points, c.corners) < no_index;
     };
     if (fits(count)) return;
-    std::string mend = "allow more memory by `max_bytes`";
+    std::string mend = "allow more by `max_bytes`";
     if (options.rates.rule == Rates::Rule::uniform) {
         int level = options.rates.levels;
         while (--level >= 0) {
             const Plan coarser(base, uniform_rates(base, level), options.margin);
             if (fits(coarser.count)) break;
         }
-        mend += level >= 0 ? " or take `rates.levels` " + std::to_string(level)
-                           : std::string(" or a coarser mesh: not even level 0 fits");
+        mend += level >= 0 ? ", or set `rates.levels` to " + std::to_string(level)
+                           : std::string(", or take a coarser mesh: not even level 0 fits");
     } else
-        mend += options.rates.rule == Rates::Rule::error ? " or a larger `rates.error`" : " or a larger `rates.size`";
-    throw Error(Refusal::unsuitable,
-                "displacement: needs " + in_megabytes(count.bytes) + " for " + std::to_string(count.points) +
-                    " points and " + std::to_string(count.faces) + " faces, more than " +
-                    (count.bytes <= limit ? "indices hold" : "the " + in_megabytes(limit) + " it may use") + "; " +
-                    mend);
+        mend += options.rates.rule == Rates::Rule::error ? ", or set a larger `rates.error`"
+                                                         : ", or set a larger `rates.size`";
+    throw Error(
+        Refusal::unsuitable,
+        "the displaced mesh needs " + in_binary_units(count.bytes, true) + " of memory for " +
+            std::to_string(count.points) + " points and " + std::to_string(count.faces) + " faces, more than " +
+            (count.bytes <= limit ? "its indices can count" : "the " + in_binary_units(limit, false) + " it may use") +
+            "; " + mend);
 }
 
 /// Computes the chosen normals from the faces around them, with Max's weights (Weights for computing vertex normals from

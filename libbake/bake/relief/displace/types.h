@@ -48,7 +48,7 @@ struct Rates {
 
 struct DisplaceOptions {
     Rates rates;
-    Seam seam = Seam::average;
+    Seam seam = Seam::blend;
     std::uint64_t max_bytes = 0; ///< largest result that is not refused; 0: the memory of the machine
     bool measure_error = false;  ///< fill report.error: distance of the result from the displaced surface
     bool margin = false;         ///< fill Displaced::margin

@@ -1,0 +1,12 @@
+// The name that a mistyped one probably stands for.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace bake {
+
+/// Of `names` the one nearest to `word`, ignoring case, leading dashes and - for _: at most a third of its letters
+/// mistyped, left out, doubled or swapped, or its beginning alone. Empty if none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& names);
+
+} // namespace bake
