@@ -95,7 +95,7 @@ TEST_SUITE("unit") {
 
     TEST_CASE("judge: v is doubted if nearly all triangles are mirrored, not if half of them are") {
         MeshReport report;
-        report.uv.triangles = report.check.triangles = 1000;
+        report.check.faces = report.uv.triangles = report.check.triangles = 1000;
         for (const std::size_t mirrored : {504, 900, 950}) {
             report.uv.mirrored_triangles = mirrored;
             CHECK(says(judge(report).notes, "flip_v") == (mirrored == 950));
