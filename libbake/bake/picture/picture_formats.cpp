@@ -141,6 +141,11 @@ std::string choose_subimage(OIIO::ImageInput& in) {
            std::to_string(chosen + 1) + " is read, the others are left out";
 }
 
+// A library's warning that some of the picture is missing; other warnings are let pass.
+bool says_cut_short(const std::string& message) {
+    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
+}
+
 std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const PictureFile& file, const OpenFile& open,
                                              const ReadLimits& limits, FormatPicture& picture) {
     configure_oiio(host.threads);
@@ -160,6 +165,8 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const Pictu
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
+    // Decoders of progressive pictures read them whole in opening them.
+    if (const std::string said = in->geterror(); says_cut_short(said)) throw unreadable(path, said);
     const std::string others = choose_subimage(*in);
     ImageInfo& info = picture.info = describe(*in, file);
     if (!others.empty()) info.notes.push_back(others);
@@ -181,11 +188,6 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const Pictu
     if (const auto* icc = spec.find_attribute("ICCProfile"); icc && icc->data())
         picture.icc.assign(static_cast<const char*>(icc->data()), icc->type().size());
     return in;
-}
-
-// A library's warning that some of the picture is missing; other warnings are let pass.
-bool says_cut_short(const std::string& message) {
-    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
 }
 
 void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
