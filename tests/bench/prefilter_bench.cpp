@@ -7,8 +7,8 @@
 // pass that reads the sky and writes the result, or, for the lobes, the plain sum over all texels of the sky, timed on
 // a few directions and scaled.
 //
-// prefilter_bench --make WIDTH FILE: the sun at +Y as a lat-long of floats. About the y axis it is symmetric, so that it
-// does not matter how a program orients its cubes.
+// prefilter_bench --make FACES FILE: the sun at +Y as a horizontal cross of floats. It is symmetric about the y axis, so
+// that it does not matter how a program orients its cubes.
 // prefilter_bench --errors ALPHA FACES ...: mean, 95th percentile and largest error of one or more levels of GGX, FACES
 // being a name with %s; on stderr the root mean square of each level.
 #include "bake/base/vec.h"
@@ -17,7 +17,7 @@
 #include "bake/environment/filter/irradiance.h"
 #include "bake/environment/filter/mips.h"
 #include "bake/environment/filter/prefilter.h"
-#include "bake/environment/sky/projection.h"
+#include "bake/environment/sky/layout.h"
 #include "bench.h"
 #include "environment/skies.h"
 #include "oracle/zonal.h"
@@ -169,15 +169,9 @@ void lobe_rows(const Cube& sky) {
                  SpecularLobe::phong, [e = exponent](double c) { return oracle::phong_kernel(c, e); });
 }
 
-void make_latlong(int width, const char* file) {
-    const int height = width / 2;
-    Image<float> sky(width, height, 3);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const double up = picture_direction(Projection::latlong, width, height, x + 0.5, y + 0.5).y;
-            std::fill_n(&sky.at(x, y), 3, float(sun.radiance(up)));
-        }
-    write_image(file, sky, {.depth = Depth::float32});
+void make_cross(int faces, const char* file) {
+    const Cube sky = test::sky_of(faces, 3, [](const Vec3d& d, int) { return sun.radiance(d.y); });
+    write_image(file, paste_faces(sky, CubeLayout::hcross), {.depth = Depth::float32});
 }
 
 /// `levels`: alpha, name of the faces, alpha, name, ...
@@ -191,7 +185,7 @@ void print_errors(char** levels, int count) {
         std::vector<float> errors;
         const Measured measured = measure(cube, expected, &errors);
         all.insert(all.end(), errors.begin(), errors.end());
-        std::fprintf(stderr, "%g: %.2g, ", alpha, measured.rmse);
+        std::fprintf(stderr, "%s%g: %.2g", i > 0 ? ", " : "", alpha, measured.rmse);
     }
     const bench::Errors e = bench::errors_of(all);
     std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
@@ -201,13 +195,13 @@ void print_errors(char** levels, int count) {
 
 int main(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
-    if (first == "--make" && argc == 4) return make_latlong(std::atoi(argv[2]), argv[3]), 0;
+    if (first == "--make" && argc == 4) return make_cross(std::atoi(argv[2]), argv[3]), 0;
     if (first == "--errors" && argc > 3) return print_errors(argv + 2, argc - 2), 0;
     const int faces = argc > 1 ? std::atoi(argv[1]) : 256;
     if (argc > 2 || faces < 32 || faces > 2048)
         return std::fprintf(
                    stderr,
-                   "usage: prefilter_bench [FACES], 32 to 2048 | --make WIDTH FILE | --errors ALPHA FACES ...\n"),
+                   "usage: prefilter_bench [FACES], 32 to 2048 | --make FACES FILE | --errors ALPHA FACES ...\n"),
                2;
     const Cube sun_alone = sun_sky(faces, false), sun_2k = sun_sky(2 * faces, false),
                sun_and_sky_2k = sun_sky(2 * faces, true);
