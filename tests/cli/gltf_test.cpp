@@ -101,8 +101,9 @@ TEST_SUITE("cli") {
         CHECK(check({}).find("1 missing image") != std::string::npos);
         CHECK(check({"--json"}).find("\"missing_images\":1") != std::string::npos);
         std::filesystem::remove(folder / "a.bin");
-        test::check_refused(folder, {"normal-map", "a.gltf", "--height", "a.gltf", "--amplitude", "1", "-o", "n.png"},
-                            3, "a.gltf");
+        const std::string height = (test::own_meshes() / "bricks.png").string();
+        test::check_refused(folder, {"normal-map", "a.gltf", "--height", height, "--amplitude", "1", "-o", "n.png"}, 3,
+                            "a.gltf");
     }
 
     TEST_CASE("gltf: normal-map, explain and render take a .glb as they take the same mesh as .obj") {

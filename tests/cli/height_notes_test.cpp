@@ -71,6 +71,30 @@ TEST_SUITE("cli") {
         check_note("", {"--channel", "r"});
     }
 
+    TEST_CASE("displace: a float map of zeros moves nothing, also inverted, and as vectors") {
+        const Folder folder;
+        write_file(folder / "square.obj", square);
+        Image<float> zeros(8, 8, 3);
+        std::fill_n(zeros.data(), zeros.size(), 0.0f);
+        write_image(folder / "zeros.exr", zeros, {.depth = Depth::half});
+        for (const std::vector<std::string>& more :
+             std::vector<std::vector<std::string>>{{}, {"--invert"}, {"--amplitude", "3"}, {"--vector", "tangent"}}) {
+            std::vector<std::string> all = {"displace", "square.obj", "--height", "zeros.exr", "-o", "d.obj"};
+            all.insert(all.end(), more.begin(), more.end());
+            REQUIRE(run_bake(folder, all).code == 0);
+            const Run run = run_bake(folder, {"check", "d.obj", "--against", "square.obj", "--json"});
+            CHECK(double(nlohmann::json::parse(run.out)["files"][0]["hausdorff"]["upper"]) < 1e-9);
+        }
+        // The middle of an integer map lies on the surface.
+        picture(folder / "h.png", 1, [](int, int, int) { return 0.75; });
+        REQUIRE(
+            run_bake(folder, {"displace", "square.obj", "--height", "h.png", "--amplitude", "1", "-o", "d.obj"}).code ==
+            0);
+        const Run run = run_bake(folder, {"check", "d.obj", "--against", "square.obj", "--json"});
+        CHECK(double(nlohmann::json::parse(run.out)["files"][0]["hausdorff"]["upper"]) ==
+              doctest::Approx(0.25).epsilon(0.01));
+    }
+
     TEST_CASE("check --pair: the options that it prints reproduce the map") {
         const Folder folder;
         picture(folder / "h.png", 1, [](int x, int y, int) { return wave(x, y); });

@@ -27,7 +27,6 @@ template <class Value> Image<float> picture(int width, int height, int channels,
     return image;
 }
 
-constexpr SampleType int16_type = SampleType::other; // of 16 bits
 const std::vector<std::string> grey1 = {"Y"}, rgb = {"R", "G", "B"};
 
 } // namespace
@@ -108,8 +107,8 @@ TEST_SUITE("unit") {
         };
         CHECK(is_cut(grey(SampleType::u8, 16, 255).info));
         CHECK_FALSE(is_cut(grey(SampleType::u8, 8, 255).info));
-        CHECK(grey(int16_type, 16, 32767).grey_step == doctest::Approx(1.0 / 32767));
-        CHECK(grey(int16_type, 16, 32767).true_bits == 16);
+        CHECK(grey(SampleType::i16, 16, 32767).grey_step == doctest::Approx(1.0 / 32767));
+        CHECK(grey(SampleType::i16, 16, 32767).true_bits == 16);
     }
 
     TEST_CASE("check_image: levels are counted up to 65536") {

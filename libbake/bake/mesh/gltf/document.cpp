@@ -172,6 +172,34 @@ void refuse_required_extensions(const json& root, const std::string& path) {
     refuse_unknown_extensions(names, path);
 }
 
+/// Calls work(element) for each element of the list `key` of an object, if it has one.
+template <class Work> void for_elements(const json& object, const char* key, Work&& work) {
+    const auto list = object.is_object() ? object.find(key) : object.end();
+    if (list != object.end() && list->is_array())
+        for (const json& element : *list) work(element);
+}
+
+/// Draco replaces the attributes and indices of a primitive. A file that does not require Draco has them uncompressed too;
+/// a file that has them in compressed form only names accessors without bytes.
+void refuse_draco_alone(const json& root, const std::string& path) {
+    const char* const draco = "KHR_draco_mesh_compression";
+    std::vector<bool> has_bytes;
+    for_elements(root, "accessors", [&](const json& accessor) {
+        has_bytes.push_back(accessor.is_object() && (accessor.contains("bufferView") || accessor.contains("sparse")));
+    });
+    const auto check = [&](const json& index) {
+        if (!index.is_number_unsigned() || index.get<std::size_t>() >= has_bytes.size()) return; // refused later
+        if (!has_bytes[index.get<std::size_t>()]) refuse_compression(draco, path);
+    };
+    for_elements(root, "meshes", [&](const json& mesh) {
+        for_elements(mesh, "primitives", [&](const json& primitive) {
+            if (!primitive.is_object() || !primitive.value("extensions", json::object()).contains(draco)) return;
+            for (const json& index : primitive.value("attributes", json::object())) check(index);
+            check(primitive.value("indices", json()));
+        });
+    });
+}
+
 void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const std::string& path, GltfDocument& out) {
     const std::string what = "its buffer " + std::to_string(i);
     const auto length = object.is_object() ? object.find("byteLength") : object.end();
@@ -240,6 +268,7 @@ GltfDocument read_gltf_document(const std::string& path) {
         refuse(path,
                version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
     refuse_required_extensions(parsed, path);
+    refuse_draco_alone(parsed, path);
     const auto each = [&](const char* key, auto&& work) {
         const auto list = parsed.find(key);
         if (list == parsed.end()) return;

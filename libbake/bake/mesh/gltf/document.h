@@ -20,7 +20,8 @@ struct GltfDocument {
 /// Reads a .gltf or .glb (distinguished by its first bytes) and the files that it names. A missing image keeps its uri and
 /// has no bytes. Throws Error{Refusal::unreadable} for a file that is not glTF 2.0 or is truncated, a buffer that is missing,
 /// too short or not valid base64, JSON that is nested too deeply, and a uri outside of the folder. Throws
-/// Error{Refusal::unsuitable} for an extension that the file requires and that is not known here.
+/// Error{Refusal::unsuitable} for an extension that the file requires and that is not known here, and for compressed meshes
+/// without an uncompressed copy.
 GltfDocument read_gltf_document(const std::string& path);
 
 } // namespace bake

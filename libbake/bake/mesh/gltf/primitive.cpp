@@ -1,6 +1,5 @@
 #include "bake/mesh/gltf/primitive.h"
 #include "bake/base/text_line.h"
-#include "bake/mesh/gltf/extensions.h"
 #include <algorithm>
 #include <tiny_gltf.h>
 
@@ -17,15 +16,6 @@ std::string attribute_name(const std::string& semantic) {
     for (char& c : name)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     return name;
-}
-
-/// Draco replaces the attributes and indices of a primitive; a file that does not require Draco has them uncompressed too.
-void refuse_if_compressed(const GltfSource& source, const tinygltf::Primitive& from) {
-    const char* const draco = "KHR_draco_mesh_compression";
-    if (!from.extensions.count(draco)) return;
-    bool whole = !from.attributes.empty() && (from.indices < 0 || !is_without_bytes(source, from.indices));
-    for (const auto& [semantic, index] : from.attributes) whole = whole && !is_without_bytes(source, index);
-    if (!whole) refuse_compression(draco, source.path);
 }
 
 /// Adds the values of the morph targets to those of an attribute. Spec 3.7.2.2. False if none has a weight.
@@ -55,7 +45,6 @@ bool add_targets(const GltfSource& source, const GltfPrimitive& primitive, const
 std::optional<GltfPrimitive> primitive_of(const GltfSource& source, const tinygltf::Primitive& from) {
     if (from.mode >= 0 && from.mode < TINYGLTF_MODE_TRIANGLES) return {}; // points and lines
     if (from.mode > TINYGLTF_MODE_TRIANGLE_FAN) source.refuse("has a primitive of mode " + std::to_string(from.mode));
-    refuse_if_compressed(source, from);
     GltfPrimitive out;
     if (from.mode >= 0) out.mode = static_cast<GltfPrimitive::Mode>(from.mode);
     if (from.material >= 0) {

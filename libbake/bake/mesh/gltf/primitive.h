@@ -39,8 +39,7 @@ struct GltfPrimitive {
     }
 };
 
-/// Nothing for points, lines and primitives without positions. Throws Error{Refusal::unsuitable} for a primitive that
-/// exists only in Draco's form.
+/// Nothing for points, lines and primitives without positions.
 std::optional<GltfPrimitive> primitive_of(const GltfSource& source, const tinygltf::Primitive& from);
 
 /// Three indices of each triangle, all below the count of positions.

@@ -104,10 +104,4 @@ std::vector<float> floats_of(const GltfSource& source, int index, int components
     return out;
 }
 
-bool is_without_bytes(const GltfSource& source, int index) {
-    if (index < 0 || std::size_t(index) >= source.model.accessors.size()) return false;
-    const tinygltf::Accessor& accessor = source.model.accessors[std::size_t(index)];
-    return accessor.bufferView < 0 && !accessor.sparse.isSparse;
-}
-
 } // namespace bake

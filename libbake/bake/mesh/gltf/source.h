@@ -28,7 +28,4 @@ GltfAccessor accessor_of(const GltfSource& source, int index, const std::string&
 /// As accessor_of(), for vectors of `components` floats. Throws for others, and for values that are not finite.
 std::vector<float> floats_of(const GltfSource& source, int index, int components, const std::string& use);
 
-/// Whether the accessor has no bytes of its own and no sparse ones: all of its values are 0.
-bool is_without_bytes(const GltfSource& source, int index);
-
 } // namespace bake

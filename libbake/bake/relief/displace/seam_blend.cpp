@@ -152,7 +152,7 @@ void SeamBlend::correct_poles(const ReliefSurface& surface) {
         }
 }
 
-SeamBlend::SeamBlend(const ReliefSurface& surface) {
+SeamBlend::SeamBlend(const ReliefSurface& surface) : components_(surface.values_are_heights() ? 1 : 3) {
     of_.assign(surface.base().complex().patches.size(), no_index);
     const auto& [edges, vertices] = surface.base().junctions();
     correct_corners(surface, vertices);
@@ -162,7 +162,7 @@ SeamBlend::SeamBlend(const ReliefSurface& surface) {
 
 SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end) {
     const auto count = int(values.size()) - 1;
-    const Curve c{std::uint32_t(nodes_.size()), std::uint32_t(count)};
+    const Curve c{std::uint32_t(nodes_.size() / (2 * components_)), std::uint32_t(count)};
     std::vector<Vec3d> rest(values.size()); // less the contribution of the corners
     for (int k = 0; k <= count; ++k) {
         const double x = step(double(k) / count);
@@ -174,16 +174,22 @@ SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d&
         else if (k == count) slope = (3.0 * rest[k] - 4.0 * rest[k - 1] + rest[k - 2]) / 2.0;
         else if (k == 1 || k == count - 1) slope = (rest[k + 1] - rest[k - 1]) / 2.0;
         else slope = (8.0 * (rest[k + 1] - rest[k - 1]) - (rest[k + 2] - rest[k - 2])) / 12.0;
-        nodes_.push_back({rest[k], slope});
+        for (const Vec3d& v : {rest[k], slope}) nodes_.insert(nodes_.end(), &v.x, &v.x + components_);
     }
     return c;
+}
+
+SeamBlend::Node SeamBlend::node(std::uint32_t number) const noexcept {
+    const double* const v = nodes_.data() + 2 * components_ * number;
+    if (components_ == 1) return {Vec3d(v[0], 0, 0), Vec3d(v[1], 0, 0)};
+    return {Vec3d(v[0], v[1], v[2]), Vec3d(v[3], v[4], v[5])};
 }
 
 SeamBlend::Node SeamBlend::along(const Curve& curve, double x) const noexcept {
     const double place = std::clamp(x, 0.0, 1.0) * curve.count;
     const auto k = std::min(std::uint32_t(place), curve.count - 1);
     const double u = place - k, w = 1 - u;
-    const Node &a = nodes_[curve.first + k], &b = nodes_[curve.first + k + 1];
+    const Node a = node(curve.first + k), b = node(curve.first + k + 1);
     const Vec3d step_ab = b.value - a.value;
     return {w * w * (1 + 2 * u) * a.value + u * u * (3 - 2 * u) * b.value + u * w * (w * a.slope - u * b.slope),
             double(curve.count) * (6 * u * w * step_ab + w * (1 - 3 * u) * a.slope + u * (3 * u - 2) * b.slope)};

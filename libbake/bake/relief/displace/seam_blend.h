@@ -47,11 +47,13 @@ private:
     Correction correction(const Patch& patch, const Vec2d& st) const noexcept;
     Patch& patch_at_seam(const ReliefSurface& surface, std::uint32_t patch);
     Curve curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end);
+    Node node(std::uint32_t number) const noexcept;
     Node along(const Curve& curve, double x) const noexcept;
 
     std::vector<std::uint32_t> of_; ///< patches: number in patches_ or no_index
     std::vector<Patch> patches_;
-    std::vector<Node> nodes_;
+    std::size_t components_ = 3; ///< of the values; 1 for heights, which are the x of a value
+    std::vector<double> nodes_;  ///< of each node the value, then the slope
 };
 
 /// A surface with its relief, and the correction at its seams, which is empty except with Seam::blend.
