@@ -240,7 +240,7 @@ TEST_SUITE("cli") {
         const std::string for_mesh = "is a mesh, where a picture is expected",
                           for_picture = "is a picture, where a mesh is expected";
         const auto refused = [&](const std::vector<std::string>& arguments, const std::string& named) {
-            check_refused(folder, arguments, 2, named);
+            check_refused(folder, arguments, 3, named);
         };
         refused({"normal-map", "--height", torus, "-o", "a.png"}, for_mesh);
         refused({"normal-map", dots, "--height", dots, "-o", "a.png"}, for_picture);
@@ -253,7 +253,7 @@ TEST_SUITE("cli") {
         refused({"cubemap", torus, "-o", "a.exr"}, for_mesh);
         refused({"render", torus, "-o", "a.png"}, "is a mesh, where a scene is expected");
         refused({"cubemap", "--capture", dots, "--at", "0,1,0", "-o", "a.exr"}, "where a scene is expected");
-        check_refused(folder, {"displace", scene, "--height", dots, "-o", "a.ply"}, 2, "is a scene");
+        check_refused(folder, {"displace", scene, "--height", dots, "-o", "a.ply"}, 3, "is a scene");
     }
 
     TEST_CASE("usage: --quiet prints nothing on success, but what check, explain and --json are for") {

@@ -112,7 +112,7 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     nlohmann::json json = cubemap_json(args, report, written, sky.channels());
     json["notes"] = notes;
     print_result(common,
-                 format("%s: %s, %d x %d%s%s\n", args.target.file.c_str(), name(written.target.to), written.width,
+                 format("%s: %s, %d x %d%s%s; ", args.target.file.c_str(), name(written.target.to), written.width,
                         written.height, written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
                         seam_text(report).c_str()),
                  json, watch);

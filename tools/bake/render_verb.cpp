@@ -44,7 +44,7 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
         {"render_seconds", seconds}, {"seconds", watch.total()}};
     if (!scene.notes.empty()) object["notes"] = scene.notes;
     print_result(common,
-                 format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s\n", args.out.c_str(), settings.width,
+                 format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s; ", args.out.c_str(), settings.width,
                         settings.height, settings.spp, triangles, rate * 1e-6),
                  object, watch);
 }

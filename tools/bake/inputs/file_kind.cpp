@@ -21,7 +21,7 @@ void expect(Kind wanted, const std::string& path, const std::string& what_to_giv
     const Kind kind = kind_of(path);
     if (kind == wanted || kind == Kind::unknown) return;
     const char* const names[] = {"a mesh", "a picture", "a scene"};
-    throw Error(Refusal::usage,
+    throw Error(Refusal::unreadable,
                 path + ": is " + names[int(kind)] + ", where " + names[int(wanted)] + " is expected; " + what_to_give);
 }
 

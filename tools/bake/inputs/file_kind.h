@@ -5,7 +5,7 @@
 
 namespace bake {
 
-/// Throw Error{Refusal::usage} for a file that is named like one of another kind: mesh, picture or scene. Every other name
+/// Throw Error{Refusal::unreadable} for a file that is named like one of another kind: mesh, picture or scene. Every other name
 /// is left to the reader, which looks at the content.
 void expect_picture(const std::string& path);
 void expect_mesh(const std::string& path);
