@@ -115,7 +115,7 @@ int count_open(const std::array<double, 12>& ratios) noexcept {
 }
 
 /// Whether the seams of the faces that `closes` moves show that it is right: each of them closes, or becomes four times
-/// better, and on average their ratios fall by a quarter.
+/// better, and on average their ratios fall by a sixth.
 bool is_shown(const OrientationCheck& check) noexcept {
     const Orientation& o = check.closes;
     const auto moved = [&](int k) { return o.source[k] != k || o.turns[k] != 0 || o.mirrored[k]; };
@@ -129,7 +129,7 @@ bool is_shown(const OrientationCheck& check) noexcept {
         gain += std::log(std::max(before, 1.0) / std::max(after, 1.0));
         ++count;
     }
-    return count > 0 && gain / count > std::log(1 / 0.75);
+    return count > 0 && gain / count > std::log(6.0 / 5);
 }
 
 Image<float> mirrored(const Image<float>& face) {
