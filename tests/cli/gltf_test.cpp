@@ -103,7 +103,7 @@ TEST_SUITE("cli") {
         std::filesystem::remove(folder / "a.bin");
         const std::string height = (test::own_meshes() / "bricks.png").string();
         test::check_refused(folder, {"normal-map", "a.gltf", "--height", height, "--amplitude", "1", "-o", "n.png"}, 3,
-                            "a.gltf");
+                            "a.bin");
     }
 
     TEST_CASE("gltf: normal-map, explain and render take a .glb as they take the same mesh as .obj") {

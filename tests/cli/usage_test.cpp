@@ -99,7 +99,7 @@ TEST_SUITE("cli") {
         const Folder folder;
         fs::copy_file(dots, folder / "square.png");
         check_refused(folder, {"cubemap", "square.png", "-o", "a.exr"}, 4,
-                      "set --from to one of ball, probe, octahedral");
+                      "name one of these formats in --from: ball, probe, octahedral");
         check_refused(folder, {"bump-table", "square.png", "--channel", "a", "-o", "a.exr"}, 4, "another --channel");
         check_refused(folder,
                       {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "100M", "-o", "a.ply"}, 4,
@@ -115,7 +115,7 @@ TEST_SUITE("cli") {
         };
         refused({"nosuch"}, "nosuch: is not a verb; see bake --help");
         refused({""}, "is not a verb");
-        refused({"Normal-Map"}, "Normal-Map: is not a verb; did you mean normal-map?");
+        refused({"Normal-Map"}, "Normal-Map: is not a verb (did you mean normal-map?)");
         refused({"--nosuch"}, "--help");
         const auto map = [&](std::vector<std::string> more, const std::string& named) {
             more.insert(more.begin(), {"normal-map", "--height", dots});
@@ -211,6 +211,7 @@ TEST_SUITE("cli") {
         meant({"dispalce"}, "displace");
         meant({"normal-map", dots, "-o", "a.png", "--ampltude", "1%"}, "--amplitude");
         meant({"normal-map", dots, "--ouput", "a.png"}, "--out");
+        meant({"normal-map", dots, "--output", "a.png"}, "--out");
         meant({"normal-map", dots, "-o", "a.png", "-amplitude", "1%"}, "--amplitude");
         meant({"bump-table", dots, "-o", "a.exr", "--wrapu", "clamp"}, "--wrap-u");
         meant({"check", dots, "--Strict"}, "--strict");

@@ -107,7 +107,7 @@ TEST_SUITE("unit") {
             "t.obj: a `weld` of 0.01 joins two corners of face 3; give a distance below the lengths of its edges");
         open.face_begin.pop_back(); // without the third triangle the hole is a slit, which closes
         open.corner_position.resize(6);
-        CHECK(weld_borders(open, 0.01, "t.obj").edges == 2);
+        CHECK(weld_borders(open, 0.01, "t.obj").edges == 4); // the sides of the hole and those of the two triangles
         CHECK(open.corner_position[4] == 0);
     }
 

@@ -133,10 +133,10 @@ TEST_SUITE("cli") {
 
         const std::string row(4 * 6, '\x80'); // untagged, 16 bits
         write_file(folder / "u.png", png_bytes(4, 2, 16, 2, {row, row}));
-        const Run run = run_bake(folder, {"cubemap", "u.png", "-o", "u.exr"});
+        const Run run = run_bake(folder, {"cubemap", "u.png", "--size", "4", "-o", "u.exr"});
         CHECK(run.code == 0);
         CHECK(run.err.find("u.png: has 16-bit integers without a colour tag: taken as linear") != std::string::npos);
-        CHECK(run_bake(folder, {"cubemap", "u.png", "--srgb", "-o", "u.exr"}).err.find("taken as") ==
+        CHECK(run_bake(folder, {"cubemap", "u.png", "--srgb", "--size", "4", "-o", "u.exr"}).err.find("taken as") ==
               std::string::npos);
 
         write_file(folder / "h.png", png_bytes(2, 2, 8, 0, {std::string("\x00\x40", 2), "\x80\x7f"}, srgb_tag()));

@@ -134,6 +134,8 @@ TEST_SUITE("oracle") {
                     p.bits == 32 ? std::bit_cast<std::uint32_t>(float(value)) : std::bit_cast<std::uint64_t>(value);
             }
             for (const char* mode : {"wl", "wb", "w8"}) {
+                // libtiff swaps the bytes of such floats once too often in writing them.
+                if (p.predictor == 3 && mode == std::string("wb")) continue;
                 CAPTURE(std::string(mode));
                 write_tiff(path, p, mode);
                 check_levels(path, p);
@@ -243,7 +245,8 @@ TEST_SUITE("stability") {
                 other[i] = value;
                 write_file(changed, other);
                 try {
-                    CHECK(read_image(changed, nullptr, {.max_bytes = 1 << 24}).size() > 0);
+                    const Image<float> image = read_image(changed, nullptr, {.max_bytes = 1 << 24});
+                    CHECK(image.size() > 0);
                 } catch (const Error& error) {
                     CHECK((error.refusal == Refusal::unreadable || error.refusal == Refusal::unsuitable));
                 }

@@ -95,7 +95,7 @@ TEST_SUITE("unit") {
 
     TEST_CASE("judge: v is doubted if nearly all triangles are mirrored, not if half of them are") {
         MeshReport report;
-        report.uv.triangles = report.check.triangles = 1000;
+        report.check.faces = report.uv.triangles = report.check.triangles = 1000;
         for (const std::size_t mirrored : {504, 900, 950}) {
             report.uv.mirrored_triangles = mirrored;
             CHECK(says(judge(report).notes, "flip_v") == (mirrored == 950));
@@ -164,7 +164,7 @@ TEST_SUITE("unit") {
         CHECK(rebuilt.check.scale == doctest::Approx(scale).epsilon(0.001));
         CHECK(says(rebuilt.findings.notes, "z is rebuilt"));
         CHECK(rebuilt.findings.warnings.empty());
-        CHECK(bake_options(rebuilt).starts_with("--amplitude 0.15"));
+        CHECK(bake_options(rebuilt).starts_with("`amplitude` 0.15"));
     }
 
     TEST_CASE("inspect: JSON is valid for names that are not UTF-8") {

@@ -46,9 +46,12 @@ void add_result(Results& results, const std::string& file, const CommonArgs& com
         results.wrong = results.wrong || !report.findings.warnings.empty();
         results.over = results.over || over_limit(report);
         if (common.json) {
-            results.files.push_back(nlohmann::ordered_json::parse(to_json(report)));
+            nlohmann::ordered_json object = nlohmann::ordered_json::parse(to_json(report));
+            if (auto found = object.find("bake_options"); found != object.end())
+                *found = with_flags(found->get<std::string>());
+            results.files.push_back(std::move(object));
         } else {
-            std::printf("%s%s", results.printed ? "\n" : "", to_text(report).c_str());
+            std::printf("%s%s", results.printed ? "\n" : "", with_flags(to_text(report)).c_str());
             results.printed = true;
         }
     } catch (const Error& error) {

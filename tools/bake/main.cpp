@@ -61,10 +61,10 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// "; did you mean --amplitude", or nothing.
+/// " (did you mean --amplitude?)", or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
     const std::string meant = nearest(word, names);
-    return meant.empty() ? "" : "; did you mean " + meant + "?";
+    return meant.empty() ? "" : " (did you mean " + meant + "?)";
 }
 
 int refuse_verb(const std::string& word) {

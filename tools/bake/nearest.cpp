@@ -7,8 +7,8 @@ namespace {
 
 std::string simplified(const std::string& word) {
     std::string out;
-    for (const char c : word.substr(std::min(word.find_first_not_of('-'), word.size())))
-        out += c == '_' ? '-' : char(std::tolower(static_cast<unsigned char>(c)));
+    for (const char c : word)
+        if (c != '-' && c != '_') out += char(std::tolower(static_cast<unsigned char>(c)));
     return out;
 }
 
@@ -33,11 +33,12 @@ std::size_t distance(const std::string& a, const std::string& b) {
 std::string nearest(const std::string& word, const std::vector<std::string>& names) {
     const std::string wanted = simplified(word);
     std::string best;
-    std::size_t least = wanted.size() / 3 + 1; // a distance below this is near
+    std::size_t least = (wanted.size() + 1) / 3 + 1; // a distance below this is near
     for (const std::string& name : names)
         if (const std::size_t d = distance(wanted, simplified(name)); d < least) best = name, least = d;
     for (const std::string& name : names)
-        if (best.empty() && wanted.size() > 1 && simplified(name).starts_with(wanted)) best = name;
+        if (const std::string other = simplified(name); best.empty() && std::min(wanted.size(), other.size()) > 1)
+            if (other.starts_with(wanted) || wanted.starts_with(other)) best = name;
     return best;
 }
 

@@ -5,8 +5,8 @@
 
 namespace bake {
 
-/// Of `names` the one nearest to `word`, ignoring case, leading dashes and - for _: at most a third of its letters
-/// mistyped, left out, doubled or swapped, or its beginning alone. Empty if none is near.
+/// Of `names` the one nearest to `word`, ignoring case, - and _: at most a third of its letters mistyped, left out,
+/// doubled or swapped, or the beginning of one alone. Empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& names);
 
 } // namespace bake

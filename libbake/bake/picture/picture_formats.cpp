@@ -141,6 +141,24 @@ std::string choose_subimage(OIIO::ImageInput& in) {
            std::to_string(chosen + 1) + " is read, the others are left out";
 }
 
+// A library's warning that some of the picture is missing; other warnings are let pass.
+bool says_cut_short(const std::string& message) {
+    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
+}
+
+/// The open file through the decoder that its ending names; null when that does not take it.
+std::unique_ptr<OIIO::ImageInput> open_by_ending(const std::string& path, const OpenFile& open,
+                                                 const OIIO::ImageSpec& config) {
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos || path.find('/', dot) != std::string::npos || !open.proxy) return nullptr;
+    auto in = OIIO::ImageInput::create(path.substr(dot + 1));
+    if (!in || !in->supports("ioproxy")) return nullptr;
+    in->set_ioproxy(open.proxy.get());
+    OIIO::ImageSpec spec;
+    if (!in->open(path, spec, config)) return nullptr;
+    return in;
+}
+
 std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const PictureFile& file, const OpenFile& open,
                                              const ReadLimits& limits, FormatPicture& picture) {
     configure_oiio(host.threads);
@@ -152,14 +170,16 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const Pictu
     config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
     std::unique_ptr<OIIO::ImageInput> in;
     try {
-        if (open.proxy) in = OIIO::ImageInput::open(path, &config, open.proxy.get());
-        // Some decoders insist on opening the file themselves.
+        in = open_by_ending(path, open, config);
+        // Names may be wrong, and some decoders insist on opening the file themselves.
         if (!in) OIIO::geterror(), in = OIIO::ImageInput::open(path, &config);
     } catch (const std::exception& error) { // some decoders pass on what their containers throw
         throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
     }
     if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
 
+    // Decoders of progressive pictures read them whole in opening them.
+    if (const std::string said = in->geterror(); says_cut_short(said)) throw unreadable(path, said);
     const std::string others = choose_subimage(*in);
     ImageInfo& info = picture.info = describe(*in, file);
     if (!others.empty()) info.notes.push_back(others);
@@ -181,11 +201,6 @@ std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const Pictu
     if (const auto* icc = spec.find_attribute("ICCProfile"); icc && icc->data())
         picture.icc.assign(static_cast<const char*>(icc->data()), icc->type().size());
     return in;
-}
-
-// A library's warning that some of the picture is missing; other warnings are let pass.
-bool says_cut_short(const std::string& message) {
-    return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
 }
 
 void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string& path, Image<float>& image) {

@@ -71,7 +71,7 @@ int bits_of_integers(const std::vector<float>& values, int stored) {
 int bits_of_floats(const std::vector<float>& values) {
     if (values.size() < 2 || values.front() < 0 || values.back() > 1) return 0;
     const bool half = std::all_of(values.begin(), values.end(), [](float v) { return as_half(v) == v; });
-    const double rounding = half ? 0x1p-12 : 0x1p-22;
+    const double rounding = half ? 0x1p-11 : 0x1p-22; // at least half a step, relative to the value
     for (int n = 1; n <= 16; ++n) {
         const double levels = std::ldexp(1.0, n) - 1;
         if (levels + 1 < double(values.size())) continue;

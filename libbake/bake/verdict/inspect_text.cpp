@@ -99,11 +99,11 @@ std::string depth_text(const ImageCheck& c) {
 std::string bake_options(const PairReport& report) {
     if (!report.recipe) return "";
     const PairRecipe& recipe = *report.recipe;
-    std::string text = format("--amplitude %.4g", recipe.amplitude);
-    if (recipe.extent_v > 0) text += format(" --extent 1,%.4g", recipe.extent_v);
-    if (recipe.invert) text += " --invert";
-    if (recipe.directx) text += " --directx";
-    if (!report.height_channel.empty()) text += " --channel " + report.height_channel;
+    std::string text = format("`amplitude` %.4g", recipe.amplitude);
+    if (recipe.extent_v > 0) text += format(" `extent` 1,%.4g", recipe.extent_v);
+    if (recipe.invert) text += " `invert`";
+    if (recipe.directx) text += " `directx`";
+    if (!report.height_channel.empty()) text += " `channel` " + report.height_channel;
     return text;
 }
 

@@ -321,7 +321,7 @@ TEST_SUITE("stability") {
         } catch (const Error& error) {
             CHECK(error.refusal == Refusal::unsuitable);
             const std::string what = error.what();
-            CHECK(what.find("`rates.levels` 5") != std::string::npos);
+            CHECK(what.find("`rates.levels` to 5") != std::string::npos);
             CHECK(what.find("1572864 faces") != std::string::npos);
             CHECK(what.find('\n') == std::string::npos);
         }

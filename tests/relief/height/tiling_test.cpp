@@ -14,7 +14,7 @@ template <class Value> Image<float> picture(int width, int height, const Value& 
     return image;
 }
 
-double wave(int i, int n) { return 0.5 + 0.3 * std::sin(2 * std::numbers::pi * 3 * (i + 0.5) / n); }
+double wave(int i, int n) { return 0.5 + 0.3 * std::cos(2 * std::numbers::pi * 3 * (i + 0.5) / n); }
 
 } // namespace
 

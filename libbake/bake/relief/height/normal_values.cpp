@@ -35,7 +35,8 @@ NormalStats sum_rows(const Image<float>& image, const NormalValues& values, int 
 /// 0 for unit vectors whose mean is the z axis.
 double misfit(const Image<float>& image, const NormalValues& values) {
     const NormalStats s = measure_normals(image, values, guess_lattice);
-    return s.length_error + glm::length(Vec2d(s.mean)) + s.inward;
+    // A map may lean as a whole, so that its mean weighs less than its lengths.
+    return s.length_error + 0.6 * glm::length(Vec2d(s.mean)) + s.inward;
 }
 
 bool is_constant(const Image<float>& image, int channel) {
