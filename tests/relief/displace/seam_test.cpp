@@ -189,13 +189,14 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE("displace: on Spot under noise the default leaves no edge that is longer for lying on a seam") {
         const BaseSurface base(read_mesh((shared_data() / "meshes/spot/spot_quadrangulated.obj").string()));
         const double size = diagonal(bounds(base.mesh()));
-        const Relief height = relief(noise(256), 0.02 * size);
+        const Relief height = relief(noise(32), 0.02 * size);
         DisplaceOptions by_default;
         by_default.rates.levels = 3;
         const double blend = longest(displace(base, height, by_default).mesh),
                      average = longest(displace(base, height, levels(3, Seam::average)).mesh);
         MESSAGE("longest edge in medians: " << blend << " by default, " << average << " averaged");
-        CHECK(blend < 0.8 * average);
+        CHECK(blend < 3); // as without relief: 2.6
+        CHECK(average > 4);
     }
 
 } // TEST_SUITE
