@@ -44,6 +44,11 @@ TEST_SUITE("unit") {
         CHECK(image.at(0, 0, 0) == doctest::Approx(1 / 1023.0));
         CHECK(image.at(0, 0, 3) == doctest::Approx(1 / 3.0));
 
+        write_file(path, dds(0x41, 32, {0xff, 0xff00, 0xff0000, 0xff000000}, std::string("\1\2\3\4\0\0\0\0", 8)));
+        image = read_image(path, &info);
+        CHECK(info.bits == 8);
+        CHECK(image.at(0, 0, 2) == doctest::Approx(3 / 255.0));
+
         write_file(path, grey.substr(0, grey.size() - 1));
         CHECK_THROWS_AS(read_image(path), Error);
     }

@@ -26,6 +26,15 @@ TEST_SUITE("unit") {
         CHECK(chosen({"blue", "green", "red"}) == Names{"red", "green", "blue"});
     }
 
+    TEST_CASE("exr_layers: a channel whose name says nothing belongs to the picture beside it") {
+        const auto chosen = [](const Names& channels) { return choose_layer(channels).channels; };
+        CHECK(chosen({"B", "G", "R", "sign"}) == Names{"R", "G", "B", "sign"});
+        CHECK(chosen({"X", "Y", "Z", "sign"}) == Names{"X", "Y", "Z", "sign"});
+        CHECK(choose_layer({"B", "G", "R", "sign"}).colours == 3);
+        CHECK(chosen({"B", "G", "R", "id", "sign"}) == Names{"R", "G", "B"}); // more than a picture has
+        CHECK(chosen({"B", "G", "R", "other.sign"}) == Names{"R", "G", "B"});
+    }
+
     TEST_CASE("exr_layers: names that say nothing of colours leave all channels") {
         CHECK(choose_layer({"Z"}).channels == Names{"Z"});
         CHECK(choose_layer({"Z"}).colours == 0);

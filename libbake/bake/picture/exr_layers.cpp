@@ -1,6 +1,7 @@
 #include "bake/picture/exr_layers.h"
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 
 namespace bake {
@@ -18,12 +19,13 @@ std::string layer_of(const std::string& channel) {
 
 std::string name_of(const std::string& channel) { return channel.substr(channel.rfind('.') + 1); }
 
+constexpr std::string_view ranked[] = {"r",     "red", "g",  "green", "b",  "blue", "y",  "real", "imag",  "a",
+                                       "alpha", "ar",  "ra", "ag",    "ga", "ab",   "ba", "z",    "depth", "zback"};
+constexpr int unranked = int(std::size(ranked));
+
 /// Where a channel of this name stands among the others. Names that say nothing come last.
 int rank(const std::string& channel) {
-    static constexpr std::string_view first[] = {"r",    "red",  "g",  "green", "b",     "blue", "y",
-                                                 "real", "imag", "a",  "alpha", "ar",    "ra",   "ag",
-                                                 "ga",   "ab",   "ba", "z",     "depth", "zback"};
-    return int(std::find(std::begin(first), std::end(first), lower(name_of(channel))) - std::begin(first));
+    return int(std::find(std::begin(ranked), std::end(ranked), lower(name_of(channel))) - std::begin(ranked));
 }
 
 struct Layer {
@@ -76,6 +78,15 @@ const Layer* main_layer(const std::vector<Layer>& layers) {
     return first([](const Layer& l) { return !l.colours().empty(); });
 }
 
+/// Channels whose names say nothing, such as the sign of a tangent, belong to the picture if it has at most four in all.
+void add_data(const Layer& layer, std::vector<std::string>& channels) {
+    std::vector<std::string> data;
+    for (const std::string& channel : layer.channels)
+        if (rank(channel) == unranked && std::find(channels.begin(), channels.end(), channel) == channels.end())
+            data.push_back(channel);
+    if (channels.size() + data.size() <= 4) channels.insert(channels.end(), data.begin(), data.end());
+}
+
 } // namespace
 
 bool is_main_layer(const std::string& name) {
@@ -93,6 +104,7 @@ LayerChoice choose_layer(const std::vector<std::string>& channels) {
         choice.channels = layer->colours();
         choice.colours = int(choice.channels.size());
         if (const std::string alpha = layer->alpha(); !alpha.empty()) choice.channels.push_back(alpha);
+        add_data(*layer, choice.channels);
     } else {
         choice.channels = channels;
         std::stable_sort(choice.channels.begin(), choice.channels.end(),

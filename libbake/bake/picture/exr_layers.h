@@ -14,7 +14,8 @@ struct LayerChoice {
 };
 
 /// Of the layer without a name, or else of the main one (rgba, Combined, beauty, ...): R, G, B, or Y, or R and G, or X, Y
-/// and Z of a vector, in any case of letters, and A. All channels when no layer has any of these.
+/// and Z of a vector, in any case of letters, and A; further channels of that layer whose names say nothing, if these are
+/// at most four in all. All channels when no layer has any of these.
 LayerChoice choose_layer(const std::vector<std::string>& channels);
 
 /// Whether a layer or part of this name usually is the picture itself.

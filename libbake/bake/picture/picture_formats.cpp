@@ -91,6 +91,8 @@ ImageInfo describe(OIIO::ImageInput& in, const PictureFile& file) {
     const int stored = 8 * int(spec.format.basesize());
     const bool indices = info.format == "targa" || info.format == "bmp" || info.format == "gif";
     info.bits = indices ? stored : spec.get_int_attribute("oiio:BitsPerSample", stored);
+    // For DDS the attribute has the bits of a texel. Channels of more than 8 bits are not read here.
+    if (info.format == "dds") info.bits = stored;
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
     const int before_alpha = info.alpha_channel >= 0 ? info.alpha_channel : spec.nchannels;

@@ -154,7 +154,7 @@ TEST_SUITE("unit") {
         EnvironmentReport report;
         const Environment sky = read_environment({folder / "cross.tif"}, {}, &report);
         CHECK(sky.cube[CubeFace::pz].at(0, 0) == 1);
-        CHECK(sky.cube[CubeFace::px].at(1, 0) == doctest::Approx(2.2f));
+        CHECK(sky.cube[CubeFace::px].at(0, 0) == doctest::Approx(2.2f)); // column 8
         const std::vector<std::string> notes = reading_notes(report);
         REQUIRE(notes.size() == 1);
         CHECK(notes[0].find("column 1") != std::string::npos);

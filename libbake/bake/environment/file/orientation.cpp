@@ -115,8 +115,8 @@ int count_open(const std::array<double, 12>& ratios) noexcept {
 }
 
 /// Whether the seams of the faces that `closes` moves show that it is right: each of them closes, or becomes four times
-/// better, and on average their ratios fall by a quarter.
-bool is_shown(const OrientationCheck& check) noexcept {
+/// better, and the mean logarithm of their ratios falls by more than chance explains, which is more for shorter sides.
+bool is_shown(const OrientationCheck& check, int size) noexcept {
     const Orientation& o = check.closes;
     const auto moved = [&](int k) { return o.source[k] != k || o.turns[k] != 0 || o.mirrored[k]; };
     double gain = 0;
@@ -129,7 +129,7 @@ bool is_shown(const OrientationCheck& check) noexcept {
         gain += std::log(std::max(before, 1.0) / std::max(after, 1.0));
         ++count;
     }
-    return count > 0 && gain / count > std::log(1 / 0.75);
+    return count > 0 && gain / count > 0.1 + 0.9 / std::sqrt(double(size));
 }
 
 Image<float> mirrored(const Image<float>& face) {
@@ -164,7 +164,7 @@ OrientationCheck check_orientation(const Cube& cube) {
     check.best_seams = values_of(sides.ratio, check.closes);
     check.given = mean_of(values_of(sides.mean, {}));
     check.best = mean_of(values_of(sides.mean, check.closes));
-    check.wrong = !check.closes.as_given() && is_shown(check);
+    check.wrong = !check.closes.as_given() && is_shown(check, cube.size());
     return check;
 }
 

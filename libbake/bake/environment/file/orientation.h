@@ -31,9 +31,9 @@ struct OrientationCheck {
     /// the faces with all their turns, and all turns and mirrorings of every face in its place.
     Orientation closes;
     /// `closes` is not as given, and the seams of the faces that it moves show that it is right: each of them is closed or
-    /// its ratio becomes a quarter, and on average their ratios fall by a quarter.
+    /// its ratio becomes a quarter, and the mean logarithm of their ratios falls by more than 0.1 + 0.9 / sqrt(texels of an edge).
     bool wrong = false;
-    /// The seams tell nothing: all texels are equal, or faces have fewer than four texels.
+    /// The seams tell nothing: all texels are equal, or faces have fewer than eight texels.
     bool unknown = false;
 
     int open_given() const noexcept; ///< number of open seams

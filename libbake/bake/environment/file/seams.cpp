@@ -112,7 +112,7 @@ SideSteps compare_sides(const Cube& cube) {
     SideSteps sides;
     const int n = cube.size(), channels = colours(cube);
     const FaceSums sums = face_sums(cube);
-    if (n < 4 || !(sums.steps > 0)) return sides;
+    if (n < 8 || !(sums.steps > 0)) return sides;
     sides.unknown = false;
     const double level = 0.01 * sums.values / (6.0 * n * n * channels), invisible = level * level,
                  everywhere = sums.steps / (12.0 * n * (n - 1) * channels);

@@ -28,7 +28,7 @@ using SideTable = std::array<std::array<std::array<float, 24>, 24>, 2>;
 struct SideSteps {
     SideTable ratio{};   ///< step across over steps beside, root mean squares
     SideTable mean{};    ///< mean step across over the mean step between neighbouring texels of the whole sky
-    bool unknown = true; ///< faces of fewer than four texels, or all texels are equal
+    bool unknown = true; ///< faces of fewer than eight texels, or all texels are equal
 };
 
 /// Compares all sides with all others; uses the first three channels. Steps beside a seam of less than 1 % of the sky's mean
