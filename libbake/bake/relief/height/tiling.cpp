@@ -8,54 +8,60 @@
 namespace bake {
 namespace {
 
-constexpr int chunk_rows = 64;
+constexpr int chunk_rows = 64, block_columns = 64;
 
-void grey_row(const Image<float>& image, int channels, int y, float* out) noexcept {
-    const float* texel = image.row(y);
+/// Grey of the texels (x, y) to (x + n - 1, y).
+void grey_of(const Image<float>& image, int channels, int x, int y, int n, float* out) noexcept {
     const int stride = image.channels();
-    for (int x = 0; x < image.width(); ++x, texel += stride) {
+    const float* texel = image.row(y) + std::ptrdiff_t(x) * stride;
+    for (int i = 0; i < n; ++i, texel += stride) {
         float sum = 0;
         for (int c = 0; c < channels; ++c) sum += texel[c] - texel[c] == 0 ? texel[c] : 0;
-        out[x] = sum / float(channels);
+        out[i] = sum / float(channels);
     }
 }
 
-/// Sum of |a - b|, in eight partial sums that the compiler can keep in vectors.
-float row_step(const float* a, const float* b, int n) noexcept {
-    float part[8] = {};
-    int x = 0;
-    for (; x + 8 <= n; x += 8)
-        for (int k = 0; k < 8; ++k) part[k] += std::abs(a[x + k] - b[x + k]);
-    for (; x < n; ++x) part[0] += std::abs(a[x] - b[x]);
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
-/// Steps of every `stride`-th row: to the right per column, and to the row below per row. The last row is always measured.
-struct Steps {
-    std::vector<double> along_x, along_y;
-};
-
-Steps measure_steps(const Image<float>& image, int channels, int stride) {
-    const int w = image.width(), h = image.height();
-    const int rows = (h - 1) / stride + 1, chunks = (rows + chunk_rows - 1) / chunk_rows;
+/// Steps to the right per column, the last one to the first column: means over every `stride`-th row.
+std::vector<double> steps_to_the_right(const Image<float>& image, int channels, int stride) {
+    const int w = image.width(), rows = (image.height() - 1) / stride + 1,
+              chunks = (rows + chunk_rows - 1) / chunk_rows;
     std::vector<std::vector<float>> columns(chunks); // chunks are added in their order, whatever thread measured them
-    Steps steps{std::vector<double>(w, 0), std::vector<double>(rows, 0)};
     for_rows(rows, chunk_rows, [&](std::int64_t begin, std::int64_t end) {
         std::vector<float>& sums = columns[begin / chunk_rows];
         sums.assign(w, 0);
-        std::vector<float> here(w), below(w);
+        std::vector<float> row(w);
         for (auto i = int(begin); i < int(end); ++i) {
-            const int y = h - 1 - i * stride;
-            grey_row(image, channels, y, here.data());
-            grey_row(image, channels, (y + 1) % h, below.data());
-            for (int x = 0; x + 1 < w; ++x) sums[x] += std::abs(here[x + 1] - here[x]);
-            sums[w - 1] += std::abs(here[0] - here[w - 1]);
-            steps.along_y[i] = double(row_step(here.data(), below.data(), w)) / w;
+            grey_of(image, channels, 0, i * stride, w, row.data());
+            for (int x = 0; x + 1 < w; ++x) sums[x] += std::abs(row[x + 1] - row[x]);
+            sums[w - 1] += std::abs(row[0] - row[w - 1]);
         }
     });
+    std::vector<double> steps(w, 0);
     for (const std::vector<float>& sums : columns)
-        for (int x = 0; x < w; ++x) steps.along_x[x] += double(sums[x]) / rows;
-    std::reverse(steps.along_y.begin(), steps.along_y.end());
+        for (int x = 0; x < w; ++x) steps[x] += double(sums[x]) / rows;
+    return steps;
+}
+
+/// Steps to the row below per row, the last one to the first row: means over every `stride`-th block of columns.
+std::vector<double> steps_downwards(const Image<float>& image, int channels, int stride) {
+    const int w = image.width(), h = image.height(), apart = block_columns * stride;
+    std::vector<double> steps(h, 0);
+    for_rows(h, chunk_rows, [&](std::int64_t begin, std::int64_t end) {
+        float here[block_columns], below[block_columns];
+        for (int x = 0; x < w; x += apart) {
+            const int n = std::min(block_columns, w - x);
+            grey_of(image, channels, x, int(begin), n, here);
+            for (auto y = int(begin); y < int(end); ++y) {
+                grey_of(image, channels, x, (y + 1) % h, n, below);
+                float sum = 0;
+                for (int i = 0; i < n; ++i) sum += std::abs(below[i] - here[i]);
+                steps[y] += sum;
+                std::copy_n(below, n, here);
+            }
+        }
+    });
+    const int whole = w / apart * block_columns, measured = whole + std::min(block_columns, w % apart);
+    for (double& step : steps) step /= measured;
     return steps;
 }
 
@@ -83,14 +89,10 @@ bool BorderStep::tiles() const noexcept { return ratio() <= tiles_up_to; }
 bool BorderStep::breaks() const noexcept { return !tiles() && border > may_tile_up_to * largest; }
 
 Tiling measure_tiling(const Image<float>& image, int channels) {
-    // Most textures tile, and every eighth row of a large one shows it. The largest step needs all rows.
-    const int stride = image.height() >= 1024 ? 8 : 1;
-    for (const int rows : {stride, 1}) {
-        const Steps steps = measure_steps(image, channels, rows);
-        const Tiling tiling{border_step(steps.along_x), border_step(steps.along_y)};
-        if (rows == 1 || (tiling.x.tiles() && tiling.y.tiles())) return tiling;
-    }
-    return {};
+    // The means of 256 rows or columns are as good as those of all.
+    const int stride = std::max(1, std::min(image.width(), image.height()) / 256);
+    return {border_step(steps_to_the_right(image, channels, stride)),
+            border_step(steps_downwards(image, channels, stride))};
 }
 
 } // namespace bake

@@ -26,7 +26,8 @@ struct Tiling {
     BorderStep x, y;
 };
 
-/// Of the mean of the first `channels` channels. NaN and Inf count as 0.
+/// Of the mean of the first `channels` channels. NaN and Inf count as 0. Of large pictures about 256
+/// rows and columns are measured.
 Tiling measure_tiling(const Image<float>& image, int channels = 1);
 
 } // namespace bake
