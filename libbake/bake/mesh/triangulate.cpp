@@ -1,6 +1,6 @@
-// Larger polygons by ear clipping: Meisters, Polygons have ears, American Mathematical Monthly 82 (1975).
 #include "bake/mesh/triangulate.h"
 #include "bake/base/parallel.h"
+#include "bake/mesh/ear_clipping.h"
 #include <cassert>
 #include <cmath>
 
@@ -47,120 +47,22 @@ bool project(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::vect
     return true;
 }
 
-/// Twice the signed area of the triangle a b c.
-double area(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// A polygon during ear clipping.
-struct Polygon {
-    std::vector<Vec2d> points;
-    std::vector<std::uint32_t> before, after; ///< neighbours of each remaining corner
-    std::vector<std::uint32_t> blockers;      ///< corners that are not convex: only these can be inside an ear
-    std::vector<std::uint32_t> suspects;      ///< corners that may have become spikes
-    std::vector<char> convex, gone;
-};
-
-bool is_convex(const Polygon& g, std::uint32_t i) noexcept {
-    return area(g.points[g.before[i]], g.points[i], g.points[g.after[i]]) > 0;
-}
-
-/// Whether the edge from the corner i towards q starts inside the angle of i, which is convex.
-bool starts_inside(const Polygon& g, std::uint32_t i, const Vec2d& q) noexcept {
-    return area(g.points[i], g.points[g.after[i]], q) > 0 && area(g.points[g.before[i]], g.points[i], q) > 0;
-}
-
-/// Whether the polygon stays simple without corner i.
-bool is_ear(const Polygon& g, std::uint32_t i) noexcept {
-    if (!g.convex[i]) return false;
-    const Vec2d a = g.points[g.before[i]], b = g.points[i], c = g.points[g.after[i]];
-    for (const std::uint32_t k : g.blockers) {
-        if (k == g.before[i] || k == g.after[i]) continue;
-        const Vec2d p = g.points[k];
-        // Where the polygon touches itself, as at the bridge to a hole, two corners coincide.
-        if (p == a || p == c) continue;
-        if (p == b) {
-            if (starts_inside(g, i, g.points[g.before[k]]) || starts_inside(g, i, g.points[g.after[k]])) return false;
-            continue;
-        }
-        if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
-    }
-    return true;
-}
-
-/// Whether corner i is the tip of a spike of no width or coincides with a neighbour: it can be removed without a change of
-/// shape. A corner inside a straight side stays, because a triangle across it would make a T-junction.
-bool is_spike(const Polygon& g, std::uint32_t i) noexcept {
-    const Vec2d a = g.points[g.before[i]], b = g.points[i], c = g.points[g.after[i]];
-    return area(a, b, c) == 0 && glm::dot(a - b, c - b) >= 0;
-}
-
-void cut(Polygon& g, std::uint32_t i) {
-    g.gone[i] = 1;
-    const std::uint32_t sides[] = {g.before[i], g.after[i]};
-    g.after[sides[0]] = sides[1];
-    g.before[sides[1]] = sides[0];
-    for (const std::uint32_t k : sides) g.convex[k] = is_convex(g, k);
-    std::erase_if(g.blockers, [&g](std::uint32_t k) { return g.gone[k] || g.convex[k]; });
-}
-
-void clip_ears(const Mesh& mesh, std::uint32_t face, Polygon& g, Triangle* out) {
-    const std::uint32_t begin = mesh.face_begin[face], end = mesh.face_begin[face + 1], n = end - begin;
-    const bool has_plane = project(mesh, begin, end, g.points);
-    g.before.resize(n), g.after.resize(n), g.convex.resize(n);
-    g.gone.assign(n, 0);
-    g.blockers.clear();
-    for (std::uint32_t i = 0; i < n; ++i) {
-        g.before[i] = i > 0 ? i - 1 : n - 1;
-        g.after[i] = i + 1 < n ? i + 1 : 0;
-    }
-    for (std::uint32_t i = 0; i < n && has_plane; ++i) {
-        g.convex[i] = is_convex(g, i);
-        if (!g.convex[i]) g.blockers.push_back(i);
-    }
-    std::uint32_t left = n;
-    const auto cut_off = [&](std::uint32_t i) {
-        *out++ = {{begin + g.before[i], begin + i, begin + g.after[i]}, face};
-        cut(g, i);
-        --left;
-    };
-    // Spikes are removed immediately: the interior of the polygon is undefined between their sides.
-    const auto cut_spikes = [&] {
-        while (!g.suspects.empty()) {
-            const std::uint32_t i = g.suspects.back();
-            g.suspects.pop_back();
-            if (left <= 3 || g.gone[i] || !is_spike(g, i)) continue;
-            g.suspects.insert(g.suspects.end(), {g.before[i], g.after[i]});
-            cut_off(i);
-        }
-    };
-    g.suspects.clear();
-    for (std::uint32_t i = n; i > 0 && has_plane; --i) g.suspects.push_back(i - 1);
-    cut_spikes();
-    for (std::uint32_t i = 0, refused = 0; has_plane && left > 3 && refused < left;) {
-        while (g.gone[i]) i = g.after[i];
-        if (is_ear(g, i)) {
-            g.suspects.insert(g.suspects.end(), {g.before[i], g.after[i]});
-            cut_off(i);
-            cut_spikes();
-            refused = 0;
-            i = g.after[g.after[i]]; // every other corner first: better shaped triangles than those of a fan
-        } else {
-            ++refused;
-            i = g.after[i];
-        }
-    }
-    // The last triangle, or a fan from the lowest remaining corner if no ear is left.
-    std::uint32_t first = 0;
-    while (g.gone[first]) ++first;
-    for (std::uint32_t k = g.after[first]; g.after[k] != first; k = g.after[k])
-        *out++ = {{begin + first, begin + k, begin + g.after[k]}, face};
+/// Of a polygon with more than four corners; a fan from the first one if the polygon has no plane.
+void split_polygon(const Mesh& mesh, std::uint32_t face, EarPolygon& polygon, std::vector<EarTriangle>& ears,
+                   Triangle* out) {
+    const std::uint32_t begin = mesh.face_begin[face], end = mesh.face_begin[face + 1];
+    ears.resize(end - begin - 2);
+    if (project(mesh, begin, end, polygon.points)) clip_ears(polygon, ears.data());
+    else
+        for (std::uint32_t k = 0; k < ears.size(); ++k) ears[k] = {0, k + 1, k + 2};
+    for (const EarTriangle& ear : ears) *out++ = {{begin + ear[0], begin + ear[1], begin + ear[2]}, face};
 }
 
 } // namespace
 
 void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Triangle* out) {
-    Polygon polygon;
+    EarPolygon polygon;
+    std::vector<EarTriangle> ears;
     for (auto f = std::uint32_t(first); f < end; ++f) {
         const std::uint32_t c = mesh.face_begin[f], corners = mesh.face_begin[f + 1] - c;
         assert(corners >= 3);
@@ -173,7 +75,7 @@ void triangulate_faces(const Mesh& mesh, std::size_t first, std::size_t end, Tri
             out[0] = {{c, c + 1, c + 2}, f};
             out[1] = {{c, c + 2, c + 3}, f};
         } else {
-            clip_ears(mesh, f, polygon, out);
+            split_polygon(mesh, f, polygon, ears, out);
         }
         out += corners - 2;
     }
