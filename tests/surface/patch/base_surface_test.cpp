@@ -1,3 +1,4 @@
+#include "bake/base/error.h"
 #include "bake/surface/chart/mesh_surface.h"
 #include "oracle/surfaces.h"
 #include "surface/patch/complexes.h"
@@ -191,6 +192,46 @@ TEST_SUITE("unit") {
 }
 
 TEST_SUITE("stability") {
+    TEST_CASE("base_surface: a cage of which no face has a limit surface is refused, and faces left out are counted") {
+        const auto reason = [](Mesh cage, Scheme scheme) -> std::string {
+            try {
+                BaseSurface(std::move(cage), {.scheme = scheme}, "cage.obj");
+            } catch (const Error& error) {
+                CHECK(error.refusal == Refusal::unsuitable);
+                return error.what();
+            }
+            return "";
+        };
+        const auto grid = [](int n) {
+            std::vector<Vec3f> positions;
+            std::vector<std::vector<std::uint32_t>> faces;
+            for (int i = 0; i < (n + 1) * (n + 1); ++i) positions.emplace_back(i % (n + 1), i / (n + 1), 0);
+            for (int i = 0; i < n * n; ++i) {
+                const auto p = std::uint32_t(i % n + i / n * (n + 1)), up = std::uint32_t(n + 1);
+                faces.push_back({p, p + 1, p + up + 1, p + up});
+            }
+            return polygons(positions, faces);
+        };
+        CHECK(reason(Mesh(), Scheme::catmark).find("cage.obj: the cage has no faces; ") == 0);
+        Mesh triangle = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+        const Mesh pentagon = polygons({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}}, {{0, 1, 2, 3, 4}});
+        for (Mesh cage : {grid(1), grid(2), triangle, pentagon}) {
+            CHECK(reason(cage, Scheme::catmark) == "");
+            cage.tags.boundary = SubdivisionTags::Boundary::none;
+            CHECK(reason(cage, Scheme::catmark).find("cage.obj: its boundary rule, interpolateboundary 0, ") == 0);
+        }
+        CHECK(reason(triangle, Scheme::loop) == "");
+        triangle.tags.boundary = SubdivisionTags::Boundary::none;
+        CHECK(reason(triangle, Scheme::loop).find("interpolateboundary 0") != std::string::npos);
+
+        Mesh sheet = grid(3);
+        CHECK(BaseSurface(sheet, SubdivisionOptions()).mesh().notes.empty());
+        sheet.tags.boundary = SubdivisionTags::Boundary::none;
+        const BaseSurface middle(sheet, SubdivisionOptions());
+        CHECK(middle.complex().patches.size() == 1);
+        REQUIRE(middle.mesh().notes.size() == 1);
+        CHECK(middle.mesh().notes[0].find("left out: 8 of 9 faces") == 0);
+    }
 
     TEST_CASE("base_surface: a quad folded over in uv still has a jet on the outward side") {
         Mesh mesh = polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});

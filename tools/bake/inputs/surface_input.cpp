@@ -51,7 +51,8 @@ BaseSurface read_surface(const SurfaceInput& input, std::pair<int, int> cells) {
     if (!input.scheme) return BaseSurface(std::move(mesh));
     if (mesh_format(input.mesh) != MeshFormat::obj) weld_positions(mesh);
     check_cage(mesh, *input.scheme, input.mesh);
-    return BaseSurface(std::move(mesh), SubdivisionOptions{.scheme = *input.scheme, .uv = input.uv_smoothing});
+    return BaseSurface(std::move(mesh), SubdivisionOptions{.scheme = *input.scheme, .uv = input.uv_smoothing},
+                       input.mesh);
 }
 
 } // namespace bake

@@ -152,8 +152,16 @@ LimitBase corner_patches(const Mesh& cage, SubdivisionSurface surface, Patches& 
     return base;
 }
 
-LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, Patches& patches) {
-    SubdivisionSurface surface(cage, options);
+/// Faces of the cage without a patch.
+std::size_t faces_left_out(const Mesh& cage, const Patches& patches) {
+    std::vector<bool> there(cage.faces(), false);
+    for (const PatchComplex::Patch& patch : patches) there[patch.face] = true;
+    return std::size_t(std::count(there.begin(), there.end(), false));
+}
+
+LimitBase make_limit_base(const Mesh& cage, const SubdivisionOptions& options, const std::string& path,
+                          Patches& patches) {
+    SubdivisionSurface surface(cage, options, path);
     return options.scheme == Scheme::catmark && !all_quads(cage) ? corner_patches(cage, std::move(surface), patches)
                                                                  : whole_patches(cage, std::move(surface), patches);
 }
@@ -288,10 +296,16 @@ BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
     base_->junctions = make_junctions(base_->complex);
 }
 
-BaseSurface::BaseSurface(Mesh cage, const SubdivisionOptions& options) : base_(std::make_unique<Base>()) {
+BaseSurface::BaseSurface(Mesh cage, const SubdivisionOptions& options, const std::string& path)
+    : base_(std::make_unique<Base>()) {
     base_->mesh = std::move(cage);
     Patches patches;
-    base_->kind.emplace<LimitBase>(make_limit_base(base_->mesh, options, patches));
+    base_->kind.emplace<LimitBase>(make_limit_base(base_->mesh, options, path, patches));
+    if (const std::size_t left_out = faces_left_out(base_->mesh, patches); left_out > 0)
+        base_->mesh.notes.push_back("left out: " + std::to_string(left_out) + " of " +
+                                    std::to_string(base_->mesh.faces()) +
+                                    " faces, which lie at the border and have no limit surface under "
+                                    "interpolateboundary 0; 1 or 2 keeps them");
     base_->connect(std::move(patches));
 }
 

@@ -15,8 +15,9 @@ public:
     /// tangents as MeshSurface interpolates them. Bit-equal positions are one vertex.
     explicit BaseSurface(Mesh mesh);
     /// The limit surface of a cage (call check_cage() first). If any face is not a quad, each quad is four patches, so that
-    /// neighbouring patches share whole edges.
-    BaseSurface(Mesh cage, const SubdivisionOptions& options);
+    /// neighbouring patches share whole edges. A note of mesh() counts faces that have no limit surface. Throws
+    /// Error{Refusal::unsuitable} with `path` if no face has one, or memory is insufficient.
+    BaseSurface(Mesh cage, const SubdivisionOptions& options, const std::string& path = "the cage");
     /// An analytic shape over columns x rows patches.
     BaseSurface(const ParametricSurface& shape, int columns, int rows);
     ~BaseSurface();

@@ -9,14 +9,30 @@ struct SubdivisionSurface::Limit {
     LimitPatches patches;
 };
 
-SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options)
+namespace {
+
+[[noreturn]] void refuse_nothing_left(const Mesh& cage, const std::string& path) {
+    const std::string why =
+        cage.faces() == 0 ? "the cage has no faces; export it as a polygon mesh"
+        : cage.tags.boundary == SubdivisionTags::Boundary::none
+            ? "its boundary rule, interpolateboundary 0, leaves out the faces at the border, and the "
+              "cage has no others; remove the tag, or write 1 (sharp corners) or 2 (round corners)"
+            : "OpenSubdiv gives none of its faces a limit surface; check the cage";
+    throw Error(Refusal::unsuitable, path + ": " + why);
+}
+
+} // namespace
+
+SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options, const std::string& path)
     : limit_(std::make_unique<Limit>()) {
     try {
         make_patches(cage, options, limit_->patches);
     } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable,
-                    "the subdivision surface does not fit in memory; use a smaller cage or fewer semi-sharp creases");
+        throw Error(Refusal::unsuitable, path +
+                                             ": the subdivision surface does not fit in memory; use a smaller cage or "
+                                             "fewer semi-sharp creases");
     }
+    if (limit_->patches.patches.empty()) refuse_nothing_left(cage, path);
 }
 SubdivisionSurface::~SubdivisionSurface() = default;
 SubdivisionSurface::SubdivisionSurface(SubdivisionSurface&&) noexcept = default;

@@ -23,8 +23,9 @@ void check_cage(const Mesh& cage, Scheme scheme, const std::string& path);
 
 class SubdivisionSurface {
 public:
-    /// Call check_cage() first. `cage` is not used afterwards. Throws Error{Refusal::unsuitable} if memory is insufficient.
-    SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options = {});
+    /// Call check_cage() first. `cage` is not used afterwards. The rule Boundary::none leaves out faces at the border: they
+    /// have no patches. Throws Error{Refusal::unsuitable} with `path` if no face is left, or memory is insufficient.
+    SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options = {}, const std::string& path = "the cage");
     ~SubdivisionSurface();
     SubdivisionSurface(SubdivisionSurface&&) noexcept;
 
