@@ -2,7 +2,9 @@
 #include "bake/mesh/border_weld.h"
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/weld.h"
+#include "growth.h"
 #include "mesh/file/mesh_files.h"
+#include <random>
 #include <set>
 
 using namespace bake;
@@ -120,5 +122,25 @@ TEST_SUITE("unit") {
         for (Vec3f& p : tiny.positions) p *= Vec3f(1e-4f, 1e-4f, 1); // gaps of a third of the edges: perhaps meant
         tiny.positions.emplace_back(10, 0, 0);
         CHECK(found(tiny) == 0);
+    }
+}
+
+TEST_SUITE("stability") {
+    TEST_CASE("find_border_gaps: many small borders in a large mesh are no pairs that are all compared") {
+        const auto scattered = [](int n) {
+            std::mt19937 random(8);
+            Mesh mesh;
+            const auto near_zero = [&] { return float(random() % 100000) * 1e-5f; };
+            for (int i = 0; i < n; ++i) {
+                const float x = near_zero(), y = near_zero(), z = near_zero();
+                mesh.positions.insert(mesh.positions.end(), {{x, y, z}, {x + 0.01f, y, z}, {x, y + 0.01f, z}});
+            }
+            mesh.positions.insert(mesh.positions.end(), {{0, 0, 1e5f}, {1, 0, 1e5f}, {0, 1, 1e5f}});
+            for (std::uint32_t c = 0; c < mesh.positions.size(); ++c) mesh.corner_position.push_back(c);
+            for (int i = 0; i <= n; ++i) mesh.face_begin.push_back(std::uint32_t(mesh.face_begin.back() + 3));
+            return mesh;
+        };
+        const auto find = [&](int n) { gaps(scattered(n), 10); };
+        CHECK(test::growth(find, 5000) < test::most_growth);
     }
 }

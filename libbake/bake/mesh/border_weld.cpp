@@ -1,10 +1,10 @@
 #include "bake/mesh/border_weld.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
-#include "bake/mesh/number_distinct.h"
+#include "bake/mesh/halving_tree.h"
 #include "bake/mesh/weld.h"
 #include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 namespace bake {
@@ -12,16 +12,26 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// The half-edges on borders, found by the place of their origin.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A box around the origins of half-edges, and one around their targets.
+struct EndBoxes {
+    Vec3d min[2] = {Vec3d(infinity), Vec3d(infinity)}, max[2] = {Vec3d(-infinity), Vec3d(-infinity)};
+};
+
+/// The half-edges on borders, in a search tree over their two ends: many small borders may lie close together in a large
+/// mesh.
 class Borders {
 public:
-    Borders(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges, double distance)
-        : mesh_(mesh), he_(half_edges), distance_(distance),
-          cell_(std::max({4 * distance, 1e-9 * diagonal(bounds(mesh)), std::numeric_limits<double>::min()})) {
+    Borders(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges) : mesh_(mesh), he_(half_edges) {
         for (Index e = 0; e < edges.edges(); ++e)
             if (edges.of(e).size() == 1) sides_.push_back(edges.of(e)[0]);
-        for (const Index h : sides_) by_cell_.emplace_back(key(cell_of(at(he_.origin[h]))), h);
-        std::sort(by_cell_.begin(), by_cell_.end());
+        order_ = sides_;
+        tree_ = HalvingTree(order_.size());
+        nodes_.resize(tree_.nodes());
+        tree_.build(
+            order_, [this](std::size_t n, std::span<const Index> own) { return put_boxes(n, own); },
+            [this](Index h, int axis) { return end_of(h, axis / 3)[axis % 3]; });
     }
     const std::vector<Index>& sides() const noexcept { return sides_; }
 
@@ -29,55 +39,72 @@ public:
         Index side = no_index;
         double distance = 0; ///< the larger one of those at the two ends
     };
-    /// The nearest side of opposite direction, of equally near ones the lowest.
-    Match nearest(Index h) const {
-        Match best;
-        const Vec3d a = at(he_.origin[h]), b = at(he_.target(h));
-        const Vec3i low = cell_of(b - distance_), high = cell_of(b + distance_);
-        for (std::int64_t z = low.z; z <= high.z; ++z)
-            for (std::int64_t y = low.y; y <= high.y; ++y)
-                for (std::int64_t x = low.x; x <= high.x; ++x) {
-                    const std::uint64_t wanted = key({x, y, z});
-                    auto i = std::lower_bound(by_cell_.begin(), by_cell_.end(), std::pair(wanted, Index(0)));
-                    for (; i != by_cell_.end() && i->first == wanted; ++i) {
-                        const Index g = i->second;
-                        if (he_.face[g] == he_.face[h]) continue;
-                        const double d =
-                            std::max(glm::distance(b, at(he_.origin[g])), glm::distance(a, at(he_.target(g))));
-                        if (d > distance_) continue;
-                        if (best.side == no_index || d < best.distance || (d == best.distance && g < best.side))
-                            best = {g, d};
-                    }
-                }
+    /// The nearest side of opposite direction, of equally near ones the lowest, no farther than `distance`.
+    Match nearest(Index h, double distance) const {
+        const Vec3d wanted[2] = {at(he_.target(h)), at(he_.origin[h])};
+        Match best{no_index, distance};
+        std::size_t open[64], count = 0;
+        open[count++] = 1;
+        while (count > 0) {
+            const std::size_t n = open[--count];
+            if (distance_to(nodes_[n], wanted) > best.distance) continue;
+            if (!tree_.is_leaf(n)) {
+                const bool first = distance_to(nodes_[2 * n], wanted) <= distance_to(nodes_[2 * n + 1], wanted);
+                open[count++] = first ? 2 * n + 1 : 2 * n;
+                open[count++] = first ? 2 * n : 2 * n + 1;
+                continue;
+            }
+            for (std::size_t i = tree_.begin_of(n); i < tree_.end_of(n); ++i) {
+                const Index g = order_[i];
+                if (he_.face[g] == he_.face[h]) continue;
+                const double d =
+                    std::max(glm::distance(wanted[0], end_of(g, 0)), glm::distance(wanted[1], end_of(g, 1)));
+                if (d < best.distance || (d == best.distance && g < best.side)) best = {g, d};
+            }
+        }
         return best;
     }
-    double length(Index h) const { return glm::distance(at(he_.origin[h]), at(he_.target(h))); }
+    double length(Index h) const { return glm::distance(end_of(h, 0), end_of(h, 1)); }
 
 private:
-    struct Vec3i {
-        std::int64_t x, y, z;
-    };
     Vec3d at(Index v) const { return Vec3d(mesh_.positions[v]); }
-    Vec3i cell_of(const Vec3d& p) const {
-        const auto number = [&](double c) { return std::int64_t(std::floor(std::clamp(c / cell_, -9e15, 9e15))); };
-        return {number(p.x), number(p.y), number(p.z)};
+    Vec3d end_of(Index h, int k) const { return at(k == 0 ? he_.origin[h] : he_.target(h)); }
+    /// No larger than the distance that nearest() computes for any half-edge in the boxes: rounding is monotone.
+    static double distance_to(const EndBoxes& boxes, const Vec3d* wanted) {
+        double d[2];
+        for (int k = 0; k < 2; ++k) d[k] = glm::distance(wanted[k], glm::clamp(wanted[k], boxes.min[k], boxes.max[k]));
+        return std::max(d[0], d[1]);
     }
-    static std::uint64_t key(const Vec3i& c) {
-        return mixed(mixed(mixed(0, std::uint64_t(c.x)), std::uint64_t(c.y)), std::uint64_t(c.z));
+    /// The axis along which the sides lie farthest apart: that of an origin, or 3 more for that of a target.
+    int put_boxes(std::size_t node, std::span<const Index> own) {
+        EndBoxes& boxes = nodes_[node];
+        for (const Index h : own)
+            for (int k = 0; k < 2; ++k) {
+                boxes.min[k] = glm::min(boxes.min[k], end_of(h, k));
+                boxes.max[k] = glm::max(boxes.max[k], end_of(h, k));
+            }
+        const auto width = [&](int i) { return boxes.max[i / 3][i % 3] - boxes.min[i / 3][i % 3]; };
+        int widest = 0;
+        for (int i = 1; i < 6; ++i)
+            if (width(i) > width(widest)) widest = i;
+        return widest;
     }
 
     const Mesh& mesh_;
     const HalfEdges& he_;
-    double distance_, cell_;
-    std::vector<Index> sides_;
-    std::vector<std::pair<std::uint64_t, Index>> by_cell_;
+    HalvingTree tree_;
+    std::vector<Index> sides_, order_;
+    std::vector<EndBoxes> nodes_;
 };
 
-/// Calls join(h, g, distance) for each two sides of which each is the nearest one of the other.
-template <class Join> void for_matches(const Borders& borders, const Join& join) {
+/// Calls join(h, g, distance) for each two sides of which each is the nearest one of the other, no farther than reach(h)
+/// and reach(g).
+template <class Reach, class Join> void for_matches(const Borders& borders, const Reach& reach, const Join& join) {
+    std::size_t count = 0;
     for (const Index h : borders.sides()) {
-        const Borders::Match match = borders.nearest(h);
-        if (match.side != no_index && h < match.side && borders.nearest(match.side).side == h)
+        if (count++ % 1024 == 0) throw_if_interrupted();
+        const Borders::Match match = borders.nearest(h, reach(h));
+        if (match.side != no_index && h < match.side && borders.nearest(match.side, reach(match.side)).side == h)
             join(h, match.side, match.distance);
     }
 }
@@ -86,9 +113,9 @@ template <class Join> void for_matches(const Borders& borders, const Join& join)
 
 BorderGaps find_border_gaps(const Mesh& mesh, const HalfEdges& half_edges, const EdgeTable& edges, double distance) {
     BorderGaps gaps;
-    const Borders borders(mesh, half_edges, edges, distance);
-    for_matches(borders, [&](Index h, Index g, double d) {
-        if (d > 0.05 * std::min(borders.length(h), borders.length(g))) return;
+    const Borders borders(mesh, half_edges, edges);
+    const auto reach = [&](Index h) { return std::min(distance, 0.05 * borders.length(h)); };
+    for_matches(borders, reach, [&](Index, Index, double d) {
         gaps.edges += 2;
         gaps.widest = std::max(gaps.widest, d);
     });
@@ -99,14 +126,16 @@ BorderGaps weld_borders(Mesh& mesh, double distance, const std::string& path) {
     BorderGaps gaps;
     weld_positions(mesh);
     const HalfEdges he = make_half_edges(mesh);
-    const Borders borders(mesh, he, make_edges(he), distance);
+    const Borders borders(mesh, he, make_edges(he));
     DisjointSets sets(mesh.positions.size());
-    for_matches(borders, [&](Index h, Index g, double d) {
-        sets.join(he.origin[h], he.target(g));
-        sets.join(he.target(h), he.origin[g]);
-        gaps.edges += 2;
-        gaps.widest = std::max(gaps.widest, d);
-    });
+    for_matches(
+        borders, [distance](Index) { return distance; },
+        [&](Index h, Index g, double d) {
+            sets.join(he.origin[h], he.target(g));
+            sets.join(he.target(h), he.origin[g]);
+            gaps.edges += 2;
+            gaps.widest = std::max(gaps.widest, d);
+        });
     std::vector<std::pair<Index, Index>> ring; // set and position of each corner
     for (Index f = 0; f < mesh.faces(); ++f) {
         ring.clear();

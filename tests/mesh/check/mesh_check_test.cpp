@@ -1,6 +1,7 @@
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "folders.h"
+#include "growth.h"
 #include "mesh/by_openmesh.h"
 #include "mesh/check/triangle_soups.h"
 #include <algorithm>
@@ -58,6 +59,28 @@ std::pair<std::size_t, std::size_t> loops_and_components(const Mesh& mesh) {
         }
     }
     return {loops, components};
+}
+
+/// At each of n places a cube that looks outwards and one of half its size that looks inwards, inside it at every third
+/// place, beside it at the next and around its corner at the one after.
+Mesh cubes_in_cubes(int n) {
+    std::vector<Vec3f> positions;
+    Faces faces;
+    for (int i = 0; i < 2 * n; ++i) {
+        const bool inwards = i % 2;
+        const int place = i / 2;
+        const float inside[] = {0.25f, 1.25f, 0.75f};
+        const Vec3f at(4 * float(place % 100), 4 * float(place / 100), 0);
+        const auto first = std::uint32_t(positions.size());
+        for (const Vec3f& p : unit_cube_corners)
+            positions.push_back(at + (inwards ? Vec3f(inside[place % 3]) + 0.5f * p : p));
+        for (auto face : unit_cube_faces) {
+            for (auto& k : face) k += first;
+            if (inwards) std::reverse(face.begin(), face.end());
+            faces.push_back(face);
+        }
+    }
+    return mesh_of(positions, faces);
 }
 
 } // namespace
@@ -130,6 +153,12 @@ TEST_SUITE("unit") {
         CHECK(c.topology.components == 2);
         CHECK(c.topology.closed_components == 2);
         CHECK(c.topology.inside_out_components == 0);
+    }
+
+    TEST_CASE("check_mesh: of many cubes those with a larger one around them may look inwards") {
+        const MeshCheck c = check(cubes_in_cubes(60));
+        CHECK(c.topology.closed_components == 120);
+        CHECK(c.topology.inside_out_components == 40); // those at 1 and 2 of each three places
     }
 
     TEST_CASE("check_mesh: a third face on an edge, and two fans at a vertex, are non-manifold") {
@@ -272,5 +301,11 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
             CHECK(t.boundary_loops == loops);
             CHECK(t.components == components);
         }
+    }
+}
+
+TEST_SUITE("stability") {
+    TEST_CASE("check_mesh: the time grows with the number of components, not with its square") {
+        CHECK(test::growth([](int n) { check(cubes_in_cubes(n)); }, 4000) < test::most_growth);
     }
 }

@@ -3,11 +3,13 @@
 // its own edges twice, as keyholed polygons do. The tests compare loops and components with OpenMesh's on the meshes that
 // OpenMesh accepts.
 #include "bake/mesh/check/mesh_check.h"
+#include "bake/mesh/halving_tree.h"
 #include "bake/mesh/number_distinct.h"
 #include "bake/mesh/topology.h"
 #include "bake/mesh/weld.h"
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace bake {
 namespace {
@@ -124,6 +126,57 @@ void measure_components(const Mesh& mesh, const std::vector<Triangle>& triangles
     }
 }
 
+/// Components in a search tree over their boxes.
+class ComponentTree {
+public:
+    explicit ComponentTree(std::vector<const Component*> components)
+        : components_(std::move(components)), tree_(components_.size()), nodes_(tree_.nodes()) {
+        const auto key = [](const Component* c, int axis) {
+            return double(c->box.min[axis]) + double(c->box.max[axis]);
+        };
+        tree_.build(
+            components_, [&](std::size_t n, std::span<const Component* const> own) { return put_node(n, own); }, key);
+    }
+    /// Whether the box of a component with a larger volume than `volume` contains `box`.
+    bool any_around(const Bounds& box, double volume) const {
+        std::size_t open[64], count = 0;
+        open[count++] = 1;
+        while (count > 0) {
+            const std::size_t n = open[--count];
+            if (!contains(nodes_[n].box, box) || !(nodes_[n].volume > volume)) continue;
+            if (!tree_.is_leaf(n)) {
+                open[count++] = 2 * n;
+                open[count++] = 2 * n + 1;
+                continue;
+            }
+            for (std::size_t i = tree_.begin_of(n); i < tree_.end_of(n); ++i)
+                if (contains(components_[i]->box, box) && components_[i]->volume > volume) return true;
+        }
+        return false;
+    }
+
+private:
+    struct Node {
+        Bounds box;        ///< around those of the components
+        double volume = 0; ///< the largest one
+    };
+
+    int put_node(std::size_t n, std::span<const Component* const> own) {
+        Node& node = nodes_[n];
+        if (!own.empty()) node.box = own[0]->box;
+        for (const Component* c : own) {
+            node.box = {glm::min(node.box.min, c->box.min), glm::max(node.box.max, c->box.max)};
+            node.volume = std::max(node.volume, c->volume);
+        }
+        const Vec3f size = node.box.max - node.box.min;
+        return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    }
+
+    std::vector<const Component*> components_;
+    HalvingTree tree_;
+    std::vector<Node> nodes_;
+};
+
 void count_components(const Mesh& mesh, const std::vector<Triangle>& triangles, const HalfEdges& he,
                       const EdgeTable& edges, const std::vector<char>& turned, Connectivity& topology) {
     DisjointSets sets = connected_faces(edges, mesh.faces(), [&](Index h) { return he.face[h]; });
@@ -150,10 +203,8 @@ void count_components(const Mesh& mesh, const std::vector<Triangle>& triangles, 
         if (component.volume < -negligible) inward.push_back(&component);
     }
     // The inner wall of a hollow body has its front towards the cavity, and is not inside out.
-    for (const Component* in : inward)
-        topology.inside_out_components += std::none_of(outward.begin(), outward.end(), [&](const Component* out) {
-            return contains(out->box, in->box) && out->volume > -in->volume;
-        });
+    const ComponentTree around(std::move(outward));
+    for (const Component* in : inward) topology.inside_out_components += !around.any_around(in->box, -in->volume);
 }
 
 /// Finds the gaps too where `gaps` is given.
