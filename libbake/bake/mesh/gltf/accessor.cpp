@@ -38,15 +38,23 @@ template <class F> void with_type(GltfType type, F&& f) {
     return f.template operator()<float>();
 }
 
-/// Calls put(element, its bytes) for all of them, then again for those that are replaced.
-template <class Put> void each_element(const GltfAccessor& a, Put&& put) {
+/// Calls put(i, bytes of the i-th used element) for all of them, then again for those that are replaced.
+template <class Put> void each_element(const GltfAccessor& a, const GltfUsed& used, Put&& put) {
+    const auto element = [&used](std::size_t i) { return used.element.empty() ? i : used.element[i]; };
     if (!a.bytes.empty())
-        for_rows(std::int64_t(a.count), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
-            for (auto i = std::size_t(begin); i < std::size_t(end); ++i) put(i, a.bytes.data() + i * a.stride);
+        for_rows(std::int64_t(used.size()), 1 << 16, [&](std::int64_t begin, std::int64_t end) {
+            for (auto i = std::size_t(begin); i < std::size_t(end); ++i) put(i, a.bytes.data() + element(i) * a.stride);
         });
-    const std::size_t element = size_of(a.type) * std::size_t(a.components);
-    for (std::size_t i = 0; i < a.sparse_index.size(); ++i)
-        put(a.sparse_index[i], a.sparse_values.data() + i * element);
+    if (!a.sparse) return;
+    const GltfSparse& sparse = *a.sparse;
+    const std::size_t size = size_of(a.type) * std::size_t(a.components);
+    for (std::size_t s = 0; s < sparse.element.size() && used.element.empty(); ++s)
+        put(sparse.element[s], a.sparse_values.data() + sparse.value[s] * size);
+    for (std::size_t i = 0; i < used.element.size(); ++i) {
+        const auto found = std::lower_bound(sparse.element.begin(), sparse.element.end(), used.element[i]);
+        if (found == sparse.element.end() || *found != used.element[i]) continue;
+        put(i, a.sparse_values.data() + sparse.value[std::size_t(found - sparse.element.begin())] * size);
+    }
 }
 
 } // namespace
@@ -63,12 +71,12 @@ std::size_t size_of(GltfType type) noexcept {
     return 0;
 }
 
-bool read_floats(const GltfAccessor& a, float* out) {
+bool read_floats(const GltfAccessor& a, const GltfUsed& used, float* out) {
     const auto components = std::size_t(a.components);
-    if (a.bytes.empty()) std::fill_n(out, a.count * components, 0.0f);
+    if (a.bytes.empty()) std::fill_n(out, used.size() * components, 0.0f);
     std::atomic<bool> finite = true;
     with_type(a.type, [&]<class T>() {
-        each_element(a, [&](std::size_t i, const std::uint8_t* p) {
+        each_element(a, used, [&](std::size_t i, const std::uint8_t* p) {
             for (std::size_t k = 0; k < components; ++k) {
                 const float value = to_float(load<T>(p + k * sizeof(T)), a.normalized);
                 if (!std::isfinite(value)) finite = false;
@@ -82,7 +90,8 @@ bool read_floats(const GltfAccessor& a, float* out) {
 void read_indices(const GltfAccessor& a, std::uint32_t* out) {
     if (a.bytes.empty()) std::fill_n(out, a.count, 0u);
     with_type(a.type, [&]<class T>() {
-        each_element(a, [&](std::size_t i, const std::uint8_t* p) { out[i] = std::uint32_t(load<T>(p)); });
+        each_element(a, {a.count, {}},
+                     [&](std::size_t i, const std::uint8_t* p) { out[i] = std::uint32_t(load<T>(p)); });
     });
 }
 

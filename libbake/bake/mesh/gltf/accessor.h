@@ -1,6 +1,7 @@
 // Reads the values of a glTF accessor, as floats or as indices, after its ranges in the buffers have been checked.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,13 @@ enum class GltfType : int { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 51
 /// Size in bytes; 0 for a number that is not a component type of glTF.
 std::size_t size_of(GltfType type) noexcept;
 
+/// The elements that a sparse accessor replaces, in ascending order, and for each the number of its new value.
+struct GltfSparse {
+    std::vector<std::uint32_t> element, value;
+};
+
 /// `count` elements of `components` values, `stride` bytes apart, all within `bytes`; zeros if `bytes` is empty.
-/// Element sparse_index[i] is replaced by element i of sparse_values, which have no gaps.
+/// `sparse_values`, which have no gaps, replace the elements that `sparse` names.
 struct GltfAccessor {
     GltfType type = GltfType::float32;
     int components = 1;
@@ -21,12 +27,20 @@ struct GltfAccessor {
     std::size_t count = 0;
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0;
-    std::vector<std::uint32_t> sparse_index; ///< each below count
+    std::shared_ptr<const GltfSparse> sparse; ///< null: none; each element is below count
     std::span<const std::uint8_t> sparse_values;
 };
 
-/// Writes count * components floats to `out`. Returns false if one of them is not finite.
-bool read_floats(const GltfAccessor& accessor, float* out);
+/// The elements of an accessor that are read.
+struct GltfUsed {
+    std::size_t count = 0;              ///< elements that the accessor has
+    std::vector<std::uint32_t> element; ///< ascending; empty: all of them
+
+    std::size_t size() const noexcept { return element.empty() ? count : element.size(); }
+};
+
+/// Writes used.size() * components floats to `out`. Returns false if one of them is not finite.
+bool read_floats(const GltfAccessor& accessor, const GltfUsed& used, float* out);
 
 /// Writes count indices. The type must be an unsigned integer, and `components` must be 1.
 void read_indices(const GltfAccessor& accessor, std::uint32_t* out);

@@ -1,7 +1,9 @@
 #include "bake/mesh/gltf/document.h"
 #include "bake/base/error.h"
+#include "bake/base/progress.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/extensions.h"
+#include "bake/mesh/gltf/source.h"
 #include <bit>
 #include <cstring>
 #include <filesystem>
@@ -68,12 +70,38 @@ int depth_of(std::span<const std::uint8_t> text) noexcept {
     return deepest;
 }
 
+/// Bytes of a text, of which millions are parsed: Ctrl-C ends that.
+class InterruptibleText {
+public:
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+    using iterator_category = std::forward_iterator_tag;
+
+    explicit InterruptibleText(const std::uint8_t* p = nullptr) noexcept : p_(reinterpret_cast<const char*>(p)) {}
+    reference operator*() const noexcept { return *p_; }
+    InterruptibleText& operator++() {
+        if ((reinterpret_cast<std::uintptr_t>(++p_) & 0xffff) == 0) throw_if_interrupted();
+        return *this;
+    }
+    InterruptibleText operator++(int) {
+        const InterruptibleText before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const InterruptibleText&) const noexcept = default;
+
+private:
+    const char* p_;
+};
+
 json parse(std::span<const std::uint8_t> text, const std::string& path) {
     // What reads the parsed JSON calls itself for every level. (The parser's own callback takes the square of the time.)
     constexpr int deepest = 64;
     if (depth_of(text) > deepest) refuse(path, "has JSON nested deeper than " + std::to_string(deepest));
     try {
-        json parsed = json::parse(text.begin(), text.end());
+        json parsed = json::parse(InterruptibleText(text.data()), InterruptibleText(text.data() + text.size()));
         if (!parsed.is_object()) refuse(path, "is not a glTF: its JSON is not an object");
         return parsed;
     } catch (const json::exception& error) {
@@ -200,6 +228,29 @@ void refuse_draco_alone(const json& root, const std::string& path) {
     });
 }
 
+/// An empty object of three bytes becomes a struct of the model with many members.
+void refuse_too_many_objects(const json& root, const std::string& path) {
+    constexpr double material_bytes = 6000, other_bytes = 1500; // those of tinygltf and ours, roughly
+    std::size_t objects = 0;
+    double bytes = 0;
+    for (const auto& [key, list] : root.items()) {
+        if (!list.is_array()) continue;
+        objects += list.size();
+        bytes += double(list.size()) * (key == "materials" ? material_bytes : other_bytes);
+    }
+    for_elements(root, "meshes", [&](const json& mesh) {
+        for_elements(mesh, "primitives", [&](const json&) { ++objects, bytes += other_bytes; });
+    });
+    refuse_unless_fits(path, "describes " + std::to_string(objects) + " nodes, meshes and other objects", bytes);
+}
+
+/// Many entries may name the same large file or view.
+void add_bytes(GltfDocument& document, std::size_t bytes, const std::string& path) {
+    document.bytes_beside += bytes;
+    refuse_unless_fits(path, "its buffers and images have " + std::to_string(document.bytes_beside) + " bytes",
+                       double(document.bytes_beside));
+}
+
 void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const std::string& path, GltfDocument& out) {
     const std::string what = "its buffer " + std::to_string(i);
     const auto length = object.is_object() ? object.find("byteLength") : object.end();
@@ -219,6 +270,7 @@ void read_buffer(const json& object, std::size_t i, const Chunks& chunks, const 
         const auto file = std::filesystem::path(path).parent_path() / file_of_uri(uri, what, path);
         out.beside.push_back(read_file(file.string()));
         found = bytes(out.beside.back().begin(), out.beside.back().size);
+        add_bytes(out, found.size(), path);
     }
     if (length->get<std::uint64_t>() > found.size())
         refuse(path, what + " has " + std::to_string(found.size()) + " of " +
@@ -246,6 +298,7 @@ void read_image(const json& object, std::size_t i, const std::string& path, Gltf
             if (error.refusal != Refusal::unreadable) throw; // a mesh is of use without its pictures
         }
     }
+    add_bytes(out, image.bytes.size(), path);
     out.images.push_back(std::move(image));
     out.image_view.push_back(view);
 }
@@ -269,6 +322,7 @@ GltfDocument read_gltf_document(const std::string& path) {
                version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
     refuse_required_extensions(parsed, path);
     refuse_draco_alone(parsed, path);
+    refuse_too_many_objects(parsed, path);
     const auto each = [&](const char* key, auto&& work) {
         const auto list = parsed.find(key);
         if (list == parsed.end()) return;

@@ -12,6 +12,8 @@ struct GltfDocument {
     std::vector<GltfImage> images;                      ///< bytes are empty where image_view is not -1
     std::vector<std::int64_t> image_view;               ///< per image: its bufferView, or -1
 
+    std::size_t bytes_beside = 0; ///< of buffers in files of their own, and of images
+
     FileBytes file; ///< memory of the spans
     std::vector<FileBytes> beside;
     std::vector<std::vector<std::uint8_t>> decoded;

@@ -77,13 +77,13 @@ void turn_faces(Mesh& mesh, std::size_t first_face, std::size_t end_face) {
 void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
     if (nodes.size() < 2 || !mesh.groups.empty()) return;
     mesh.face_group.assign(mesh.faces(), no_index);
+    std::unordered_map<std::string, std::uint32_t> known;
     for (const GltfNode& node : nodes) {
         const std::string name = node.name.empty() ? "node_" + std::to_string(&node - nodes.data()) : node.name;
-        const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
-        const auto group = std::uint32_t(found - mesh.groups.begin());
-        if (found == mesh.groups.end()) mesh.groups.push_back(name);
+        const auto [group, added] = known.try_emplace(name, std::uint32_t(mesh.groups.size()));
+        if (added) mesh.groups.push_back(name);
         std::fill(mesh.face_group.begin() + std::ptrdiff_t(node.first_face),
-                  mesh.face_group.begin() + std::ptrdiff_t(node.end_face), group);
+                  mesh.face_group.begin() + std::ptrdiff_t(node.end_face), group->second);
     }
 }
 

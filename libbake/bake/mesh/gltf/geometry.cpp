@@ -53,9 +53,8 @@ Bounds bounds_of(const Mesh& mesh, const std::vector<std::uint32_t>& corners) {
 }
 
 /// Newell's: right for any polygon, and +z for one without area.
-Vec3f face_normal(const Mesh& mesh, std::uint32_t corner) {
-    const auto after = std::upper_bound(mesh.face_begin.begin(), mesh.face_begin.end(), corner);
-    const std::uint32_t begin = *(after - 1), end = *after;
+Vec3f face_normal(const Mesh& mesh, std::size_t face) {
+    const std::uint32_t begin = mesh.face_begin[face], end = mesh.face_begin[face + 1];
     const Vec3d origin(mesh.positions[mesh.corner_position[begin]]);
     Vec3d normal(0);
     for (std::uint32_t c = begin; c < end; ++c) {
@@ -70,15 +69,41 @@ Vec3f face_normal(const Mesh& mesh, std::uint32_t corner) {
 /// The format asks for unit vectors; what rounding leaves is left as it is, so that it reads back to the last bit.
 bool is_unit(const Vec3f& v) noexcept { return std::abs(glm::dot(v, v) - 1) <= 1e-3f; }
 
-Vec3f unit_normal(const Mesh& mesh, std::uint32_t corner, bool& mended) {
-    const Vec3f n = normal_at(mesh, corner);
-    mended = !is_unit(n);
-    if (!mended) return n;
-    const Vec3f unit(unit_or_zero(Vec3d(n)));
-    return unit == Vec3f(0) ? face_normal(mesh, corner) : unit;
+/// Normals of the node's faces, each computed once; empty if all vertices of the node have a normal of their own.
+std::vector<Vec3f> missing_normals(const Mesh& mesh, const GltfNodeGeometry& node) {
+    std::atomic<bool> all = true;
+    const std::vector<std::uint32_t>& corners = node.vertices.first;
+    for_rows(std::int64_t(corners.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+            if (unit_or_zero(Vec3d(normal_at(mesh, corners[i]))) == Vec3d(0)) all = false;
+    });
+    if (all) return {};
+    std::vector<Vec3f> normals(node.end_face - node.first_face);
+    for_rows(std::int64_t(normals.size()), grain, [&](std::int64_t begin, std::int64_t end) {
+        for (auto f = std::size_t(begin); f < std::size_t(end); ++f)
+            normals[f] = face_normal(mesh, node.first_face + f);
+    });
+    return normals;
 }
 
-Vec4f unit_tangent(const Mesh& mesh, std::uint32_t corner, bool& mended) {
+/// The normal of a corner or, if it has none, that of its face.
+struct NormalSource {
+    const Mesh& mesh;
+    std::size_t first_face;
+    std::vector<Vec3f> missing;
+
+    Vec3f at(std::uint32_t corner, bool& mended) const {
+        const Vec3f n = normal_at(mesh, corner);
+        mended = !is_unit(n);
+        if (!mended) return n;
+        const Vec3f unit(unit_or_zero(Vec3d(n)));
+        if (unit != Vec3f(0)) return unit;
+        const auto after = std::upper_bound(mesh.face_begin.begin(), mesh.face_begin.end(), corner);
+        return missing[std::size_t(after - mesh.face_begin.begin()) - 1 - first_face];
+    }
+};
+
+Vec4f unit_tangent(const Mesh& mesh, const NormalSource& normals, std::uint32_t corner, bool& mended) {
     const Vec4f t = mesh.tangents[corner];
     mended = !is_unit(Vec3f(t)) || (t.w != 1 && t.w != -1);
     if (!mended) return t;
@@ -86,7 +111,7 @@ Vec4f unit_tangent(const Mesh& mesh, std::uint32_t corner, bool& mended) {
     const Vec3d unit = unit_or_zero(Vec3d(t));
     if (unit != Vec3d(0)) return {Vec3f(unit), sign};
     bool ignored = false;
-    const Vec3d n(unit_normal(mesh, corner, ignored));
+    const Vec3d n(normals.at(corner, ignored));
     return {Vec3f(unit_or_zero(glm::cross(n, std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0)))), sign};
 }
 
@@ -111,9 +136,10 @@ void write_positions(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry&
 
 void write_normals(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node, GltfWritten& done) {
     std::atomic<std::size_t> count = 0;
+    const NormalSource normals{mesh, node.first_face, missing_normals(mesh, node)};
     write_fixed_rows(out, node.vertices.first.size(), 12, [&](char* to, std::size_t i) {
         bool mended = false;
-        put_all(to, unit_normal(mesh, node.vertices.first[i], mended));
+        put_all(to, normals.at(node.vertices.first[i], mended));
         if (mended) count.fetch_add(1, std::memory_order_relaxed);
     });
     done.mended_normals += count;
@@ -121,9 +147,10 @@ void write_normals(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& n
 
 void write_tangents(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node, GltfWritten& done) {
     std::atomic<std::size_t> count = 0;
+    const NormalSource normals{mesh, node.first_face, missing_normals(mesh, node)};
     write_fixed_rows(out, node.vertices.first.size(), 16, [&](char* to, std::size_t i) {
         bool mended = false;
-        put_all(to, unit_tangent(mesh, node.vertices.first[i], mended));
+        put_all(to, unit_tangent(mesh, normals, node.vertices.first[i], mended));
         if (mended) count.fetch_add(1, std::memory_order_relaxed);
     });
     done.mended_tangents += count;

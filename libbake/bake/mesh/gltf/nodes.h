@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct GltfSourceNode {
     Transform transform;
     std::optional<std::vector<Transform>> instances; ///< EXT_mesh_gpu_instancing: in the space of the node
     bool visible = true;                             ///< KHR_node_visibility: false hides the children too
-    std::vector<double> weights;                     ///< of the morph targets: the node's, else those of its mesh
+    std::span<const double> weights = {};            ///< of the morph targets: the node's, else those of its mesh
+    bool own_weights = false;                        ///< they are the node's
 };
 
 /// The nodes of the model, and the roots of what is shown: the default scene, or all nodes, or a node for each mesh.

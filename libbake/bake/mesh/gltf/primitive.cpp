@@ -1,4 +1,5 @@
 #include "bake/mesh/gltf/primitive.h"
+#include "bake/base/progress.h"
 #include "bake/base/text_line.h"
 #include <algorithm>
 #include <tiny_gltf.h>
@@ -19,8 +20,9 @@ std::string attribute_name(const std::string& semantic) {
 }
 
 /// Adds the values of the morph targets to those of an attribute. Spec 3.7.2.2. False if none has a weight.
-bool add_targets(const GltfSource& source, const GltfPrimitive& primitive, const std::vector<double>& weights,
-                 const GltfAccessor& base, const std::string& semantic, float* values) {
+bool add_targets(const GltfSource& source, const GltfPrimitive& primitive, const GltfUsed& used,
+                 std::span<const double> weights, const GltfAccessor& base, const std::string& semantic,
+                 float* values) {
     bool any = false;
     for (std::size_t t = 0; t < std::min(weights.size(), primitive.vertices.targets.size()); ++t) {
         const auto found = primitive.vertices.targets[t].find(semantic);
@@ -28,10 +30,10 @@ bool add_targets(const GltfSource& source, const GltfPrimitive& primitive, const
         const std::string use = shown(semantic) + " of morph target " + std::to_string(t);
         // The sign of a tangent does not change: its targets have three components.
         const int components = semantic == "TANGENT" ? 3 : base.components;
-        const std::vector<float> added = floats_of(source, found->second, components, use);
-        if (added.size() != base.count * std::size_t(components))
-            source.refuse("its " + use + " does not match its positions");
-        for (std::size_t i = 0; i < base.count; ++i)
+        throw_if_interrupted();
+        const GltfAccessor target = accessor_of(source, found->second, components, used.count, use);
+        const std::vector<float> added = floats_of(source, target, used, use);
+        for (std::size_t i = 0; i < used.size(); ++i)
             for (std::size_t k = 0; k < std::size_t(components); ++k)
                 values[i * std::size_t(base.components) + k] +=
                     float(weights[t] * double(added[i * std::size_t(components) + k]));
@@ -40,8 +42,7 @@ bool add_targets(const GltfSource& source, const GltfPrimitive& primitive, const
     return any;
 }
 
-} // namespace
-
+/// Nothing for points, lines and primitives without positions.
 std::optional<GltfPrimitive> primitive_of(const GltfSource& source, const tinygltf::Primitive& from) {
     if (from.mode >= 0 && from.mode < TINYGLTF_MODE_TRIANGLES) return {}; // points and lines
     if (from.mode > TINYGLTF_MODE_TRIANGLE_FAN) source.refuse("has a primitive of mode " + std::to_string(from.mode));
@@ -93,6 +94,24 @@ std::optional<GltfPrimitive> primitive_of(const GltfSource& source, const tinygl
     return out;
 }
 
+} // namespace
+
+GltfPrimitives primitives_of(const GltfSource& source) {
+    GltfPrimitives meshes;
+    for (const tinygltf::Mesh& mesh : source.model.meshes) {
+        if (meshes.size() % 1024 == 0) throw_if_interrupted();
+        std::vector<GltfPrimitive>& out = meshes.emplace_back();
+        std::map<GltfVertexSource, std::size_t> first;
+        for (const tinygltf::Primitive& from : mesh.primitives) {
+            std::optional<GltfPrimitive> primitive = primitive_of(source, from);
+            if (!primitive || primitive->most_triangles() == 0) continue;
+            primitive->vertices_of = first.try_emplace(primitive->vertices, out.size()).first->second;
+            out.push_back(std::move(*primitive));
+        }
+    }
+    return meshes;
+}
+
 std::vector<std::uint32_t> triangles_of(const GltfSource& source, const GltfPrimitive& primitive) {
     std::vector<std::uint32_t> index(primitive.index_count());
     if (primitive.indexed) read_indices(primitive.indices, index.data());
@@ -114,15 +133,15 @@ std::vector<std::uint32_t> triangles_of(const GltfSource& source, const GltfPrim
     return out;
 }
 
-void append(const GltfSource& source, const GltfPrimitive& primitive, const std::vector<double>& weights, bool flip_v,
-            GltfVertices& out) {
-    const std::size_t first = out.positions.size(), count = primitive.position.count;
+void append(const GltfSource& source, const GltfPrimitive& primitive, const GltfUsed& used,
+            std::span<const double> weights, bool flip_v, GltfVertices& out) {
+    const std::size_t first = out.positions.size(), count = used.size();
     bool bent = false; // by morph targets
     const auto take = [&](const GltfAccessor& a, float* to, const std::string& use) {
         const bool named_by_us = use == "POSITION" || use == "NORMAL" || use == "TANGENT" || use == "TEXCOORD_0";
-        if (!read_floats(a, to))
+        if (!read_floats(a, used, to))
             source.refuse("its " + (named_by_us ? use : shown(use)) + " has a value that is not finite");
-        bent = add_targets(source, primitive, weights, a, use, to);
+        bent = add_targets(source, primitive, used, weights, a, use, to);
     };
     const auto flip = [&](float* v, std::size_t values) {
         for (std::size_t i = 1; flip_v && i < values; i += 2) v[i] = 1 - v[i];

@@ -4,6 +4,7 @@
 #include "bake/mesh/gltf/vertices.h"
 #include <map>
 #include <optional>
+#include <span>
 
 namespace tinygltf {
 struct Primitive;
@@ -30,6 +31,7 @@ struct GltfPrimitive {
     std::uint32_t material = no_index;
     std::string group;
     GltfVertexSource vertices;
+    std::size_t vertices_of = 0; ///< first primitive of its mesh that has the same `vertices`
 
     std::size_t index_count() const { return indexed ? indices.count : position.count; }
     /// More than there are where a strip repeats indices.
@@ -39,14 +41,16 @@ struct GltfPrimitive {
     }
 };
 
-/// Nothing for points, lines and primitives without positions.
-std::optional<GltfPrimitive> primitive_of(const GltfSource& source, const tinygltf::Primitive& from);
+/// Of each mesh of the file the primitives that have triangles: points, lines and primitives without positions are left
+/// out.
+using GltfPrimitives = std::vector<std::vector<GltfPrimitive>>;
+GltfPrimitives primitives_of(const GltfSource& source);
 
 /// Three indices of each triangle, all below the count of positions.
 std::vector<std::uint32_t> triangles_of(const GltfSource& source, const GltfPrimitive& primitive);
 
-/// Appends all vertices of a primitive, with its morph targets added by `weights`; missing weights are 0.
-void append(const GltfSource& source, const GltfPrimitive& primitive, const std::vector<double>& weights, bool flip_v,
-            GltfVertices& out);
+/// Appends the used vertices of a primitive, with its morph targets added by `weights`; missing weights are 0.
+void append(const GltfSource& source, const GltfPrimitive& primitive, const GltfUsed& used,
+            std::span<const double> weights, bool flip_v, GltfVertices& out);
 
 } // namespace bake

@@ -1,43 +1,70 @@
 // The nodes of a glTF as their extensions describe them.
+#include "bake/base/progress.h"
+#include "bake/mesh/gltf/io.h"
 #include "bake/mesh/gltf/nodes.h"
 #include "bake/mesh/gltf/source.h"
 #include <tiny_gltf.h>
+#include <utility>
 
 namespace bake {
 namespace {
 
-/// The values of one attribute of EXT_mesh_gpu_instancing; empty if the node has none of that name.
-std::vector<float> instance_values(const GltfSource& source, const tinygltf::Value& attributes, const char* name,
-                                   int components) {
-    if (!attributes.Has(name)) return {};
-    const tinygltf::Value& index = attributes.Get(name);
-    if (!index.IsInt()) source.refuse(std::string("its instances have a ") + name + " that is no accessor");
-    return floats_of(source, index.GetNumberAsInt(), components, std::string(name) + " of instances");
-}
+/// EXT_mesh_gpu_instancing: of how many elements, and the numbers of its accessors; -1 for those that are missing.
+struct Instances {
+    std::size_t count = 0;
+    int move = -1, turn = -1, stretch = -1;
+};
 
-std::optional<std::vector<Transform>> instances_of(const GltfSource& source, const tinygltf::Node& node) {
+/// Nothing for a node without instances.
+std::optional<Instances> instances_of(const GltfSource& source, const tinygltf::Node& node) {
     const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
     if (found == node.extensions.end() || node.mesh < 0) return {};
     if (!found->second.IsObject() || !found->second.Has("attributes") || !found->second.Get("attributes").IsObject())
         source.refuse("has instances without attributes");
     const tinygltf::Value& attributes = found->second.Get("attributes");
-    const std::vector<float> move = instance_values(source, attributes, "TRANSLATION", 3);
-    const std::vector<float> turn = instance_values(source, attributes, "ROTATION", 4);
-    const std::vector<float> stretch = instance_values(source, attributes, "SCALE", 3);
-    const std::size_t count = std::max({move.size() / 3, turn.size() / 4, stretch.size() / 3});
-    const auto is_whole = [count](const std::vector<float>& values, std::size_t components) {
-        return values.empty() || values.size() == count * components;
+    Instances out;
+    bool any = false;
+    const auto find = [&](const std::string& name, int& index) {
+        if (!attributes.Has(name)) return;
+        if (!attributes.Get(name).IsInt()) source.refuse("its instances have a " + name + " that is no accessor");
+        index = attributes.Get(name).GetNumberAsInt();
+        const std::size_t count = accessor_of(source, index, name + " of instances").count;
+        if (std::exchange(any, true) && count != out.count)
+            source.refuse("has instances whose attributes have different counts");
+        out.count = count;
     };
-    if (!is_whole(move, 3) || !is_whole(turn, 4) || !is_whole(stretch, 3))
-        source.refuse("has instances whose attributes have different counts");
+    find("TRANSLATION", out.move);
+    find("ROTATION", out.turn);
+    find("SCALE", out.stretch);
+    return out;
+}
+
+/// Many nodes may share one list of instances: their number is known before any are read.
+void refuse_too_many_instances(const GltfSource& source) {
+    std::size_t all = 0;
+    for (const tinygltf::Node& node : source.model.nodes)
+        if (const auto instances = instances_of(source, node)) all += instances->count;
+    constexpr std::size_t bytes = sizeof(Transform) + sizeof(GltfPlacement) + sizeof(GltfNode);
+    refuse_unless_fits(source.path, "its nodes have " + std::to_string(all) + " instances",
+                       double(all) * double(bytes));
+}
+
+std::vector<Transform> read_instances(const GltfSource& source, const Instances& instances) {
+    const auto read = [&](int index, int components, const char* use) {
+        return index < 0 ? std::vector<float>() : floats_of(source, index, components, use);
+    };
+    const std::vector<float> move = read(instances.move, 3, "TRANSLATION of instances"),
+                             turn = read(instances.turn, 4, "ROTATION of instances"),
+                             stretch = read(instances.stretch, 3, "SCALE of instances");
+    const auto at = [](const std::vector<float>& from, std::size_t i, std::size_t components) {
+        if (from.empty()) return std::vector<double>();
+        const auto first = from.begin() + std::ptrdiff_t(i * components);
+        return std::vector<double>(first, first + std::ptrdiff_t(components));
+    };
     std::vector<Transform> out;
-    const auto values_of = [](const std::vector<float>& values, std::size_t i, std::size_t components) {
-        if (values.empty()) return std::vector<double>();
-        const auto at = values.begin() + std::ptrdiff_t(i * components);
-        return std::vector<double>(at, at + std::ptrdiff_t(components));
-    };
-    for (std::size_t i = 0; i < count; ++i)
-        out.push_back(local_transform({}, values_of(move, i, 3), values_of(turn, i, 4), values_of(stretch, i, 3)));
+    out.reserve(instances.count);
+    for (std::size_t i = 0; i < instances.count; ++i)
+        out.push_back(local_transform({}, at(move, i, 3), at(turn, i, 4), at(stretch, i, 3)));
     return out;
 }
 
@@ -51,15 +78,19 @@ bool is_visible(const tinygltf::Node& node) {
 std::vector<GltfSourceNode> all_nodes(const GltfSource& source) {
     const tinygltf::Model& model = source.model;
     std::vector<GltfSourceNode> nodes;
+    refuse_too_many_instances(source);
+    nodes.reserve(model.nodes.size());
     for (const tinygltf::Node& from : model.nodes) {
+        if (nodes.size() % 1024 == 0) throw_if_interrupted();
         GltfSourceNode node{.name = from.name, .mesh = from.mesh, .skin = from.skin, .children = from.children};
         if (from.mesh >= 0 && std::size_t(from.mesh) >= model.meshes.size())
             source.refuse("asks for mesh " + std::to_string(from.mesh) + " of " + std::to_string(model.meshes.size()));
         node.transform = local_transform(from.matrix, from.translation, from.rotation, from.scale);
-        node.instances = instances_of(source, from);
+        if (const auto instances = instances_of(source, from)) node.instances = read_instances(source, *instances);
         node.visible = is_visible(from);
-        if (from.mesh >= 0)
-            node.weights = from.weights.empty() ? model.meshes[std::size_t(from.mesh)].weights : from.weights;
+        node.own_weights = !from.weights.empty();
+        if (node.own_weights) node.weights = from.weights;
+        else if (from.mesh >= 0) node.weights = model.meshes[std::size_t(from.mesh)].weights;
         nodes.push_back(std::move(node));
     }
     for (std::size_t i = 0; model.nodes.empty() && i < model.meshes.size(); ++i)

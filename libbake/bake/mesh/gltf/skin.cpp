@@ -1,4 +1,5 @@
 #include "bake/mesh/gltf/skin.h"
+#include "bake/base/progress.h"
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <tiny_gltf.h>
@@ -26,16 +27,19 @@ void add(const Transform& joint, double weight, Blend& blend) noexcept {
 }
 
 std::vector<Blend> blends_of(const GltfSource& source, const std::map<std::string, int>& attributes,
-                             const std::vector<Transform>& joints, std::size_t count) {
+                             const std::vector<Transform>& joints, const GltfUsed& used) {
+    const std::size_t count = used.size();
     std::vector<Blend> blends(count);
     for (int set = 0;; ++set) {
         const auto joint = attributes.find("JOINTS_" + std::to_string(set));
         const auto weight = attributes.find("WEIGHTS_" + std::to_string(set));
         if (joint == attributes.end() || weight == attributes.end()) return blends;
-        const std::vector<float> numbers = floats_of(source, joint->second, 4, joint->first);
-        const std::vector<float> weights = floats_of(source, weight->second, 4, weight->first);
-        if (numbers.size() != 4 * count || weights.size() != 4 * count)
-            source.refuse("its " + joint->first + " or " + weight->first + " does not match its positions");
+        throw_if_interrupted();
+        const auto values = [&](const std::pair<const std::string, int>& attribute) {
+            const GltfAccessor accessor = accessor_of(source, attribute.second, 4, used.count, attribute.first);
+            return floats_of(source, accessor, used, attribute.first);
+        };
+        const std::vector<float> numbers = values(*joint), weights = values(*weight);
         for (std::size_t i = 0; i < 4 * count; ++i) {
             if (weights[i] == 0) continue;
             if (!(numbers[i] >= 0) || numbers[i] >= float(joints.size()))
@@ -77,9 +81,9 @@ std::vector<Transform> joint_matrices(const GltfSource& source, int skin, const 
 }
 
 void apply_skin(const GltfSource& source, const std::map<std::string, int>& attributes,
-                const std::vector<Transform>& joints, std::size_t first, GltfVertices& vertices) {
+                const std::vector<Transform>& joints, const GltfUsed& used, std::size_t first, GltfVertices& vertices) {
     if (joints.empty()) return;
-    const std::vector<Blend> blends = blends_of(source, attributes, joints, vertices.positions.size() - first);
+    const std::vector<Blend> blends = blends_of(source, attributes, joints, used);
     for (std::size_t i = first; i < vertices.positions.size(); ++i) {
         const Blend& blend = blends[i - first];
         if (!(blend.weight > 0)) continue;

@@ -11,9 +11,9 @@ namespace bake {
 /// node. Empty if all of them are 1 up to rounding: the vertices are where the joints place them.
 std::vector<Transform> joint_matrices(const GltfSource& source, int skin, const std::vector<Transform>& world);
 
-/// Places the vertices from `first` on, whose accessors are `attributes`, by the mean of their joints' matrices. Vertices
+/// Places the vertices from `first` on, the used ones of the accessors `attributes`, by the mean of their joints' matrices. Vertices
 /// without weights stay where they are.
 void apply_skin(const GltfSource& source, const std::map<std::string, int>& attributes,
-                const std::vector<Transform>& joints, std::size_t first, GltfVertices& vertices);
+                const std::vector<Transform>& joints, const GltfUsed& used, std::size_t first, GltfVertices& vertices);
 
 } // namespace bake

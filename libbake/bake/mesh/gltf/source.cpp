@@ -1,11 +1,19 @@
 #include "bake/mesh/gltf/source.h"
 #include "bake/base/error.h"
+#include <algorithm>
+#include <numeric>
 #include <tiny_gltf.h>
+#include <unistd.h>
 
 namespace bake {
 
 void GltfSource::refuse(const std::string& why) const {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
+}
+
+void refuse_unless_fits(const std::string& path, const std::string& what, double bytes) {
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (bytes > memory) throw Error(Refusal::unsuitable, path + ": " + what + ", more than fit here; split the scene");
 }
 
 std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what) {
@@ -35,8 +43,27 @@ std::span<const std::uint8_t> elements(std::span<const std::uint8_t> bytes, std:
     return bytes.subspan(offset);
 }
 
+/// The last value of each element counts.
+GltfSparse in_order(const std::vector<std::uint32_t>& elements) {
+    GltfSparse out;
+    out.value.resize(elements.size());
+    std::iota(out.value.begin(), out.value.end(), 0u);
+    if (!std::is_sorted(elements.begin(), elements.end()))
+        std::stable_sort(out.value.begin(), out.value.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return elements[a] < elements[b]; });
+    std::size_t kept = 0;
+    for (const std::uint32_t v : out.value) {
+        if (kept > 0 && out.element[kept - 1] == elements[v]) --kept;
+        else out.element.push_back(elements[v]);
+        out.value[kept++] = v;
+    }
+    out.value.resize(kept);
+    return out;
+}
+
 /// Reads where the accessor's values are replaced, and by what.
-void read_sparse(const GltfSource& source, const tinygltf::Accessor& from, const std::string& what, GltfAccessor& out) {
+void read_sparse(const GltfSource& source, int index, const std::string& what, GltfAccessor& out) {
+    const tinygltf::Accessor& from = source.model.accessors[std::size_t(index)];
     const auto& sparse = from.sparse;
     const std::size_t size = size_of(out.type) * std::size_t(out.components);
     const auto type = static_cast<GltfType>(sparse.indices.componentType);
@@ -52,11 +79,16 @@ void read_sparse(const GltfSource& source, const tinygltf::Accessor& from, const
                  indices.stride, indices.stride, what, source);
     out.sparse_values = elements(view_bytes(source, sparse.values.bufferView, what),
                                  std::size_t(sparse.values.byteOffset), count, size, size, what, source);
-    out.sparse_index.resize(count);
-    read_indices(indices, out.sparse_index.data());
-    for (const std::uint32_t i : out.sparse_index)
-        if (i >= out.count)
-            source.refuse(what + " has a sparse index outside its " + std::to_string(out.count) + " elements");
+    std::shared_ptr<const GltfSparse>& known = source.sparse[index];
+    if (!known) {
+        std::vector<std::uint32_t> elements(count);
+        read_indices(indices, elements.data());
+        for (const std::uint32_t i : elements)
+            if (i >= out.count)
+                source.refuse(what + " has a sparse index outside its " + std::to_string(out.count) + " elements");
+        known = std::make_shared<GltfSparse>(in_order(elements));
+    }
+    out.sparse = known;
 }
 
 } // namespace
@@ -91,7 +123,25 @@ GltfAccessor accessor_of(const GltfSource& source, int index, const std::string&
         throw Error(Refusal::unsuitable, source.path + ": " + what + " has " + std::to_string(out.count) +
                                              " elements and no bytes; export the file again");
     }
-    if (from.sparse.isSparse) read_sparse(source, from, what, out);
+    if (from.sparse.isSparse) read_sparse(source, index, what, out);
+    return out;
+}
+
+GltfAccessor accessor_of(const GltfSource& source, int index, int components, std::size_t count,
+                         const std::string& use) {
+    GltfAccessor accessor = accessor_of(source, index, use);
+    if (accessor.components != components)
+        source.refuse("its " + use + " has " + std::to_string(accessor.components) + " components");
+    if (accessor.count != count)
+        source.refuse("its " + use + " has " + std::to_string(accessor.count) + " elements for " +
+                      std::to_string(count) + " positions");
+    return accessor;
+}
+
+std::vector<float> floats_of(const GltfSource& source, const GltfAccessor& accessor, const GltfUsed& used,
+                             const std::string& use) {
+    std::vector<float> out(used.size() * std::size_t(accessor.components));
+    if (!read_floats(accessor, used, out.data())) source.refuse("its " + use + " has a value that is not finite");
     return out;
 }
 
@@ -99,9 +149,7 @@ std::vector<float> floats_of(const GltfSource& source, int index, int components
     const GltfAccessor accessor = accessor_of(source, index, use);
     if (accessor.components != components)
         source.refuse("its " + use + " has " + std::to_string(accessor.components) + " components");
-    std::vector<float> out(accessor.count * std::size_t(components));
-    if (!read_floats(accessor, out.data())) source.refuse("its " + use + " has a value that is not finite");
-    return out;
+    return floats_of(source, accessor, {accessor.count, {}}, use);
 }
 
 } // namespace bake

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/mesh/gltf/accessor.h"
 #include "bake/mesh/gltf/document.h"
+#include <map>
 
 namespace tinygltf {
 class Model;
@@ -13,10 +14,14 @@ struct GltfSource {
     const std::string& path;
     const GltfDocument& document;
     const tinygltf::Model& model;
+    mutable std::map<int, std::shared_ptr<const GltfSparse>> sparse = {}; ///< of the accessors asked for so far
 
     /// Throws Error{Refusal::unreadable}.
     [[noreturn]] void refuse(const std::string& why) const;
 };
+
+/// Throws Error{Refusal::unsuitable} if `bytes`, which `what` takes at least, are more than this machine's memory.
+void refuse_unless_fits(const std::string& path, const std::string& what, double bytes);
 
 /// The bytes of a view; `what` names their use in messages.
 std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what);
@@ -25,7 +30,14 @@ std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t 
 /// Throws Error{Refusal::unsuitable} for more elements than fit.
 GltfAccessor accessor_of(const GltfSource& source, int index, const std::string& use);
 
-/// As accessor_of(), for vectors of `components` floats. Throws for others, and for values that are not finite.
+/// Refuses an accessor that has other than `components` components, and other than `count` elements.
+GltfAccessor accessor_of(const GltfSource& source, int index, int components, std::size_t count,
+                         const std::string& use);
+
+/// The values of the used elements of an accessor. Refuses values that are not finite.
+std::vector<float> floats_of(const GltfSource& source, const GltfAccessor& accessor, const GltfUsed& used,
+                             const std::string& use);
+/// All values of an accessor. Refuses one of other than `components` components, and values that are not finite.
 std::vector<float> floats_of(const GltfSource& source, int index, int components, const std::string& use);
 
 } // namespace bake

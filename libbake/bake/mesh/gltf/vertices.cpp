@@ -8,6 +8,11 @@
 namespace bake {
 namespace {
 
+/// Makes room for `count` values. Exact at first, then by halves, so that many small steps do not copy all values each time.
+template <class T> void reserve_more(std::vector<T>& values, std::size_t count) {
+    if (count > values.capacity()) values.reserve(std::max(count, values.capacity() / 2 * 3));
+}
+
 /// The vertices that faces use, in order, and for each vertex its place among them.
 struct Used {
     std::vector<std::uint32_t> vertex, place;
@@ -51,7 +56,7 @@ void append_values(const GltfVertices& vertices, std::span<const std::uint32_t> 
         index[i] = std::uint32_t(values.size());
         values.push_back(value(distinct.first[i]));
     }
-    corner_value.reserve(corners_before + vertices.corners.size());
+    reserve_more(corner_value, corners_before + vertices.corners.size());
     for (const std::uint32_t number : distinct.corner) corner_value.push_back(index[number]);
 }
 
@@ -74,7 +79,7 @@ void append_attribute(const Attribute& from, const std::vector<std::uint32_t>& c
     }
     const auto width = std::size_t(found->components), narrow = std::size_t(from.components);
     found->values.resize(corners_before * width, missing);
-    found->values.reserve((corners_before + corners.size()) * width);
+    reserve_more(found->values, (corners_before + corners.size()) * width);
     for (const std::uint32_t v : corners)
         for (std::size_t k = 0; k < width; ++k)
             found->values.push_back(k < narrow ? from.values[v * narrow + k] : missing);
@@ -99,14 +104,6 @@ Attribute& attribute_named(GltfVertices& vertices, const std::string& name, int 
     }
     vertices.attributes.push_back({name, components, {}});
     return vertices.attributes.back();
-}
-
-std::uint32_t group_named(Mesh& mesh, const std::string& name) {
-    if (name.empty()) return no_index;
-    const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
-    const auto place = std::uint32_t(found - mesh.groups.begin());
-    if (found == mesh.groups.end()) mesh.groups.push_back(name);
-    return place;
 }
 
 std::vector<std::string> material_names(const std::vector<GltfMaterial>& materials) {
@@ -140,7 +137,7 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
     std::vector<std::uint32_t> corner_position(vertices.corners.size()); // from 0 on
     for (std::size_t c = 0; c < corner_position.size(); ++c)
         corner_position[c] = welded.number[used.place[vertices.corners[c]]];
-    mesh.corner_position.reserve(corners_before + corner_position.size());
+    reserve_more(mesh.corner_position, corners_before + corner_position.size());
     for (const std::uint32_t p : corner_position) mesh.corner_position.push_back(first + p);
     append_values(vertices, corner_position, welded.first.size(), vertices.normals, vertices.has_normal, corners_before,
                   mesh.normals, mesh.corner_normal);
@@ -150,7 +147,7 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
     const std::size_t corners = mesh.corners();
     if (!vertices.tangents.empty() || !mesh.tangents.empty()) {
         mesh.tangents.resize(corners_before, Vec4f(0, 0, 0, 1));
-        mesh.tangents.reserve(corners);
+        reserve_more(mesh.tangents, corners);
         for (const std::uint32_t v : vertices.corners)
             mesh.tangents.push_back(vertices.tangents.empty() ? Vec4f(0, 0, 0, 1) : vertices.tangents[v]);
     }
@@ -167,6 +164,40 @@ void append_welded(GltfVertices vertices, Mesh& mesh) {
     };
     append_names(vertices.face_material, mesh.face_material);
     append_names(vertices.face_group, mesh.face_group);
+}
+
+MeshEnds ends_of(const Mesh& mesh) noexcept {
+    return {mesh.positions.size(), mesh.normals.size(), mesh.uvs.size(), mesh.faces()};
+}
+
+void append_copy(const MeshEnds& begin, const MeshEnds& end, Mesh& mesh) {
+    const auto copy = [](auto& values, std::size_t first, std::size_t last) {
+        const std::size_t old = values.size();
+        values.resize(old + (last - first));
+        std::copy(values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(last),
+                  values.begin() + std::ptrdiff_t(old));
+    };
+    const std::size_t corner = mesh.face_begin[begin.faces], end_corner = mesh.face_begin[end.faces];
+    const auto copy_indices = [&](std::vector<std::uint32_t>& index, std::size_t first_value, std::size_t values) {
+        if (index.empty()) return;
+        const std::size_t old = index.size();
+        copy(index, corner, end_corner);
+        for (std::size_t c = old; c < index.size(); ++c)
+            if (index[c] != no_index) index[c] += std::uint32_t(values - first_value);
+    };
+    copy_indices(mesh.corner_position, begin.positions, mesh.positions.size());
+    copy_indices(mesh.corner_normal, begin.normals, mesh.normals.size());
+    copy_indices(mesh.corner_uv, begin.uvs, mesh.uvs.size());
+    copy(mesh.positions, begin.positions, end.positions);
+    copy(mesh.normals, begin.normals, end.normals);
+    copy(mesh.uvs, begin.uvs, end.uvs);
+    if (!mesh.tangents.empty()) copy(mesh.tangents, corner, end_corner);
+    for (Attribute& a : mesh.attributes)
+        copy(a.values, corner * std::size_t(a.components), end_corner * std::size_t(a.components));
+    if (!mesh.face_material.empty()) copy(mesh.face_material, begin.faces, end.faces);
+    if (!mesh.face_group.empty()) copy(mesh.face_group, begin.faces, end.faces);
+    for (std::size_t c = mesh.face_begin.back() + 3; c <= mesh.corners(); c += 3)
+        mesh.face_begin.push_back(std::uint32_t(c));
 }
 
 } // namespace bake

@@ -23,14 +23,20 @@ float default_value(const std::string& attribute) noexcept;
 /// Returns the attribute of that name; adds it if it is missing, and extends it to `components` if it has fewer.
 Attribute& attribute_named(GltfVertices& vertices, const std::string& name, int components);
 
-/// Index of the name in mesh.groups; a new name is added. no_index for an empty name.
-std::uint32_t group_named(Mesh& mesh, const std::string& name);
-
 /// Names of the materials in the mesh: unique and not empty.
 std::vector<std::string> material_names(const std::vector<GltfMaterial>& materials);
 
 /// Appends the faces to the mesh. Equal positions are merged, and equal normals and uvs at one position. Vertices that
 /// no face uses are skipped.
 void append_welded(GltfVertices vertices, Mesh& mesh);
+
+/// The ends of a mesh's lists, as it grows.
+struct MeshEnds {
+    std::size_t positions = 0, normals = 0, uvs = 0, faces = 0;
+};
+MeshEnds ends_of(const Mesh& mesh) noexcept;
+
+/// Appends what append_welded() has appended between the two ends once more.
+void append_copy(const MeshEnds& begin, const MeshEnds& end, Mesh& mesh);
 
 } // namespace bake
