@@ -175,6 +175,41 @@ TEST_SUITE("cli") {
         CHECK(maps.err.find("positions in the map are relative to (44826") != std::string::npos);
     }
 
+    TEST_CASE(
+        "surface, displace: a cage without a limit surface is refused in the same words, whatever is asked of it") {
+        const Folder folder;
+        const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                 "f 1/1 2/2 3/3 4/4\nt interpolateboundary 1/0/0 0\n";
+        write_file(folder / "cage.obj", quad);
+        const std::string why =
+            "cage.obj: its boundary rule, interpolateboundary 0, leaves out the faces at the border";
+        check_refused(folder, {"surface", "cage.obj", "--subdivide", "catmark", "-o", "s.ply"}, 4, why);
+        check_refused(folder, {"surface", "cage.obj", "--subdivide", "catmark", "--maps-out", "m"}, 4, why);
+        const std::vector<std::string> displace = {"displace", "cage.obj",    "--subdivide", "catmark",
+                                                   "--height", waves(folder), "-o",          "d.ply"};
+        for (const std::vector<std::string>& more :
+             {std::vector<std::string>{}, {"--max-error", "0.01"}, {"--edge-px", "4", "--camera", "position=0,0,5"}}) {
+            std::vector<std::string> arguments = displace;
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            check_refused(folder, arguments, 4, why);
+        }
+    }
+
+    TEST_CASE("check: Ctrl-C ends the splitting of a polygon with many corners") {
+        const Folder folder;
+        std::string text, face = "f";
+        for (int i = 0; i < 400000; ++i) {
+            const double angle = i * 0.01 * (i < 200000 ? 1 : -1) + (i < 200000 ? 0 : 4000), radius = 1 + angle / 200;
+            text += "v " + std::to_string(radius * std::cos(angle) * (i < 200000 ? 1 : 1.002)) + " " +
+                    std::to_string(radius * std::sin(angle) * (i < 200000 ? 1 : 1.002)) + " 0\n";
+            face += " " + std::to_string(i + 1);
+        }
+        write_file(folder / "spiral.obj", text + face + "\n");
+        const Run run = run_bake(folder, {"check", "spiral.obj"}, {.interrupt_after = 0.1});
+        CHECK(run.code == 130);
+        CHECK(run.seconds < 5);
+    }
+
     TEST_CASE("check: notes of the reader stand among those of the check") {
         const Folder folder;
         write_file(folder / "s.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\ns off\nf 1 2 3\n");

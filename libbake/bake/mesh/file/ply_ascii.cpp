@@ -1,5 +1,6 @@
 #include "bake/base/error.h"
 #include "bake/base/parse_double.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/file/ply_body.h"
 #include <cmath>
 #include <limits>
@@ -14,6 +15,7 @@ struct Rows {
     const char* next;
     const char* at = nullptr; ///< the line
     const char* p = nullptr;  ///< what is left of it
+    std::size_t started = 0;
 
     [[noreturn]] void refuse(const std::string& why) const {
         throw Error(Refusal::unreadable, path + ":" + std::to_string(line_number(file.begin(), at)) + ": " + why +
@@ -21,6 +23,7 @@ struct Rows {
     }
     /// Moves to the next line that is not blank.
     void start_row(const PlyElement& element, std::uint64_t row) {
+        if (++started % 65536 == 0) throw_if_interrupted();
         do {
             at = next;
             if (next >= file.end())

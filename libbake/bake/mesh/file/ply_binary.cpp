@@ -1,6 +1,7 @@
 #include "bake/base/error.h"
 #include "bake/base/pages.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/file/ply_body.h"
 #include <algorithm>
@@ -129,13 +130,16 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
     Mesh& mesh = body.mesh;
     resize_vertices(layout, count, mesh);
     if (layout.exact) body.points.resize(count);
+    std::vector<PlyColumn> columns;
+    for (std::size_t c = 0; c < layout.columns.size(); ++c)
+        columns.push_back(layout.columns[c] < 0 ? PlyColumn{nullptr, 0} : column_of(mesh, c));
     std::vector<std::size_t> first_bad(count / grain + 1, count); // per block: the first vertex that is not finite
     const auto read_rows = [&](std::size_t first, std::size_t rows, auto&& address) {
         std::size_t& bad = first_bad[first / grain];
         for (std::size_t c = 0; c < layout.columns.size(); ++c) {
             if (layout.columns[c] < 0) continue;
             const auto property = std::size_t(layout.columns[c]);
-            PlyColumn out = column_of(mesh, c);
+            PlyColumn out = columns[c];
             out.first += first * out.stride;
             const PlyType type = element.properties[property].type;
             read_column(address(property), shape.tail, rows, type, shape.swap, out);
@@ -155,6 +159,7 @@ const char* read_vertices(const char* p, const char* end, const PlyElement& elem
     } else {
         std::vector<const char*> behind(shape.lists.size() + 1); // each list
         for (std::size_t row = 0; row < count; ++row) {
+            if (row % grain == 0) throw_if_interrupted();
             behind[0] = p;
             p = walk_row(p, end, shape, [&](std::size_t list, const char* items, std::size_t n) {
                 behind[list + 1] = items + n * shape.lists[list].item;
@@ -223,7 +228,10 @@ const char* read_faces(const char* p, const char* end, const PlyElement& element
     std::vector<Block> blocks;
     std::size_t corners = 0;
     for (std::size_t f = 0; f < faces; ++f) {
-        if (f % grain == 0) blocks.push_back({p, corners, {}, {}});
+        if (f % grain == 0) {
+            throw_if_interrupted();
+            blocks.push_back({p, corners, {}, {}});
+        }
         std::size_t size = 0;
         p = walk_row(p, end, shape, [&](std::size_t list, const char*, std::size_t count) {
             if (int(shape.lists[list].property) == layout.indices) size = count;
@@ -282,6 +290,7 @@ PlyBody read_ply_binary(const FileBytes& file, const PlyHeader& header, const Pl
             p += std::size_t(element.rows) * shape.tail;
         } else {
             for (std::uint64_t row = 0; row < element.rows; ++row) {
+                if (row % grain == 0) throw_if_interrupted();
                 p = walk_row(p, file.end(), shape, [](std::size_t, const char*, std::size_t) {});
                 if (!p) refuse_short(path, element, row);
             }
