@@ -3,11 +3,11 @@
 #include "bake/base/progress.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/extensions.h"
-#include "bake/mesh/gltf/source.h"
 #include <bit>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -304,6 +304,11 @@ void read_image(const json& object, std::size_t i, const std::string& path, Gltf
 }
 
 } // namespace
+
+void refuse_unless_fits(const std::string& path, const std::string& what, double bytes) {
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (bytes > memory) throw Error(Refusal::unsuitable, path + ": " + what + ", more than fit here; split the scene");
+}
 
 GltfDocument read_gltf_document(const std::string& path) {
     GltfDocument out;

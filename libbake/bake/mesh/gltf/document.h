@@ -26,4 +26,7 @@ struct GltfDocument {
 /// without an uncompressed copy.
 GltfDocument read_gltf_document(const std::string& path);
 
+/// Throws Error{Refusal::unsuitable} if `bytes`, which `what` takes at least, are more than this machine's memory.
+void refuse_unless_fits(const std::string& path, const std::string& what, double bytes);
+
 } // namespace bake

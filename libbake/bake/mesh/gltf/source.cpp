@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <numeric>
 #include <tiny_gltf.h>
-#include <unistd.h>
 
 namespace bake {
 
 void GltfSource::refuse(const std::string& why) const {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
-}
-
-void refuse_unless_fits(const std::string& path, const std::string& what, double bytes) {
-    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (bytes > memory) throw Error(Refusal::unsuitable, path + ": " + what + ", more than fit here; split the scene");
 }
 
 std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what) {

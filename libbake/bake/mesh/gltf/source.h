@@ -20,9 +20,6 @@ struct GltfSource {
     [[noreturn]] void refuse(const std::string& why) const;
 };
 
-/// Throws Error{Refusal::unsuitable} if `bytes`, which `what` takes at least, are more than this machine's memory.
-void refuse_unless_fits(const std::string& path, const std::string& what, double bytes);
-
 /// The bytes of a view; `what` names their use in messages.
 std::span<const std::uint8_t> view_bytes(const GltfSource& source, std::int64_t index, const std::string& what);
 
