@@ -73,7 +73,9 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
     while (wait4(child, &status, WNOHANG, &used) == 0) {
         const double elapsed = now() - start;
         if (!interrupted && limits.interrupt_after >= 0 && elapsed > limits.interrupt_after) {
-            kill(child, SIGINT);
+            kill(child, limits.signal);
+            if (limits.twice) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            if (limits.twice) kill(child, limits.signal);
             interrupted = true;
         }
         if (elapsed > limits.seconds) kill(child, SIGKILL);

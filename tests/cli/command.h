@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/picture/image.h"
 #include "folders.h"
+#include <csignal>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -33,7 +34,9 @@ std::size_t lines(const std::string& text);
 struct RunLimits {
     double seconds = 20;         ///< killed after
     long long file_bytes = -1;   ///< largest file it may write; -1: any
-    double interrupt_after = -1; ///< seconds after which SIGINT is sent; -1: never
+    double interrupt_after = -1; ///< seconds after which the signal is sent; -1: never
+    int signal = SIGINT;
+    bool twice = false; ///< the signal is sent again, 10 ms later
     bool as_nobody = false;      ///< without root's rights
     std::string stdout_path;     ///< where stdout goes instead
 };

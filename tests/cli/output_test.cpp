@@ -1,8 +1,11 @@
 // What the verbs leave behind when all goes well, when the disk is full, when they may not write, and when interrupted.
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
+#include <algorithm>
 #include <cmath>
 #include <linux/capability.h>
+#include <map>
 #include <sys/mount.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -31,6 +34,28 @@ std::vector<Job> jobs() {
     for (const char* out : {"moments.exr", "moments.tif"})
         all.push_back({out, {"bump-table", bricks, "-o", out, "--layout", "bumpslopes"}});
     return all;
+}
+
+/// The verbs' other ways of writing; several write more than one file.
+std::vector<std::vector<std::string>> other_jobs() {
+    std::vector<std::vector<std::string>> all;
+    for (const char* out : {"relief.ply", "relief.obj", "relief.glb", "relief.gltf"})
+        all.push_back({"displace", torus, "--height", dots, "-o", out});
+    all.push_back({"surface", "--shape", "torus", "--resolution", "32x16", "--size", "64x32", "--maps-out", "map", "-o",
+                   "mesh.ply"});
+    for (const char* out : {"cube.exr", "strip.png", "sky_%s.png", "sky_%s.exr", "sky.tif"})
+        all.push_back({"cubemap", "labels", "--size", "16", "-o", out});
+    const std::string scene = (own_meshes() / "scene.toml").string();
+    for (const char* out : {"picture.png", "picture.exr"})
+        all.push_back({"render", scene, "--size", "64x48", "--spp", "1", "-o", out});
+    return all;
+}
+
+/// The sizes of all files of a folder.
+std::map<std::string, long long> sizes_of(const Folder& folder) {
+    std::map<std::string, long long> sizes;
+    for (const std::string& name : folder.names()) sizes[name] = (long long)fs::file_size(folder / name);
+    return sizes;
 }
 
 /// A height that takes seconds to bake.
@@ -78,18 +103,90 @@ TEST_SUITE("cli") {
         CHECK(folder.names().size() == all.size());
     }
 
-    TEST_CASE("output: a full disk is exit 5, one line; the old file stays and no other is left") {
-        for (const Job& job : jobs()) {
+    TEST_CASE("output: a full disk is exit 5, one line; all old files stay and no other is left") {
+        std::vector<std::vector<std::string>> all = other_jobs();
+        for (const Job& job : jobs()) all.push_back(job.arguments);
+        for (const std::vector<std::string>& arguments : all) {
             const Folder folder;
-            REQUIRE(run_bake(folder, job.arguments).code == 0);
-            const auto whole = (long long)fs::file_size(folder / job.out);
-            write_file(folder / job.out, "old");
-            for (const long long most : {300LL, whole / 2, whole - 1}) {
+            CAPTURE(arguments.back());
+            REQUIRE(run_bake(folder, arguments).code == 0);
+            const auto sizes = sizes_of(folder);
+            long long largest = 0;
+            for (const auto& [name, size] : sizes) largest = std::max(largest, size);
+            for (const long long most : {0LL, 300LL, largest / 2, largest - 1}) {
                 CAPTURE(most);
-                check_refused(folder, job.arguments, 5, job.out, {.file_bytes = most});
-                CHECK(contents(folder / job.out) == "old");
+                for (const auto& [name, size] : sizes) write_file(folder / name, "old");
+                check_refused(folder, arguments, 5, "cannot be written", {.file_bytes = most});
+                for (const auto& [name, size] : sizes) CHECK(contents(folder / name) == "old");
             }
         }
+    }
+
+    TEST_CASE("output: no verb replaces a file that it read") {
+        const Folder folder;
+        write_mesh(folder / "relief.gltf", read_mesh(torus)); // with relief.bin beside it
+        for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"})
+            fs::copy_file(own_meshes() / (std::string("sky_") + face + ".png"), folder / face + ".png");
+        fs::copy_file(bricks, folder / "bricks.png");
+        fs::create_hard_link(folder / "bricks.png", folder / "linked.png");
+        fs::create_symlink("bricks.png", folder.path / "named.png");
+        write_file(folder / "scene.toml", "mesh = [{file = \"relief.gltf\", material = \"a\"}]\n"
+                                          "material = [{name = \"a\", normal = \"bricks.png\"}]\n");
+        fs::create_hard_link(folder / "relief.bin", folder / "other.bin");
+        const auto sizes = sizes_of(folder);
+        const auto refused = [&](const std::vector<std::string>& arguments) {
+            check_refused(folder, arguments, 2, "would replace");
+        };
+        refused({"displace", "relief.gltf", "--height", dots, "-o", "relief.gltf"});
+        refused({"displace", "relief.gltf", "--height", dots, "-o", "other.gltf"}); // and its other.bin
+        refused({"surface", "relief.gltf", "-o", "other.gltf"});
+        for (const char* out : {"bricks.png", "linked.png", "named.png", "./bricks.png"}) {
+            refused({"normal-map", "bricks.png", "-o", out});
+            refused({"bump-table", "bricks.png", "-o", out});
+            refused({"render", "scene.toml", "--size", "8", "-o", out});
+        }
+        refused({"cubemap", "%s.png", "--size", "8", "-o", "%s.png"});
+        refused({"cubemap", "px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png", "--size", "8", "--to", "strip",
+                 "-o", "nz.png"});
+        CHECK(sizes_of(folder) == sizes);
+    }
+
+    TEST_CASE("output: a file of two outputs' name is refused; several outputs appear all or none") {
+        const Folder folder;
+        const std::vector<std::string> surface = {"surface", "--shape", "torus", "--resolution", "64x32",
+                                                  "--size",  "16x8",    "-o",    "mesh.ply",     "--maps-out"};
+        std::vector<std::string> arguments = surface;
+        arguments.push_back("map");
+        REQUIRE(run_bake(folder, arguments).code == 0);
+        const auto sizes = sizes_of(folder);
+        for (const auto& [name, size] : sizes) write_file(folder / name, "old");
+        // The maps fit, the mesh does not.
+        check_refused(folder, arguments, 5, "mesh.ply", {.file_bytes = sizes.at("mesh.ply") - 1});
+        for (const auto& [name, size] : sizes) CHECK(contents(folder / name) == "old");
+        fs::create_symlink("map_normal.exr", folder.path / "link_position.exr");
+        fs::create_symlink("map_normal.exr", folder.path / "link_normal.exr");
+        arguments.back() = "link";
+        check_refused(folder, arguments, 2, "two outputs");
+        CHECK(contents(folder / "map_normal.exr") == "old");
+    }
+
+    TEST_CASE("output: the null device takes any verb's output; links are followed, the mode is kept") {
+        const Folder folder;
+        fs::create_symlink("/dev/null", folder.path / "nothing.png");
+        CHECK(run_bake(folder, {"bump-table", dots, "-o", "nothing.png"}).code == 0);
+        CHECK(run_bake(folder, {"bump-table", dots, "-o", "/dev/null"}).code == 0);
+        CHECK(run_bake(folder, {"displace", torus, "--height", dots, "-o", "/dev/null"}).code == 0);
+        CHECK(run_bake(folder, {"cubemap", "labels", "--size", "8", "-o", "/dev/null"}).code == 0);
+        CHECK(fs::is_character_file("/dev/null"));
+        write_file(folder / "real.png", "old");
+        fs::permissions(folder.path / "real.png", fs::perms(0640));
+        fs::create_symlink("real.png", folder.path / "link.png");
+        CHECK(run_bake(folder, {"bump-table", dots, "-o", "link.png"}).code == 0);
+        CHECK(fs::is_symlink(folder.path / "link.png"));
+        CHECK(fs::file_size(folder / "real.png") > 100);
+        CHECK((fs::status(folder / "real.png").permissions() & fs::perms::all) == fs::perms(0640));
+        fs::create_symlink("/dev/full", folder.path / "full.png");
+        check_refused(folder, {"bump-table", dots, "-o", "full.png"}, 5, "not a regular file");
     }
 
     TEST_CASE("output: a small disk that fills up" * doctest::skip(!may_mount())) {
@@ -154,6 +251,23 @@ TEST_SUITE("cli") {
             CHECK(contents(folder / arguments.back()) == "old");
             CHECK(folder.names() == before);
         }
+    }
+
+    TEST_CASE("output: SIGTERM and SIGHUP are Ctrl-C, and a second signal leaves nothing either") {
+        const Folder folder;
+        const std::string height = large_height(folder);
+        const std::vector<std::string> one = {"normal-map", "--height", height, "-o", "a.png"},
+                                       many = {"cubemap", "labels", "--size", "2048", "-o", "sky_%s.png"};
+        const auto before = folder.names();
+        for (const int signal : {SIGTERM, SIGHUP, SIGINT})
+            for (const bool twice : {false, true}) {
+                const auto& arguments = twice ? many : one;
+                const Run run = run_bake(
+                    folder, arguments, {.seconds = 100, .interrupt_after = 0.4, .signal = signal, .twice = twice});
+                CAPTURE(run.err);
+                CHECK(run.code == 130);
+                CHECK(folder.names() == before);
+            }
     }
 
     TEST_CASE("output: an ending in capitals gives every verb the file that it gives in lower case") {

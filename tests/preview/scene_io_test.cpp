@@ -1,11 +1,11 @@
 #include "bake/base/error.h"
-#include "bake/base/output_file.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/preview/scene_io.h"
 #include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ struct Folder {
     ~Folder() { fs::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }
     std::string write(const std::string& name, const std::string& text) const {
-        write_text(*this / name, text);
+        std::ofstream(*this / name, std::ios::binary) << text;
         return *this / name;
     }
 };

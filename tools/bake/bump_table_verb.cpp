@@ -22,7 +22,6 @@ Depth resolve(BumpTableArgs& args) {
                     args.out + ": bumpslopes are signed; write .exr or .tif with --depth half or float");
     if (args.no_mips && !bumpslopes)
         throw Error(Refusal::usage, "--no-mips: a table of slopes has none; it is for --layout bumpslopes");
-    check_not_input(args.out, args.height.path);
     expect_picture(args.height.path);
     return depth;
 }

@@ -125,10 +125,7 @@ void check_cubemap_options(CubemapArgs& args) {
     if (args.capture.empty() != args.at.empty())
         throw usage(args.at.empty() ? "--capture: needs --at x,y,z, the point to look from"
                                     : "--at: is for --capture; add a scene");
-    for (const std::string& input : args.inputs) {
-        expect_picture(input);
-        check_not_input(args.target.file, input);
-    }
+    for (const std::string& input : args.inputs) expect_picture(input);
     if (!args.capture.empty()) expect_scene(args.capture);
     if (!args.at.empty()) args.position = parse_point(args.at);
     if (!args.irradiance.empty()) args.wanted_irradiance = parse_irradiance(args.irradiance);

@@ -101,6 +101,7 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     progress.start("read", 0);
     EnvironmentReport report;
     const Environment sky = load_sky(args, common, progress, report);
+    check_output(args); // once more, as it may not replace what was read
     watch.lap("read");
     args.target.source = report.type;
     const EnvironmentWritten written = write(args, sky, progress);

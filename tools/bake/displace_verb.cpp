@@ -37,9 +37,6 @@ std::string describe_base(const DisplaceArgs& args) {
 
 int run(DisplaceArgs& args, const CommonArgs& common) {
     complete(args);
-    for (const std::string* input : {&args.height.path, &args.surface.mesh})
-        if (!input->empty()) check_not_input(args.out, *input);
-    OutputFile(args.out); // a file that cannot be written is refused before the work
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
     progress.start("read", 0);
@@ -58,14 +55,14 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.amplitude = file.relief.height.amplitude, o.midlevel = file.relief.height.midlevel;
     o.amplitude_note = file.amplitude_note;
     watch.lap("height");
+    OutputFile(args.out); // a file that cannot be written is refused before the work
     Displaced displaced = displace(base, file.relief, options, &progress);
     progress.finish();
     o.report = displaced.report;
     o.edge = mean_edge(displaced.mesh);
     watch.lap("displace");
     if (args.margin) add_margin(displaced);
-    write_mesh(args.out, displaced.mesh);
-    o.file_bytes = std::filesystem::file_size(args.out);
+    o.file_bytes = std::uintmax_t(write_mesh(args.out, displaced.mesh));
     watch.lap("write");
     if (args.audit) {
         o.audit = audit(displaced.mesh, triangulate(displaced.mesh));

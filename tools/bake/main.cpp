@@ -1,4 +1,5 @@
 // bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
+#include "bake/base/input_record.h"
 #include "bake/base/parallel.h"
 #include "bake/base/version.h"
 #include "nearest.h"
@@ -21,6 +22,7 @@ void note(const CommonArgs& common, const std::string& line) {
 }
 
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch) {
+    common.outputs->commit();
     if (common.json) {
         if (!object.contains("seconds")) object["seconds"] = watch.to_json();
         std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
@@ -121,7 +123,9 @@ int run(int argc, char** argv) {
                       "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o normal.png\n"
                       "  bake help normal-map\n");
 
-    CommonArgs common;
+    OutputSet outputs;
+    const InputRecord inputs;
+    CommonArgs common{.outputs = &outputs};
     std::function<int()> chosen;
     for (const VerbEntry& entry : verbs) {
         CLI::App* sub = app.add_subcommand(entry.name, entry.job);

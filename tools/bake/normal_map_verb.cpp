@@ -32,7 +32,6 @@ void bake_mesh(const HeightTexture& height, const HeightField& field, const Bake
 int run(NormalMapArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_depth(args.out, args.depth);
     complete(args, "normal-map");
-    check_not_input(args.out, args.height.path);
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);

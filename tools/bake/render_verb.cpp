@@ -59,8 +59,8 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     RenderSettings& settings = entries.settings;
     if (args.size) std::tie(settings.width, settings.height) = *args.size;
     if (args.spp > 0) settings.spp = args.spp;
-    OutputFile(args.out); // refuses at once a name that cannot be written
     const Scene scene = load(entries);
+    OutputFile(args.out); // a file that cannot be written is refused before the work
     watch.lap("load");
     for (const std::string& line : scene.notes) note(common, line);
     RenderStats stats;

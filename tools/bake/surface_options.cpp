@@ -62,7 +62,6 @@ void check_usage(const SurfaceArgs& args) {
     const MeshFormat format = mesh_format(args.out);
     if (format != MeshFormat::ply && format != MeshFormat::gltf)
         throw usage("--out " + args.out + ": cannot hold curvatures; choose a name that ends in .ply or .glb");
-    check_not_input(args.out, args.surface.mesh);
 }
 
 } // namespace bake

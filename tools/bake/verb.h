@@ -1,6 +1,7 @@
 // What every verb of the command shares.
 #pragma once
 #include "bake/base/error.h"
+#include "bake/base/output_file.h"
 #include "bake/base/progress.h"
 #include "inputs/stopwatch.h"
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ struct CommonArgs {
     int threads = 0;    ///< 0: one per core
     bool quiet = false; ///< no progress, no notes, no result as text
     bool json = false;  ///< one JSON object on stdout instead of text
+    OutputSet* outputs; ///< the files that the verb writes, which print_result() makes appear
 };
 
 /// A verb adds its options to `sub` and returns what to run after parsing: it returns the exit code.
@@ -36,7 +38,7 @@ void add_examples(CLI::App& sub, const std::string& examples);
 std::string with_flags(const std::string& message);
 /// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
-/// The result of a verb that writes files, on stdout: the object under --json, else the lines of text unless --quiet, each
+/// Makes the files of a verb appear under their names, all together, and prints its result on stdout: the object under --json, else the lines of text unless --quiet, each
 /// with the seconds of the steps.
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch);
 

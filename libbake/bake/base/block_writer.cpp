@@ -7,9 +7,7 @@
 namespace bake {
 
 BlockWriter::BlockWriter(const std::string& path)
-    : path_(path), file_(path), stream_(std::fopen(file_.temporary().c_str(), "wb")) {
-    if (!stream_) refuse();
-}
+    : path_(path), file_(path), stream_(file_.open_stream()) {}
 
 BlockWriter::~BlockWriter() {
     if (stream_) std::fclose(stream_);
@@ -17,6 +15,7 @@ BlockWriter::~BlockWriter() {
 
 void BlockWriter::write(std::string_view block) {
     if (std::fwrite(block.data(), 1, block.size(), stream_) != block.size()) refuse();
+    bytes_ += std::int64_t(block.size());
 }
 
 void BlockWriter::commit() {
@@ -25,7 +24,7 @@ void BlockWriter::commit() {
 }
 
 void BlockWriter::refuse() {
-    throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
+    refuse_unwritten(path_, std::strerror(errno));
 }
 
 } // namespace bake

@@ -12,7 +12,7 @@
 
 namespace bake {
 
-/// The file appears under its name on commit(), and not at all without. Every function throws
+/// The file appears under its name on commit(), as OutputFile's, and not at all without. Every function throws
 /// Error{Refusal::unwritable} when the disk is full or the folder is not writable.
 class BlockWriter {
 public:
@@ -23,6 +23,7 @@ public:
 
     void write(std::string_view block);
     void commit();
+    std::int64_t bytes() const noexcept { return bytes_; } ///< written
 
 private:
     [[noreturn]] void refuse();
@@ -30,6 +31,7 @@ private:
     std::string path_;
     OutputFile file_;
     std::FILE* stream_;
+    std::int64_t bytes_ = 0;
 };
 
 /// Puts the four bytes of a float or an integer, low byte first on any machine, and moves `to` behind them.

@@ -1,5 +1,6 @@
 #include "bake/base/file_bytes.h"
 #include "bake/base/error.h"
+#include "bake/base/input_record.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <cerrno>
@@ -35,6 +36,7 @@ FileBytes read_file(const std::string& path) {
     if (!S_ISREG(status.st_mode))
         throw Error(Refusal::unreadable, path + ": is not a regular file; copy its contents into one");
 
+    remember_input(status);
     FileBytes bytes;
     bytes.size = std::size_t(status.st_size);
     const auto memory = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));

@@ -1,19 +1,26 @@
 #include "bake/base/output_file.h"
 #include "bake/base/error.h"
+#include "bake/base/input_record.h"
 #include "bake/base/progress.h"
+#include "bake/base/temporary_file.h"
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <mutex>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace bake {
 namespace fs = std::filesystem;
 
 namespace {
+
+std::atomic<OutputSet*> current_set = nullptr;
 
 /// The part of a name that other programs replace by the number of a tile or of a frame; empty if there is none.
 std::string number_place(const std::string& written) {
@@ -32,51 +39,171 @@ std::string number_place(const std::string& written) {
     return {};
 }
 
-} // namespace
-
-OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
-    if (const std::string place = number_place(fs::path(path_).filename().string()); !place.empty())
-        throw Error(Refusal::usage, path_ + ": " + place +
-                                        " stands for the number of a tile or of a frame, but one file "
-                                        "is written; write the number itself");
-    const fs::path target(path_);
-    std::error_code ignored;
-    if (path_.empty() || target.filename().empty() || fs::is_directory(target, ignored))
-        throw Error(Refusal::unwritable, path_ + ": is a folder; name a file in it");
-    std::string name = ".";
-    name += target.stem().string() + ".tmp" + std::to_string(getpid()) + target.extension().string();
-    temporary_ = (target.parent_path() / name).string();
-    const int file = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0)
-        throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) +
-                                             "); choose a folder that exists and that you may write to");
-    close(file);
-    remove_on_second_signal(temporary_);
+[[noreturn]] void refuse_name(const std::string& path, const std::string& reason, const char* mend) {
+    throw Error(Refusal::unwritable, path + ": cannot be written (" + reason + "); " + mend);
 }
 
-OutputFile::~OutputFile() {
-    if (committed_) return;
-    unlink(temporary_.c_str());
-    remove_on_second_signal("");
+/// The file that a chain of symbolic links names, which need not be there.
+fs::path followed(const std::string& path) {
+    constexpr int most_links = 40; // as many as Linux follows
+    fs::path target = path;
+    std::error_code ignored;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
+        if (links == most_links) refuse_name(path, std::strerror(ELOOP), "choose another name");
+        target = target.parent_path() / fs::read_symlink(target, ignored);
+    }
+    return target;
+}
+
+bool is_null_device(const struct stat& file) {
+    struct stat null {};
+    return S_ISCHR(file.st_mode) && stat("/dev/null", &null) == 0 && file.st_rdev == null.st_rdev;
+}
+
+/// Refuses to replace inputs and what is not a file.
+void check_target(const std::string& path, const fs::path& target) {
+    struct stat file {};
+    if (path.empty() || target.filename().empty()) refuse_name(path, "it is a folder", "name a file in it");
+    if (stat(target.c_str(), &file) != 0 || is_null_device(file)) return;
+    if (S_ISDIR(file.st_mode)) refuse_name(path, "it is a folder", "name a file in it");
+    if (!S_ISREG(file.st_mode)) refuse_name(path, "it is not a regular file", "choose another name");
+    if (is_input(file))
+        throw Error(Refusal::usage, path + ": would replace a file that the output is made from; choose another name");
+}
+
+/// Gives the new file the owner and the mode of the one that it replaces, as far as the system permits.
+void keep_rights(const TemporaryFile& made, const fs::path& target) {
+    struct stat old {};
+    if (stat(target.c_str(), &old) != 0) return;
+    const bool owned = fchown(made.descriptor(), old.st_uid, old.st_gid) == 0;
+    // Rights of a group are not given to another group.
+    const mode_t rights = owned ? 07777 : 0777;
+    if (fchmod(made.descriptor(), old.st_mode & rights) != 0) return;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+} // namespace
+
+struct OutputFile::Reserved {
+    std::string path; ///< as it was given
+    fs::path target;  ///< after links; empty for the null device
+    TemporaryFile file;
+};
+
+struct OutputSet::Files {
+    std::mutex mutex;
+    std::vector<std::unique_ptr<OutputFile::Reserved>> written;
+};
+
+namespace {
+
+using Reserved = OutputFile::Reserved;
+
+/// Two outputs of one name would replace each other.
+void refuse_repeats(const std::vector<std::unique_ptr<Reserved>>& files) {
+    std::vector<fs::path> names;
+    for (const auto& file : files) {
+        if (file->target.empty()) continue;
+        std::error_code ignored;
+        const fs::path folder = file->target.has_parent_path() ? file->target.parent_path() : ".";
+        fs::path name = fs::canonical(folder, ignored) / file->target.filename();
+        if (std::find(names.begin(), names.end(), name) != names.end())
+            throw Error(Refusal::usage, file->path + ": is the name of two outputs; choose another name for one");
+        names.push_back(std::move(name));
+    }
+}
+
+void rename_all(std::vector<std::unique_ptr<Reserved>> files) {
+    throw_if_interrupted();
+    refuse_repeats(files);
+    for (const auto& file : files)
+        if (!file->target.empty()) check_target(file->path, file->target);
+    // From here on a signal is too late: files that are new are not undone.
+    const SignalShield shield;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        Reserved& file = *files[i];
+        if (file.target.empty()) continue;
+        keep_rights(file.file, file.target);
+        if (file.file.rename_to(file.target)) continue;
+        std::string reason = std::strerror(errno);
+        std::vector<std::string> done, open;
+        for (std::size_t k = 0; k < files.size(); ++k) (k < i ? done : open).push_back(files[k]->path);
+        if (!done.empty()) reason += "; new are " + listed(done) + "; not written are " + listed(open);
+        refuse_name(file.path, reason, "choose another name");
+    }
+}
+
+} // namespace
+
+void refuse_unwritten(const std::string& path, const std::string& reason) {
+    throw Error(Refusal::unwritable, path + ": cannot be written (" + reason + "); is the disk full?");
+}
+
+OutputFile::OutputFile(const std::string& path) {
+    if (const std::string place = number_place(fs::path(path).filename().string()); !place.empty())
+        throw Error(Refusal::usage, path + ": " + place +
+                                        " stands for the number of a tile or of a frame, but one file "
+                                        "is written; write the number itself");
+    fs::path target = followed(path);
+    check_target(path, target);
+    struct stat file {};
+    const bool discarded = stat(target.c_str(), &file) == 0 && is_null_device(file);
+    std::error_code none;
+    const fs::path folder = discarded ? fs::temp_directory_path(none) : target.parent_path();
+    TemporaryFile made(folder.string(), discarded);
+    if (made.descriptor() < 0)
+        refuse_name(path, std::strerror(errno), "choose a folder that exists and that you may write to");
+    if (discarded) target.clear();
+    reserved_.reset(new Reserved{path, std::move(target), std::move(made)});
+}
+
+OutputFile::~OutputFile() = default;
+
+int OutputFile::open_descriptor() const {
+    const int copy = fcntl(reserved_->file.descriptor(), F_DUPFD_CLOEXEC, 0);
+    if (copy < 0) refuse_name(reserved_->path, std::strerror(errno), "write fewer files at a time");
+    return copy;
+}
+
+std::FILE* OutputFile::open_stream() const {
+    const int copy = open_descriptor();
+    std::FILE* const stream = fdopen(copy, "r+b");
+    if (!stream) close(copy);
+    if (!stream) refuse_name(reserved_->path, std::strerror(errno), "write fewer files at a time");
+    return stream;
+}
+
+std::int64_t OutputFile::size() const {
+    struct stat file {};
+    return fstat(reserved_->file.descriptor(), &file) == 0 ? std::int64_t(file.st_size) : 0;
 }
 
 void OutputFile::commit() {
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-        throw Error(Refusal::unwritable,
-                    path_ + ": cannot be written (" + std::strerror(errno) + "); choose another name");
-    committed_ = true;
-    remove_on_second_signal("");
+    if (size() == 0) refuse_unwritten(reserved_->path, "it came out empty");
+    if (OutputSet* const set = current_set) {
+        const std::lock_guard lock(set->files_->mutex);
+        set->files_->written.push_back(std::move(reserved_));
+        return;
+    }
+    std::vector<std::unique_ptr<Reserved>> alone;
+    alone.push_back(std::move(reserved_));
+    rename_all(std::move(alone));
 }
 
-void write_text(const std::string& path, const std::string& text) {
-    OutputFile file(path);
-    std::FILE* out = std::fopen(file.temporary().c_str(), "wb");
-    const bool written = out && std::fwrite(text.data(), 1, text.size(), out) == text.size();
-    const bool closed = out && std::fclose(out) == 0;
-    if (!written || !closed)
-        throw Error(Refusal::unwritable,
-                    path + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
-    file.commit();
+OutputSet::OutputSet() : files_(std::make_unique<Files>()), outer_(current_set.exchange(this)) {}
+
+OutputSet::~OutputSet() { current_set = outer_; }
+
+void OutputSet::commit() {
+    auto files = std::exchange(files_->written, {});
+    if (!outer_) return rename_all(std::move(files));
+    const std::lock_guard lock(outer_->files_->mutex);
+    for (auto& file : files) outer_->files_->written.push_back(std::move(file));
 }
 
 } // namespace bake

@@ -3,17 +3,26 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <unistd.h>
 
 namespace bake {
 namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
-char unfinished_path[4096] = "";
+std::atomic<int> shields = 0;
+
+/// A file that is not finished. Its path stays where it is, as the handler may read it at any time.
+struct UnfinishedFile {
+    std::atomic<bool> taken, ready;
+    char path[4096];
+};
+UnfinishedFile unfinished[256];
 
 void on_signal(int) {
-    if (stop_requested) {
-        if (unfinished_path[0]) unlink(unfinished_path);
+    if (stop_requested && shields == 0) {
+        for (const UnfinishedFile& file : unfinished)
+            if (file.ready) unlink(file.path);
         _exit(int(Refusal::interrupted));
     }
     stop_requested = 1;
@@ -27,6 +36,8 @@ void catch_interrupts() noexcept {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    struct sigaction before {};
+    if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
     // A file over the size limit must come back from write() as an error, not kill us with the output half done.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
@@ -38,12 +49,26 @@ void throw_if_interrupted() {
     if (interrupted()) throw Error(Refusal::interrupted, "interrupted; nothing was written");
 }
 
-void remove_on_second_signal(const std::string& path) noexcept {
-    unfinished_path[0] = '\0'; // first, so that the handler never sees half a name
-    if (path.empty() || path.size() >= sizeof unfinished_path) return;
-    std::memcpy(unfinished_path + 1, path.c_str() + 1, path.size());
-    unfinished_path[0] = path[0];
+int remove_on_second_signal(const std::string& path) noexcept {
+    if (path.size() >= sizeof UnfinishedFile::path) return -1;
+    for (int slot = 0; slot < int(std::size(unfinished)); ++slot) {
+        UnfinishedFile& file = unfinished[slot];
+        if (file.taken.exchange(true)) continue;
+        std::memcpy(file.path, path.c_str(), path.size() + 1);
+        file.ready = true;
+        return slot;
+    }
+    return -1;
 }
+
+void forget_unfinished(int slot) noexcept {
+    if (slot < 0) return;
+    unfinished[slot].ready = false;
+    unfinished[slot].taken = false;
+}
+
+SignalShield::SignalShield() noexcept { ++shields; }
+SignalShield::~SignalShield() { --shields; }
 
 Progress::Progress(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO)) {}
 

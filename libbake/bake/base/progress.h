@@ -32,14 +32,27 @@ private:
     std::atomic<int> percent_{-1};
 };
 
-/// Makes Ctrl-C and SIGTERM set a flag that long work looks at; a second signal ends the process at once, after
-/// removing the unfinished output registered with `remove_on_second_signal`.
+/// Makes Ctrl-C, SIGTERM and SIGHUP (unless it is ignored, as nohup has it) set a flag that long work looks at; a second
+/// signal ends the process at once, after removing the unfinished files.
 void catch_interrupts() noexcept;
 /// True once the user has asked to stop.
 bool interrupted() noexcept;
 /// Throws Error{Refusal::interrupted} once the user has asked to stop.
 void throw_if_interrupted();
-/// Names the one unfinished file (empty: none) a second signal removes. The path must be shorter than 4096 bytes.
-void remove_on_second_signal(const std::string& path) noexcept;
+
+/// Names a file that a second signal removes. Returns a number for forget_unfinished(), -1 if there are too many files. From
+/// any thread.
+int remove_on_second_signal(const std::string& path) noexcept;
+/// Ends what remove_on_second_signal() began; -1 does nothing.
+void forget_unfinished(int slot) noexcept;
+
+/// While it lives, a second signal does not end the process.
+class SignalShield {
+public:
+    SignalShield() noexcept;
+    ~SignalShield();
+    SignalShield(const SignalShield&) = delete;
+    SignalShield& operator=(const SignalShield&) = delete;
+};
 
 } // namespace bake

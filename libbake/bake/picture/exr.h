@@ -1,5 +1,6 @@
 // Reads and writes OpenEXR by its own library, which loads in 3 ms; OpenImageIO takes 0.2 s to load.
 #pragma once
+#include "bake/base/output_file.h"
 #include "bake/picture/picture_file.h"
 #include <memory>
 #include <optional>
@@ -15,9 +16,9 @@ bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info
 /// Writes rows from the top down, and levels from the largest on. The same rows give the same bytes.
 class ExrWriter {
 public:
-    /// Writes to `temporary`, which exists; messages name `path`. The depth is half or float32.
+    /// Writes to `file`, which is empty; messages name `path`. The depth is half or float32.
     /// All functions throw Error{Refusal::unwritable}.
-    ExrWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+    ExrWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
               const WriteOptions& options);
     ~ExrWriter();
     ExrWriter(const ExrWriter&) = delete;

@@ -26,11 +26,7 @@ namespace {
 /// Keeps the first failure, as the library ends files in destructors that pass none on.
 class OutputStream : public Imf::OStream {
 public:
-    explicit OutputStream(const std::string& temporary)
-        // The file is there and empty: one that is opened anew as empty is written to the disk by ext4 before it is closed.
-        : OStream(temporary.c_str()), file_(std::fopen(temporary.c_str(), "r+b")) {
-        if (!file_) keep_reason();
-    }
+    OutputStream(const std::string& path, const OutputFile& file) : OStream(path.c_str()), file_(file.open_stream()) {}
     ~OutputStream() override { close(); }
 
     void write(const char bytes[], int size) override {
@@ -90,7 +86,7 @@ struct ExrWriter::Impl {
     std::vector<Imath::half> halves = {};
 
     [[noreturn]] void fail(const std::string& why) const {
-        throw Error(Refusal::unwritable, path + ": cannot be written (" + why + "); is the disk full?");
+        refuse_unwritten(path, why);
     }
     /// Calls into the library, whose exceptions become ours.
     template <class Call> void attempt(Call&& call) {
@@ -112,10 +108,9 @@ struct ExrWriter::Impl {
     }
 };
 
-ExrWriter::ExrWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+ExrWriter::ExrWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
                      const WriteOptions& options)
-    : impl_(new Impl{path, OutputStream(temporary), options.channels, size.width, options.depth == Depth::half}) {
-    if (!impl_->stream.reason().empty()) impl_->fail(impl_->stream.reason());
+    : impl_(new Impl{path, OutputStream(path, file), options.channels, size.width, options.depth == Depth::half}) {
     impl_->attempt([&] {
         const Imf::Header header = header_for(size, options);
         if (options.mips) impl_->tiles.emplace(impl_->stream, header, exr_helpers());

@@ -189,7 +189,6 @@ struct ImageWriter::Impl {
     std::optional<ExrWriter> exr = {};
     std::optional<TiffWriter> tiff = {};
     std::vector<unsigned char> levels = {}; ///< one band of integer samples
-    bool closed = false;
 
     void write_rows(const void* values, int rows) {
         if (png) png->write(values, rows);
@@ -214,11 +213,10 @@ ImageWriter::ImageWriter(const std::string& path, int width, int height, int cha
     if (resolved.channels.empty()) resolved.channels = default_channels(channels);
     impl_.reset(new Impl{path, OutputFile(path), resolved.depth, width, channels});
     const PictureSize size{width, height, channels};
-    const std::string& temporary = impl_->file.temporary();
     const PictureFormat format = picture_format(path);
-    if (format == PictureFormat::png) impl_->png.emplace(path, temporary, size, resolved);
-    else if (format == PictureFormat::exr) impl_->exr.emplace(path, temporary, size, resolved);
-    else impl_->tiff.emplace(path, temporary, size, resolved);
+    if (format == PictureFormat::png) impl_->png.emplace(path, impl_->file, size, resolved);
+    else if (format == PictureFormat::exr) impl_->exr.emplace(path, impl_->file, size, resolved);
+    else impl_->tiff.emplace(path, impl_->file, size, resolved);
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -243,16 +241,10 @@ void ImageWriter::next_level() {
     else if (impl_->tiff) impl_->tiff->next_level();
 }
 
-void ImageWriter::close() {
-    if (impl_->closed) return;
+void ImageWriter::finish() {
     if (impl_->png) impl_->png->finish();
     else if (impl_->exr) impl_->exr->finish();
     else impl_->tiff->finish();
-    impl_->closed = true;
-}
-
-void ImageWriter::finish() {
-    close();
     impl_->file.commit();
 }
 

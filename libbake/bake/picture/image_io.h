@@ -33,9 +33,7 @@ public:
     void write(const float* values, int rows);
     /// Ends a level and begins the next, half as wide and high, rounded down, at least 1.
     void next_level();
-    /// Completes the file under its temporary name. For several files: close() each, then finish() each.
-    void close();
-    /// Closes the file if necessary and renames it to its final name.
+    /// Completes the file, which then appears as OutputFile::commit() says.
     void finish();
 
 private:

@@ -1,4 +1,5 @@
 #include "bake/picture/picture_file.h"
+#include "bake/base/input_record.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -17,6 +18,7 @@ PictureFile::PictureFile(const std::string& path)
     const bool folder = S_ISDIR(status.st_mode), regular = S_ISREG(status.st_mode);
     size_ = status.st_size;
     if (reason == 0 && regular && size_ > 0) {
+        remember_input(status);
         head_.resize(1200);
         head_.resize(std::size_t(read(0, head_.data(), std::int64_t(head_.size()))));
         return;

@@ -4,6 +4,7 @@
 namespace bake {
 
 PictureFormat picture_format(const std::string& path) {
+    if (path == "/dev/null") return PictureFormat::exr;
     const std::string end = ending(path);
     return end == ".png"                     ? PictureFormat::png
            : end == ".exr"                   ? PictureFormat::exr

@@ -102,7 +102,7 @@ struct PngWriter::Block {
     unsigned long checksum = 1;
 };
 
-PngWriter::PngWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+PngWriter::PngWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
                      const WriteOptions& options)
     : path_(path), file_(nullptr), sample_bytes_(options.depth == Depth::u16 ? 2 : 1),
       texel_bytes_(sample_bytes_ * size.channels), row_bytes_(std::size_t(size.width) * std::size_t(texel_bytes_)),
@@ -110,9 +110,7 @@ PngWriter::PngWriter(const std::string& path, const std::string& temporary, cons
       most_rows_(std::min(group_blocks * block_rows_, std::size_t(std::max(1, size.height)))) {
     if (options.mips) throw Error(Refusal::usage, path + ": PNG has no mips; write .exr or .tif");
     if (size.channels > 4) throw Error(Refusal::usage, path + ": PNG has at most 4 channels; write .exr or .tif");
-    // The file is there and empty: one that is opened anew as empty is written to the disk by ext4 before it is closed.
-    file_ = std::fopen(temporary.c_str(), "r+b");
-    if (!file_) fail();
+    file_ = file.open_stream();
     rows_.assign((most_rows_ + 1) * (std::size_t(texel_bytes_) + row_bytes_), 0);
     filtered_.resize(window + most_rows_ * (row_bytes_ + 1));
 
@@ -137,7 +135,7 @@ PngWriter::~PngWriter() {
 }
 
 void PngWriter::fail() const {
-    throw Error(Refusal::unwritable, path_ + ": cannot be written (" + std::strerror(errno) + "); is the disk full?");
+    refuse_unwritten(path_, std::strerror(errno));
 }
 
 void PngWriter::put(const void* bytes, std::size_t size) {

@@ -1,5 +1,6 @@
 // Writes PNG in blocks of rows that are filtered and compressed in parallel.
 #pragma once
+#include "bake/base/output_file.h"
 #include "bake/picture/image_types.h"
 #include <cstdio>
 #include <string>
@@ -10,9 +11,9 @@ namespace bake {
 /// Writes rows from the top down. The bytes do not depend on the numbers of threads and of calls.
 class PngWriter {
 public:
-    /// Writes to `temporary`, which exists; messages name `path`. The depth is u8 or u16. All
+    /// Writes to `file`, which is empty; messages name `path`. The depth is u8 or u16. All
     /// functions throw Error{Refusal::unwritable}; this one Error{Refusal::usage} for mips or more than 4 channels.
-    PngWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+    PngWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
               const WriteOptions& options);
     ~PngWriter();
     PngWriter(const PngWriter&) = delete;

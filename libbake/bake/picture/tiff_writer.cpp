@@ -58,15 +58,13 @@ bool describe_remarks(TIFF* tiff, int channels, const WriteOptions& options) {
 
 } // namespace
 
-TiffWriter::TiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+TiffWriter::TiffWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
                        const WriteOptions& options)
     : path_(path), options_(options), width_(size.width), height_(size.height), channels_(size.channels),
       texel_bytes_(std::size_t(size.channels) * std::size_t(sample_bytes(options.depth))),
-      // Not truncated: the file is empty, and ext4 writes a truncated one to the disk before it closes it.
-      file_(open(temporary.c_str(), O_RDWR | O_CLOEXEC)) {
-    if (file_ < 0) fail(std::strerror(errno));
+      file_(file.open_descriptor()) {
     const TiffOptions handlers(messages_);
-    tiff_ = TIFFFdOpenExt(file_, temporary.c_str(), mode_for(size, options), handlers.get());
+    tiff_ = TIFFFdOpenExt(file_, path.c_str(), mode_for(size, options), handlers.get());
     if (!tiff_) {
         close_files();
         fail(messages_.error);
@@ -89,7 +87,7 @@ bool TiffWriter::close_files() noexcept {
 }
 
 void TiffWriter::fail(const std::string& why) const {
-    throw Error(Refusal::unwritable, path_ + ": cannot be written (" + why + "); is the disk full?");
+    refuse_unwritten(path_, why);
 }
 
 void TiffWriter::describe_level() {

@@ -1,5 +1,6 @@
 // Writes TIFF by libtiff: strips, or tiles and mip levels. Uncompressed samples are written directly.
 #pragma once
+#include "bake/base/output_file.h"
 #include "bake/picture/image_types.h"
 #include "bake/picture/tiff_file.h"
 #include <string>
@@ -11,8 +12,8 @@ namespace bake {
 /// bytes.
 class TiffWriter {
 public:
-    /// Writes to `temporary`, which exists; messages name `path`. Throws Error{Refusal::unwritable}, as all functions here.
-    TiffWriter(const std::string& path, const std::string& temporary, const PictureSize& size,
+    /// Writes to `file`, which is empty; messages name `path`. Throws Error{Refusal::unwritable}, as all functions here.
+    TiffWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
                const WriteOptions& options);
     ~TiffWriter();
     TiffWriter(const TiffWriter&) = delete;

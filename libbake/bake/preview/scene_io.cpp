@@ -1,10 +1,10 @@
 #include "bake/preview/scene_io.h"
 #include "bake/base/error.h"
+#include "bake/base/file_bytes.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/preview/scene_section.h"
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace bake {
 namespace {
@@ -191,16 +191,12 @@ void read_each(const toml::table& root, std::string_view key, ReadSection work, 
 }
 
 std::string read_text(const std::string& path) {
-    if (!std::filesystem::is_regular_file(path))
-        throw Error(Refusal::unreadable, path + ": no such file; check the name");
-    std::ifstream in(path, std::ios::binary);
-    std::string text(1 << 24, '\0'); // larger than any scene
-    in.read(text.data(), std::streamsize(text.size()));
-    if (in.bad() || !in.is_open()) throw Error(Refusal::unreadable, path + ": cannot be read; check its permissions");
-    if (std::size_t(in.gcount()) == text.size())
+    constexpr std::uintmax_t larger_than_any = 16 << 20;
+    std::error_code absent;
+    if (const std::uintmax_t size = std::filesystem::file_size(path, absent); !absent && size > larger_than_any)
         throw Error(Refusal::unreadable, path + ": is larger than 16 MiB; give a scene file");
-    text.resize(std::size_t(in.gcount()));
-    return text;
+    const FileBytes file = read_file(path);
+    return std::string(file.data.get(), file.size);
 }
 
 } // namespace

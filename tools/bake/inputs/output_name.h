@@ -9,7 +9,5 @@ namespace bake {
 
 /// Adds -o, --out, which is required and refuses an empty name.
 CLI::Option* add_output_option(CLI::App& sub, std::string& out, const std::string& help);
-/// Throws Error{Refusal::usage} if the output would replace the input that it is made from.
-void check_not_input(const std::string& out, const std::string& input);
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "bake/environment/file/write_environment.h"
 #include "bake/base/error.h"
+#include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/environment/file/face_files.h"
@@ -87,9 +88,9 @@ public:
         for (const auto& writer : writers_) writer->next_level();
     }
     void finish() {
-        for (const auto& writer : writers_) writer->close();
-        throw_if_interrupted();
+        OutputSet together;
         for (const auto& writer : writers_) writer->finish();
+        together.commit();
     }
 
 private:

@@ -43,6 +43,7 @@ Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& 
 } // namespace
 
 MeshFormat mesh_format(const std::string& path) {
+    if (path == "/dev/null") return MeshFormat::ply;
     const std::string end = ending(path);
     return end == ".obj"                     ? MeshFormat::obj
            : end == ".ply"                   ? MeshFormat::ply
@@ -60,16 +61,12 @@ Mesh read_mesh(const std::string& path, const MeshOptions& options) {
     return mesh;
 }
 
-void write_mesh(const std::string& path, const Mesh& mesh) {
+std::int64_t write_mesh(const std::string& path, const Mesh& mesh) {
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown) throw unknown_format(Refusal::usage, path);
-    if (format == MeshFormat::gltf) {
-        write_gltf(path, mesh);
-        return;
-    }
+    if (format == MeshFormat::gltf) return write_gltf(path, mesh).bytes;
     refuse_unless_finite(mesh, path);
-    if (format == MeshFormat::obj) write_obj(path, mesh);
-    else write_ply(path, mesh);
+    return format == MeshFormat::obj ? write_obj(path, mesh) : write_ply(path, mesh);
 }
 
 } // namespace bake

@@ -33,15 +33,15 @@ Mesh read_mesh(const std::string& path, const MeshOptions& options = {});
 /// Formats of mesh files. gltf: .gltf and .glb; read_gltf() also returns their materials and nodes.
 enum class MeshFormat { obj, ply, gltf, unknown };
 
-/// The format for the ending of a file's name, in upper or lower case.
+/// The format for the ending of a file's name, in upper or lower case. What goes to the null device is written as PLY.
 MeshFormat mesh_format(const std::string& path);
 
-/// Writes a mesh atomically. .obj: all but tangents and attributes; the numbers read back as the same floats.
+/// Writes a mesh atomically, and returns the bytes of its files. .obj: all but tangents and attributes; the numbers read back as the same floats.
 /// .ply: binary little endian, one vertex per distinct corner, with zeros for a corner without uv or normal; tangents
 /// as tx ty tz tw, attributes as float properties (name_0, name_1, ... if there are several components); groups,
 /// materials and tags are lost. .gltf and .glb: see write_gltf().
 /// Throws Error{Refusal::unwritable}, also if a value of the mesh is not finite, and Error{Refusal::usage} for
 /// another ending.
-void write_mesh(const std::string& path, const Mesh& mesh);
+std::int64_t write_mesh(const std::string& path, const Mesh& mesh);
 
 } // namespace bake

@@ -72,7 +72,7 @@ void append_change(std::string& out, const char* keyword, const std::vector<std:
 
 } // namespace
 
-void write_obj(const std::string& path, const Mesh& mesh) {
+std::int64_t write_obj(const std::string& path, const Mesh& mesh) {
     std::vector<std::string> groups = mesh.groups, materials = mesh.materials;
     for (std::string& name : groups) name = name_on_a_line(name);
     for (std::string& name : materials) name = name_on_a_line(name);
@@ -114,6 +114,7 @@ void write_obj(const std::string& path, const Mesh& mesh) {
         append_floats(block, "", &tags.corners[i].sharpness, 1);
     });
     out.commit();
+    return out.bytes();
 }
 
 } // namespace bake

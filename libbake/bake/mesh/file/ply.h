@@ -8,6 +8,6 @@ namespace bake {
 Mesh read_ply(const std::string& path);
 
 /// See write_mesh().
-void write_ply(const std::string& path, const Mesh& mesh);
+std::int64_t write_ply(const std::string& path, const Mesh& mesh);
 
 } // namespace bake

@@ -57,7 +57,7 @@ void put_doubles(char*& to, const Vec3d& p) noexcept {
 
 } // namespace
 
-void write_ply(const std::string& path, const Mesh& mesh) {
+std::int64_t write_ply(const std::string& path, const Mesh& mesh) {
     const bool normals = !mesh.corner_normal.empty(), uvs = !mesh.corner_uv.empty(), tangents = !mesh.tangents.empty();
     const DistinctCorners vertices = distinct_corners(mesh); // a vertex of PLY has one value of each kind
     const bool wide = largest_face(mesh) > 255;
@@ -98,6 +98,7 @@ void write_ply(const std::string& path, const Mesh& mesh) {
             }
         });
     out.commit();
+    return out.bytes();
 }
 
 } // namespace bake

@@ -281,7 +281,7 @@ std::string little_endian(std::initializer_list<std::uint32_t> words) {
     return out;
 }
 
-void write_glb(const std::string& path, Layout& layout) {
+std::int64_t write_glb(const std::string& path, Layout& layout) {
     std::string text = layout.root.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t length = 12 + 8 + text.size() + 8 + layout.bytes;
@@ -291,22 +291,29 @@ void write_glb(const std::string& path, Layout& layout) {
     out.write(text + little_endian({std::uint32_t(layout.bytes), 0x004e4942}));
     write_pieces(out, layout);
     out.commit();
+    return out.bytes();
 }
 
-void write_beside(const std::string& path, Layout& layout, const Images& images) {
+std::int64_t write_beside(const std::string& path, Layout& layout, const Images& images) {
     const fs::path folder = fs::path(path).parent_path();
     const std::string name = fs::path(path).stem().string() + ".bin";
     layout.root["buffers"][0]["uri"] = percent_encoded(name);
-    std::vector<std::unique_ptr<BlockWriter>> files; // all whole before the first appears
-    files.push_back(std::make_unique<BlockWriter>((folder / name).string()));
-    write_pieces(*files.back(), layout);
-    for (const auto& [image_name, image] : images.beside) {
-        files.push_back(std::make_unique<BlockWriter>((folder / image_name).string()));
-        files.back()->write({reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size()});
-    }
-    files.push_back(std::make_unique<BlockWriter>(path));
-    files.back()->write(layout.root.dump(1, ' ') + '\n');
-    for (const auto& file : files) file->commit();
+    OutputSet together;
+    std::int64_t bytes = 0;
+    const auto write = [&](const std::string& file, const std::function<void(BlockWriter&)>& fill) {
+        BlockWriter out(file);
+        fill(out);
+        out.commit();
+        bytes += out.bytes();
+    };
+    write((folder / name).string(), [&](BlockWriter& out) { write_pieces(out, layout); });
+    for (const auto& [image_name, image] : images.beside)
+        write((folder / image_name).string(), [&](BlockWriter& out) {
+            out.write({reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size()});
+        });
+    write(path, [&](BlockWriter& out) { out.write(layout.root.dump(1, ' ') + '\n'); });
+    together.commit();
+    return bytes;
 }
 
 bool is_identity(const GltfNode& node) { return std::equal(node.to_world, node.to_world + 16, GltfNode().to_world); }
@@ -355,8 +362,7 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
         materials.push_back({.name = mesh.materials[i]});
     add_materials(layout, materials, images, uv_sets);
     layout.root["buffers"][0]["byteLength"] = layout.bytes;
-    if (binary) write_glb(path, layout);
-    else write_beside(path, layout, images);
+    done.bytes = binary ? write_glb(path, layout) : write_beside(path, layout, images);
     return done;
 }
 

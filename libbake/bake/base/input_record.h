@@ -1,0 +1,30 @@
+// The files that a job reads, so that none of them is replaced by an output of the same job.
+#pragma once
+#include <memory>
+
+struct stat;
+
+namespace bake {
+
+/// While it lives, every file that the library opens for reading is remembered, and an OutputFile refuses to replace one of
+/// them. The command has one for each run; a program that replaces its own inputs on purpose has none. At most one lives
+/// at a time.
+class InputRecord {
+public:
+    InputRecord();
+    ~InputRecord();
+    InputRecord(const InputRecord&) = delete;
+    InputRecord& operator=(const InputRecord&) = delete;
+
+    struct Files;
+
+private:
+    std::unique_ptr<Files> files_;
+};
+
+/// Remembers a file that was opened for reading. From any thread; does nothing without an InputRecord.
+void remember_input(const struct stat& file);
+/// Whether a file, by device and inode, is one of those that were read.
+bool is_input(const struct stat& file);
+
+} // namespace bake
