@@ -29,7 +29,7 @@ Folder::~Folder() {
 std::set<std::string> Folder::names() const {
     std::set<std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(path))
-        all.insert(fs::relative(entry.path(), path).string());
+        all.insert(entry.path().lexically_relative(path).string());
     return all;
 }
 

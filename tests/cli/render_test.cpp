@@ -1,6 +1,6 @@
-#include "cli/command.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/picture/image_io.h"
+#include "cli/command.h"
 #include "preview/little_scenes.h"
 #include <cstdlib>
 #include <doctest/doctest.h>
@@ -53,7 +53,7 @@ Run bake_render(const Folder& folder, const std::string& arguments) { return run
 void write_scene(const Folder& folder) {
     write_mesh(folder / "ball.obj", test::sphere_mesh(32, 16));
     write_mesh(folder / "floor.ply", test::plane_mesh());
-    write_file(folder / "scene.toml", R"(
+    test::write_file(folder / "scene.toml", R"(
 [render]
 size = [48, 32]
 spp = 3
@@ -154,7 +154,7 @@ TEST_SUITE("cli") {
     TEST_CASE("render: what is too bright for half floats is their largest number, not infinite") {
         const Folder folder;
         write_mesh(folder / "floor.ply", test::plane_mesh());
-        write_file(folder / "bright.toml", R"(mesh = [{file = "floor.ply"}]
+        test::write_file(folder / "bright.toml", R"(mesh = [{file = "floor.ply"}]
                                           light = [{type = "ambient", intensity = 1e9}])");
         REQUIRE(bake_render(folder, "bright.toml -o a.exr --size 8").code == 0);
         const Image<float> image = read_image(folder / "a.exr");
@@ -164,10 +164,10 @@ TEST_SUITE("cli") {
     TEST_CASE("render: refusals have their code, one line, and leave the old picture as it was") {
         const Folder folder;
         write_scene(folder);
-        write_file(folder / "a.png", "old");
-        write_file(folder / "bad_key.toml", "[render]\nsize = 8\nsamples = 3\n");
-        write_file(folder / "no_mesh.toml", "[[mesh]]\nfile = \"gone.obj\"\n");
-        write_file(folder / "empty.toml", "");
+        test::write_file(folder / "a.png", "old");
+        test::write_file(folder / "bad_key.toml", "[render]\nsize = 8\nsamples = 3\n");
+        test::write_file(folder / "no_mesh.toml", "[[mesh]]\nfile = \"gone.obj\"\n");
+        test::write_file(folder / "empty.toml", "");
         check_refused(folder, "gone.toml -o a.png", 3, "gone.toml");
         check_refused(folder, "bad_key.toml -o a.png", 3, "bad_key.toml:3: ");
         check_refused(folder, "no_mesh.toml -o a.png", 3, "gone.obj");
@@ -189,7 +189,7 @@ TEST_SUITE("cli") {
         const Folder folder;
         write_mesh(folder / "floor.ply", test::plane_mesh());
         const auto picture = [&](const std::string& table) {
-            write_file(folder / (table + ".toml"), R"(light = [{type = "directional", from = [1, 2, 3]}]
+            test::write_file(folder / (table + ".toml"), R"(light = [{type = "directional", from = [1, 2, 3]}]
                 material = [{name = "relief", diffuse = 1, bump = ")" +
                                                        table +
                                                        R"("}]
@@ -223,7 +223,7 @@ TEST_SUITE("cli") {
         }
         // Integer samples that state no range are refused.
         fs::copy_file(dots, folder / "dots.png");
-        write_file(folder / "bad.toml", R"(material = [{name = "relief", bump = "dots.png"}]
+        test::write_file(folder / "bad.toml", R"(material = [{name = "relief", bump = "dots.png"}]
             mesh = [{file = "floor.ply", material = "relief"}])");
         check_refused(folder, "bad.toml -o a.png", 4, "dots.png");
     }
