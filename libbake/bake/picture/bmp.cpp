@@ -44,16 +44,17 @@ ColourTag read_colour(const PictureFile& file) {
     return read_icc(profile);
 }
 
-} // namespace
-
-bool is_masked_bmp(const PictureFile& file) noexcept {
+bool is_masked(const PictureFile& file) noexcept {
     const std::string& head = file.head();
-    if (!head.starts_with("BM") || little_endian(head, 14, 4) < 40) return false;
+    if (little_endian(head, 14, 4) < 40) return false;
     const std::uint32_t bits = little_endian(head, 28, 2), method = little_endian(head, 30, 4);
     return (bits == 16 || bits == 32) && (method == plain || method == bit_fields || method == alpha_bit_fields);
 }
 
-void read_masked_bmp(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
+} // namespace
+
+bool read_masked_bmp(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
+    if (!is_masked(file)) return false;
     const MaskedTexels texels = texels_of(file);
     info.format = "bmp";
     info.channels = {"R", "G", "B", "A"};
@@ -63,7 +64,10 @@ void read_masked_bmp(const PictureFile& file, const ReadLimits& limits, ImageInf
     describe_masked(file, texels, limits, info);
     info.colour = read_colour(file);
     info.srgb_tagged = info.colour.is_srgb();
-    if (image) *image = read_masked(file, texels);
+    if (!image) return true;
+    *image = Image<float>(info.width, info.height, int(texels.masks.size()));
+    read_masked(file, texels, image->data());
+    return true;
 }
 
 } // namespace bake

@@ -4,10 +4,8 @@
 
 namespace bake {
 
-/// Whether the file is an uncompressed BMP of 16 or 32 bits per texel.
-bool is_masked_bmp(const PictureFile& file) noexcept;
-
-/// Fills `info` from the header, and `image`, when given, as read_image does. Throws as read_image.
-void read_masked_bmp(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
+/// Fills `info` from the header, and `image`, when given, as read_image does. False for a BMP of other texels, or a compressed
+/// one, which is not read here. Throws as read_image.
+bool read_masked_bmp(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
 
 } // namespace bake

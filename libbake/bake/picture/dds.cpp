@@ -1,57 +1,87 @@
-// Microsoft, "Programming Guide for DDS".
 #include "bake/picture/dds.h"
+#include "bake/base/progress.h"
+#include "bake/picture/dds_header.h"
 #include "bake/picture/masked_texels.h"
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <half.h>
 
 namespace bake {
 namespace {
 
-constexpr std::uint32_t alpha_pixels = 0x1, four_characters = 0x4, rgb = 0x40, luminance = 0x20000;
-constexpr std::uint32_t cube_or_volume = 0x200200; // in the second word of capabilities
+MaskedTexels masked_texels(const DdsHeader& header) {
+    return {.width = header.width,
+            .height = header.height,
+            .offset = header.offset,
+            .row_bytes = header.width * header.texel_bytes,
+            .texel_bytes = header.texel_bytes,
+            .masks = header.masks};
+}
 
-std::uint32_t flags_of(const PictureFile& file) noexcept { return little_endian(file.head(), 80, 4); }
+int bits_of(SampleType type) noexcept { return type == SampleType::float32 ? 32 : 16; }
 
-/// Masks of red, green and blue, or of grey, and of alpha; those that are 0 name no channel.
-MaskedTexels texels_of(const PictureFile& file, ImageInfo& info) {
-    const std::string& head = file.head();
-    MaskedTexels texels{.width = little_endian(head, 16, 4), .height = little_endian(head, 12, 4), .offset = 128};
-    texels.texel_bytes = little_endian(head, 88, 4) / 8;
-    texels.row_bytes = texels.width * texels.texel_bytes;
-    const bool grey = flags_of(file) & luminance;
-    constexpr const char* names[] = {"R", "G", "B"};
-    for (std::size_t c = 0; c < (grey ? 1 : 3); ++c)
-        if (const std::uint32_t mask = little_endian(head, 92 + 4 * c, 4); mask != 0) {
-            texels.masks.push_back(mask);
-            info.channels.emplace_back(grey ? "Y" : names[c]);
-        }
-    info.colours = int(texels.masks.size());
-    if (const std::uint32_t alpha = little_endian(head, 104, 4); (flags_of(file) & alpha_pixels) && alpha != 0) {
-        info.alpha_channel = int(texels.masks.size());
-        texels.masks.push_back(alpha);
-        info.channels.emplace_back("A");
+void describe(const PictureFile& file, const DdsHeader& header, const ReadLimits& limits, ImageInfo& info) {
+    info.format = "dds";
+    info.channels = header.channels;
+    info.alpha_channel = header.alpha_channel;
+    const auto before_alpha = int(header.channels.size()) - (header.alpha_channel >= 0 ? 1 : 0);
+    info.colours = before_alpha == 1 || before_alpha == 3 ? before_alpha : 0;
+    const Window window{0, 0, int(header.width), int(header.height * header.faces)};
+    check_size(file.path(), file.size(), {window, window, int(header.channels.size())}, limits);
+    info.type = header.type, info.bits = bits_of(header.type);
+    if (!header.masks.empty()) describe_masked(file, masked_texels(header), limits, info);
+    info.width = window.width, info.height = window.height;
+    if (header.faces == 6) info.environment = EnvironmentTag::cube;
+    if (header.srgb) info.srgb_tagged = true, info.colour = {.source = "DXGI format", .curves = {srgb_curve()}};
+    if (header.arrays > 1)
+        info.notes.push_back("has an array of " + std::to_string(header.arrays) +
+                             " pictures: the first is read, the others are left out");
+}
+
+float sample_at(const char* at, SampleType type) noexcept {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < bits_of(type) / 8; ++i) bits |= std::uint32_t(static_cast<unsigned char>(at[i])) << 8 * i;
+    switch (type) {
+    case SampleType::half: {
+        Imath::half half;
+        half.setBits(std::uint16_t(bits));
+        return half;
     }
-    return texels;
+    case SampleType::u16: return float(bits) * (1 / 65535.0f);
+    case SampleType::i16: return std::max(-1.0f, float(std::int16_t(bits)) * (1 / 32767.0f)); // -32768 is -1 too
+    default: return std::bit_cast<float>(bits);
+    }
+}
+
+/// The largest level of the face that begins at `offset`.
+void read_samples(const PictureFile& file, const DdsHeader& header, std::int64_t offset, float* to) {
+    std::string row(std::size_t(header.width * header.texel_bytes), '\0');
+    const auto row_size = std::int64_t(row.size()), sample_bytes = std::int64_t(bits_of(header.type) / 8);
+    for (std::int64_t y = 0; y < header.height; ++y) {
+        if (y % 256 == 0) throw_if_interrupted();
+        if (file.read(offset + y * row_size, row.data(), row_size) != row_size)
+            throw unreadable(file.path(), "is cut short");
+        for (std::int64_t at = 0; at < row_size; at += sample_bytes) *to++ = sample_at(row.data() + at, header.type);
+    }
 }
 
 } // namespace
 
-bool is_wide_dds(const PictureFile& file) noexcept {
-    const std::string& head = file.head();
-    const std::uint32_t flags = flags_of(file), bits = little_endian(head, 88, 4);
-    if (!head.starts_with("DDS ") || head.size() < 128 || (flags & four_characters) || !(flags & (rgb | luminance)) ||
-        (little_endian(head, 112, 4) & cube_or_volume) || (bits != 16 && bits != 32))
-        return false;
-    for (std::size_t at = 92; at <= 100; at += 4)
-        if (std::popcount(little_endian(head, at, 4)) > 8) return true;
-    return false;
-}
-
-void read_wide_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
-    info.format = "dds";
-    const MaskedTexels texels = texels_of(file, info);
-    describe_masked(file, texels, limits, info);
-    if (image) *image = read_masked(file, texels);
+bool read_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
+    const DdsHeader header = read_dds_header(file);
+    if (header.block_bytes > 0) return false;
+    describe(file, header, limits, info);
+    if (!image) return true;
+    *image = Image<float>(info.width, info.height, int(header.channels.size()));
+    for (std::int64_t face = 0; face < header.faces; ++face) {
+        float* const to = image->row(int(face * header.height));
+        MaskedTexels texels = masked_texels(header);
+        texels.offset += face * header.face_bytes;
+        if (header.masks.empty()) read_samples(file, header, texels.offset, to);
+        else read_masked(file, texels, to);
+    }
+    return true;
 }
 
 } // namespace bake

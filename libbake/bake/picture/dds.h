@@ -1,13 +1,12 @@
-// DDS of uncompressed channels of more than 8 bits. OpenImageIO, which reads all other DDS, would keep 8 of them.
+// DDS that are not compressed. Compressed ones are read by OpenImageIO.
 #pragma once
 #include "bake/picture/picture_file.h"
 
 namespace bake {
 
-/// Whether the file is an uncompressed DDS of one flat picture with a channel of more than 8 bits.
-bool is_wide_dds(const PictureFile& file) noexcept;
-
-/// Fills `info` from the header, and `image`, when given, as read_image does. Throws as read_image.
-void read_wide_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
+/// Checks the file as read_dds_header(), then fills `info` from the header, and `image`, when given, as read_image does: the
+/// faces of a cube map lie below each other, smaller levels are left out. False for a compressed picture, which is not
+/// read here. Throws as read_image.
+bool read_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
 
 } // namespace bake

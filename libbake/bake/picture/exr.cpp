@@ -117,12 +117,6 @@ ImageInfo describe(const Imf::Header& header, const LayerChoice& choice, const W
     return info;
 }
 
-} // namespace
-
-bool is_exr(const PictureFile& file) noexcept { return file.head().starts_with("\x76\x2f\x31\x01"); }
-
-namespace {
-
 /// One picture of an open file, which is the file itself or a part of it. As read_exr.
 template <class Input>
 bool read_part(Input& in, const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {

@@ -7,8 +7,6 @@
 
 namespace bake {
 
-bool is_exr(const PictureFile& file) noexcept;
-
 /// Fills `info` from the header, and `image`, when given, as read_image does. Returns false for a file that needs
 /// OpenImageIO: deep pictures, luminance and chroma, integers. Throws as read_image.
 bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);

@@ -6,76 +6,20 @@
 #include "bake/picture/bmp.h"
 #include "bake/picture/dds.h"
 #include "bake/picture/exr.h"
-#include "bake/picture/icc.h"
-#include "bake/picture/picture_formats.h"
+#include "bake/picture/foreign_picture.h"
+#include "bake/picture/picture_kind.h"
 #include "bake/picture/picture_name.h"
 #include "bake/picture/png.h"
 #include "bake/picture/png_writer.h"
 #include "bake/picture/rgbe.h"
 #include "bake/picture/tiff.h"
 #include "bake/picture/tiff_writer.h"
-#include "bake/picture/upright.h"
 #include <algorithm>
 #include <cmath>
-#include <dlfcn.h>
-#include <filesystem>
 #include <limits>
-#include <link.h>
 #include <optional>
 
 namespace bake {
-
-namespace {
-
-/// The folder of the program or shared library that holds this function; empty when it is unknown.
-std::filesystem::path own_folder() {
-    Dl_info found;
-    link_map* object = nullptr;
-    if (!dladdr1(reinterpret_cast<void*>(&own_folder), &found, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP))
-        return {};
-    // The program itself has no name in the list of loaded objects.
-    std::error_code failed;
-    const std::filesystem::path file = *object->l_name ? object->l_name : "/proc/self/exe";
-    return std::filesystem::canonical(file, failed).parent_path();
-}
-
-/// OpenImageIO's library, loaded when it is first needed.
-const PictureFormats& picture_formats() {
-    static const PictureFormats& formats = [&]() -> const PictureFormats& {
-        std::string refused;
-        for (const char* folder : {"", BAKE_FORMATS_FROM_PROGRAM, BAKE_FORMATS_FOLDER}) {
-            // By its whole path: the linker's own search depends on who calls dlopen, which under the address sanitizer
-            // is the sanitizer. An absolute folder replaces the one that it is appended to.
-            const std::string path = (own_folder() / folder / "bake_formats.so").lexically_normal().string();
-            if (void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
-                if (void* const entry = dlsym(library, "bake_picture_formats"))
-                    return *reinterpret_cast<const PictureFormats* (*)()>(entry)();
-            // A library that is there and cannot be loaded is the better reason.
-            if (const char* const reason = dlerror(); refused.empty() || std::filesystem::exists(path))
-                refused = reason;
-        }
-        throw Error(Refusal::unreadable,
-                    refused + "; put bake_formats.so beside the program or into " BAKE_FORMATS_FOLDER);
-    }();
-    return formats;
-}
-
-FormatHost format_host() { return {.threads = thread_count(), .interrupted = interrupted}; }
-
-/// All decoders that are not ours to choose are behind this call.
-void read_by_openimageio(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
-    FormatPicture picture;
-    const PictureFormats& formats = picture_formats();
-    if (const FormatResult failure = formats.read(format_host(), file, limits, image != nullptr, picture))
-        throw Error(failure->refusal, failure->message);
-    info = std::move(picture.info);
-    if (!picture.icc.empty()) info.colour = read_icc(picture.icc);
-    if (!info.colour.curves.empty()) info.srgb_tagged = info.colour.is_srgb();
-    turn_upright(info, picture.orientation);
-    if (image) *image = upright(std::move(picture.image), picture.orientation);
-}
-
-} // namespace
 
 const char* name(SampleType type) noexcept {
     switch (type) {
@@ -108,12 +52,18 @@ namespace {
 ImageInfo read_picture(const std::string& path, const ReadLimits& limits, Image<float>* image) {
     ImageInfo info;
     const PictureFile file(path);
-    if (is_png(file)) read_png(file, limits, info, image);
-    else if (is_tiff(file)) read_tiff(file, limits, info, image);
-    else if (is_rgbe(file)) read_rgbe(file, limits, info, image);
-    else if (is_masked_bmp(file)) read_masked_bmp(file, limits, info, image);
-    else if (is_wide_dds(file)) read_wide_dds(file, limits, info, image);
-    else if (!is_exr(file) || !read_exr(file, limits, info, image)) read_by_openimageio(file, limits, info, image);
+    const PictureKind kind = picture_kind(file);
+    bool read = true;
+    switch (kind) {
+    case PictureKind::png: read_png(file, limits, info, image); break;
+    case PictureKind::tiff: read_tiff(file, limits, info, image); break;
+    case PictureKind::hdr: read_rgbe(file, limits, info, image); break;
+    case PictureKind::exr: read = read_exr(file, limits, info, image); break;
+    case PictureKind::dds: read = read_dds(file, limits, info, image); break;
+    case PictureKind::bmp: read = read_masked_bmp(file, limits, info, image); break;
+    default: read = false;
+    }
+    if (!read) read_foreign(file, kind, limits, info, image);
     return info;
 }
 

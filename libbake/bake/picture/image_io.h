@@ -1,5 +1,5 @@
-// Reads and writes pictures: PNG by libpng, OpenEXR by its own library, TIFF by libtiff, Radiance pictures and BMP with
-// masks by readers of our own, others by OpenImageIO.
+// Reads and writes pictures: PNG by libpng, OpenEXR by its own library, TIFF by libtiff, Radiance pictures, DDS that are not
+// compressed and BMP with masks by readers of our own, others by OpenImageIO in a process of its own.
 #pragma once
 #include "bake/picture/image.h"
 #include "bake/picture/image_types.h"
@@ -14,7 +14,7 @@ ImageInfo read_image_info(const std::string& path, const ReadLimits& limits = {}
 /// not decoded from sRGB and not divided by alpha. A data window is placed in its display window (0 outside). A picture
 /// that is stored turned or mirrored is turned upright. Of several pictures in a file, the first of full size is read; of
 /// several layers, the main one. info->notes tells what was left out. Throws Error{Refusal::unreadable} for a file that is
-/// missing, damaged, cut short or of an unknown format, and Error{Refusal::unsuitable} for a file that exceeds `limits`.
+/// missing, damaged, cut short or of a format that is not read, and Error{Refusal::unsuitable} for a file that exceeds `limits`.
 Image<float> read_image(const std::string& path, ImageInfo* info = nullptr, const ReadLimits& limits = {});
 
 /// Resolves `depth` for a file of this name. Throws Error{Refusal::usage} for a depth that its format cannot

@@ -31,24 +31,47 @@ void describe_masked(const PictureFile& file, const MaskedTexels& texels, const 
         throw unreadable(file.path(), "is cut short");
 }
 
-Image<float> read_masked(const PictureFile& file, const MaskedTexels& texels) {
-    Image<float> image(int(texels.width), int(texels.height), int(texels.masks.size()));
+namespace {
+
+/// A channel of a texel as a float. Channels of few bits are looked up.
+class Channel {
+public:
+    explicit Channel(std::uint32_t mask) : mask_(mask), shift_(std::countr_zero(mask)) {
+        const std::uint32_t largest = mask >> shift_;
+        if (largest > 0xffff) return;
+        values_.resize(std::size_t(largest) + 1);
+        for (std::uint32_t v = 0; v <= largest; ++v) values_[v] = float(double(v) / largest);
+    }
+    float operator()(std::uint32_t texel) const noexcept {
+        const std::uint32_t value = (texel & mask_) >> shift_;
+        return values_.empty() ? float(double(value) / double(mask_ >> shift_)) : values_[value];
+    }
+
+private:
+    std::uint32_t mask_;
+    int shift_;
+    std::vector<float> values_;
+};
+
+} // namespace
+
+void read_masked(const PictureFile& file, const MaskedTexels& texels, float* to) {
+    std::vector<Channel> channels;
+    for (const std::uint32_t mask : texels.masks) channels.emplace_back(mask);
     std::string row(std::size_t(texels.width * texels.texel_bytes), '\0');
-    const auto row_size = std::int64_t(row.size());
+    const auto row_size = std::int64_t(row.size()), row_floats = texels.width * std::int64_t(channels.size());
     for (std::int64_t y = 0; y < texels.height; ++y) {
         if (y % 256 == 0) throw_if_interrupted();
         if (file.read(texels.offset + y * texels.row_bytes, row.data(), row_size) != row_size)
             throw unreadable(file.path(), "is cut short");
-        float* to = image.row(int(texels.bottom_up ? texels.height - 1 - y : y));
-        for (std::int64_t at = 0; at < row_size; at += texels.texel_bytes) {
-            const std::uint32_t texel = little_endian(row, std::size_t(at), std::size_t(texels.texel_bytes));
-            for (const std::uint32_t mask : texels.masks) {
-                const int shift = std::countr_zero(mask);
-                *to++ = float(double((texel & mask) >> shift) / double(mask >> shift));
-            }
+        float* at = to + row_floats * (texels.bottom_up ? texels.height - 1 - y : y);
+        for (std::int64_t byte = 0; byte < row_size; byte += texels.texel_bytes) {
+            std::uint32_t texel = 0;
+            for (std::int64_t i = 0; i < texels.texel_bytes; ++i)
+                texel |= std::uint32_t(static_cast<unsigned char>(row[std::size_t(byte + i)])) << 8 * i;
+            for (const Channel& channel : channels) *at++ = channel(texel);
         }
     }
-    return image;
 }
 
 } // namespace bake

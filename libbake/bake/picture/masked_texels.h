@@ -18,6 +18,7 @@ struct MaskedTexels {
 /// Checks sizes and masks, and sets what info says of size and samples. Throws Error{Refusal::unreadable} for a mask that is
 /// empty or has gaps and for a file that is cut short, and as check_size.
 void describe_masked(const PictureFile& file, const MaskedTexels& texels, const ReadLimits& limits, ImageInfo& info);
-Image<float> read_masked(const PictureFile& file, const MaskedTexels& texels);
+/// Fills width * height * masks floats.
+void read_masked(const PictureFile& file, const MaskedTexels& texels, float* to);
 
 } // namespace bake

@@ -12,7 +12,9 @@ namespace bake {
 
 PictureFile::PictureFile(const std::string& path)
     // Without O_NONBLOCK, opening a pipe would wait for a writer.
-    : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    : PictureFile(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC), path) {}
+
+PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path), descriptor_(descriptor) {
     struct stat status {};
     const int reason = descriptor_ < 0 || fstat(descriptor_, &status) != 0 ? errno : 0;
     const bool folder = S_ISDIR(status.st_mode), regular = S_ISREG(status.st_mode);
@@ -44,7 +46,7 @@ std::int64_t PictureFile::read(std::int64_t offset, char* to, std::int64_t size)
     return done;
 }
 
-int PictureFile::duplicate() const noexcept { return fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); }
+int PictureFile::duplicate(int at_least) const noexcept { return fcntl(descriptor_, F_DUPFD_CLOEXEC, at_least); }
 
 std::string one_line(std::string text, const std::string& path) {
     const std::string ours = "the file";
@@ -59,6 +61,10 @@ std::string one_line(std::string text, const std::string& path) {
 
 Error unreadable(const std::string& path, const std::string& why, const char* mend) {
     return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
+}
+
+Error decoder_failed(const std::string& path, const std::string& what) {
+    return unreadable(path, "its decoder " + what, "the file is damaged; export it again, as EXR, TIFF or PNG");
 }
 
 void check_size(const std::string& path, std::int64_t stored, const ClaimedSize& claimed, const ReadLimits& limits) {

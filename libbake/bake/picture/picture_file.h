@@ -12,6 +12,8 @@ class PictureFile {
 public:
     /// Throws Error{Refusal::unreadable} for a file that is missing, empty or not a regular file.
     explicit PictureFile(const std::string& path);
+    /// Takes over the descriptor of an open file, which `path` names in messages.
+    PictureFile(int descriptor, const std::string& path);
     ~PictureFile();
     PictureFile(const PictureFile&) = delete;
     PictureFile& operator=(const PictureFile&) = delete;
@@ -22,8 +24,8 @@ public:
     const std::string& head() const noexcept { return head_; }
     /// Reads up to `size` bytes from `offset` on. Returns their number.
     std::int64_t read(std::int64_t offset, char* to, std::int64_t size) const;
-    /// Another descriptor of the open file, which the caller closes; -1 when there is none to be had.
-    int duplicate() const noexcept;
+    /// Another descriptor of the open file, `at_least` or higher, which the caller closes; -1 when there is none to be had.
+    int duplicate(int at_least = 0) const noexcept;
 
 private:
     std::string path_, head_;
@@ -37,6 +39,9 @@ std::string one_line(std::string text, const std::string& path);
 /// "<path>: <why>; <mend>"
 Error unreadable(const std::string& path, const std::string& why,
                  const char* mend = "the file is damaged; export it again");
+
+/// "<path>: its decoder <what>; ..."
+Error decoder_failed(const std::string& path, const std::string& what);
 
 /// Position and size of a part of a picture, in texels.
 struct Window {

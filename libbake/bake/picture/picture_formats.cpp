@@ -1,26 +1,24 @@
 #include "bake/picture/picture_formats.h"
-#include "bake/picture/image_guard.h"
+#include "bake/picture/decoder_limits.h"
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
-#include <mutex>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 namespace bake {
 namespace {
 
-constexpr int band_rows = 256; // a multiple of every compression's block of scanlines
+/// The file for decoders, should one of them open it by its name.
+constexpr const char* opened_name = "/proc/self/fd/3";
 
-void configure_oiio(int threads) {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        OIIO::attribute("threads", 1);
-        OIIO::attribute("limits:channels", 64);
-        OIIO::attribute("limits:imagesize_MB", 64 * 1024);
-    });
-    OIIO::attribute("exr_threads", threads > 1 ? threads : 0);
+void configure_oiio() {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1); // none beside this one
+    OIIO::attribute("limits:channels", 64);
+    OIIO::attribute("limits:imagesize_MB", 64 * 1024);
 }
 
 // Most samples one stored byte can stand for. A header that claims more is damaged or hostile, and is refused before
@@ -65,7 +63,6 @@ Window picture_window(const OIIO::ImageSpec& spec) {
 /// Whether the values come from a palette. OpenImageIO gives its colours and does not tell.
 bool has_palette(const std::string& format, const std::string& head) {
     const auto byte = [&](std::size_t at) { return at < head.size() ? static_cast<unsigned char>(head[at]) : 0; };
-    if (format == "gif") return true;
     if (format == "targa") return byte(1) == 1 && (byte(2) == 1 || byte(2) == 9);
     if (format != "bmp" || byte(28) > 8) return false;
     // Most grey pictures have a palette that is a ramp, as the format knows no other grey.
@@ -89,10 +86,10 @@ ImageInfo describe(OIIO::ImageInput& in, const PictureFile& file) {
     info.palette = has_palette(info.format, file.head());
     // For Targa and BMP that attribute counts the bits of an index.
     const int stored = 8 * int(spec.format.basesize());
-    const bool indices = info.format == "targa" || info.format == "bmp" || info.format == "gif";
+    const bool indices = info.format == "targa" || info.format == "bmp";
     info.bits = indices ? stored : spec.get_int_attribute("oiio:BitsPerSample", stored);
-    // For DDS the attribute has the bits of a texel. Channels of more than 8 bits are not read here.
-    if (info.format == "dds") info.bits = stored;
+    // For DDS the attribute has the bits of a texel.
+    if (info.format == "dds" || info.bits < 1 || info.bits > 64) info.bits = stored;
     info.srgb_tagged = spec.get_string_attribute("oiio:ColorSpace") == "sRGB";
     info.alpha_channel = spec.alpha_channel;
     const int before_alpha = info.alpha_channel >= 0 ? info.alpha_channel : spec.nchannels;
@@ -122,7 +119,7 @@ struct OpenFile {
     std::unique_ptr<OIIO::Filesystem::IOProxy> proxy;
 };
 
-/// Goes to the first picture of full size: files of icons hold smaller ones, animations further ones. The first picture
+/// Goes to the first picture of full size: a file may hold smaller ones, and animations hold further ones. The first picture
 /// of a Photoshop file is the composite of the others.
 std::string choose_subimage(OIIO::ImageInput& in) {
     constexpr int most = 64;
@@ -148,112 +145,91 @@ bool says_cut_short(const std::string& message) {
     return message.find("remature") != std::string::npos || message.find("orrupt") != std::string::npos;
 }
 
-/// The open file through the decoder that its ending names; null when that does not take it.
-std::unique_ptr<OIIO::ImageInput> open_by_ending(const std::string& path, const OpenFile& open,
-                                                 const OIIO::ImageSpec& config) {
-    const std::size_t dot = path.rfind('.');
-    if (dot == std::string::npos || path.find('/', dot) != std::string::npos || !open.proxy) return nullptr;
-    auto in = OIIO::ImageInput::create(path.substr(dot + 1));
-    if (!in || !in->supports("ioproxy")) return nullptr;
-    in->set_ioproxy(open.proxy.get());
-    OIIO::ImageSpec spec;
-    if (!in->open(path, spec, config)) return nullptr;
+/// A decoder's words as an error, without its name of the file.
+Error said(const PictureFile& file, const std::string& message) {
+    return unreadable(file.path(), one_line(message, opened_name), "export it again, as EXR, TIFF or PNG");
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const PictureFile& file, const OpenFile& open, const std::string& format) {
+    auto in = OIIO::ImageInput::create(format);
+    if (!in || !open.proxy || !in->supports("ioproxy") || !in->set_ioproxy(open.proxy.get()))
+        throw decoder_failed(file.path(), "cannot read the open file");
+    OIIO::ImageSpec spec, config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
+    const bool opened = in->open(opened_name, spec, config);
+    // Decoders of progressive pictures read them whole in opening them.
+    if (const std::string message = in->geterror(); !opened || says_cut_short(message)) throw said(file, message);
     return in;
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const FormatHost& host, const PictureFile& file, const OpenFile& open,
-                                             const ReadLimits& limits, FormatPicture& picture) {
-    configure_oiio(host.threads);
-    const std::string& path = file.path();
-    if (const std::string fault = image_fault(file); !fault.empty())
-        throw unreadable(path, fault, "export it again, as EXR, TIFF or PNG");
+SampleType sent_type(const OIIO::ImageSpec& spec) {
+    if (!spec.channelformats.empty()) return SampleType::float32;
+    return spec.format == OIIO::TypeDesc::UINT8    ? SampleType::u8
+           : spec.format == OIIO::TypeDesc::UINT16 ? SampleType::u16
+                                                   : SampleType::float32;
+}
 
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // data are not to be multiplied by alpha
-    std::unique_ptr<OIIO::ImageInput> in;
-    try {
-        in = open_by_ending(path, open, config);
-        // Names may be wrong, and some decoders insist on opening the file themselves.
-        if (!in) OIIO::geterror(), in = OIIO::ImageInput::open(path, &config);
-    } catch (const std::exception& error) { // some decoders pass on what their containers throw
-        throw unreadable(path, std::string("its decoder gave up (") + error.what() + ")");
-    }
-    if (!in) throw unreadable(path, OIIO::geterror(), "give a PNG, EXR, TIFF, JPEG, HDR or other image that is whole");
-
-    // Decoders of progressive pictures read them whole in opening them.
-    if (const std::string said = in->geterror(); says_cut_short(said)) throw unreadable(path, said);
-    const std::string others = choose_subimage(*in);
-    ImageInfo& info = picture.info = describe(*in, file);
-    if (!others.empty()) info.notes.push_back(others);
-    const OIIO::ImageSpec& spec = in->spec();
-    const auto unsuitable = [&](const std::string& why) { return Error(Refusal::unsuitable, path + ": " + why); };
+/// Describes the picture and checks its size. Throws for what is no flat picture.
+ReplyHeader read_header(OIIO::ImageInput& in, const PictureFile& file, const ReadLimits& limits) {
+    const std::string others = choose_subimage(in);
+    const OIIO::ImageSpec& spec = in.spec();
+    ReplyHeader header{.info = describe(in, file),
+                       .data = {spec.x, spec.y, spec.width, spec.height},
+                       .picture = picture_window(spec),
+                       .sent = sent_type(spec)};
+    if (!others.empty()) header.info.notes.push_back(others);
+    const auto unsuitable = [&](const std::string& why) {
+        return Error(Refusal::unsuitable, file.path() + ": " + why);
+    };
     if (spec.depth > 1) throw unsuitable("is a volume; give a flat image");
     if (spec.deep) throw unsuitable("is a deep image; flatten it");
-    const std::string sides = spec.get_string_attribute("dds:CubeMapSides"); // "+x -x +y -y +z -z"
-    if (!sides.empty() && std::count(sides.begin(), sides.end(), ' ') < 5)
-        throw unsuitable("is a cube map of the faces " + sides + " only; give one of all six faces");
-    check_size(path, file.size(),
-               {{spec.x, spec.y, spec.width, spec.height},
-                picture_window(spec),
-                info.channels.empty() ? 0 : spec.nchannels,
-                largest_ratio(spec, info.format)},
+    check_size(file.path(), file.size(),
+               {header.data, header.picture, header.info.channels.empty() ? 0 : spec.nchannels,
+                largest_ratio(spec, header.info.format)},
                limits);
     // Others turn their pictures themselves.
-    if (info.format == "jpeg" || info.format == "webp") picture.orientation = spec.get_int_attribute("Orientation", 1);
+    if (header.info.format == "jpeg" || header.info.format == "webp")
+        header.orientation = std::clamp(spec.get_int_attribute("Orientation", 1), 0, 9);
     if (const auto* icc = spec.find_attribute("ICCProfile"); icc && icc->data())
-        picture.icc.assign(static_cast<const char*>(icc->data()), icc->type().size());
-    return in;
+        header.icc.assign(static_cast<const char*>(icc->data()), icc->type().size());
+    return header;
 }
 
-void read_window(const FormatHost& host, OIIO::ImageInput& in, const std::string& path, Image<float>& image) {
-    const OIIO::ImageSpec& spec = in.spec();
-    bool whole = true;
-    if (spec.tile_width == 0) {
-        for (int y = 0; y < spec.height && whole; y += band_rows) {
-            if (host.interrupted()) throw Error(Refusal::interrupted, "interrupted");
-            const int end = std::min(spec.height, y + band_rows);
-            whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
-                                      image.row(y));
-        }
-    } else {
-        whole = in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data());
+/// Sends all rows, in bands.
+void send_texels(OIIO::ImageInput& in, const PictureFile& file, SampleType sent, ReplyStream& reply) {
+    const OIIO::ImageSpec spec = in.spec();
+    const OIIO::TypeDesc type = sent == SampleType::u8    ? OIIO::TypeDesc::UINT8
+                                : sent == SampleType::u16 ? OIIO::TypeDesc::UINT16
+                                                          : OIIO::TypeDesc::FLOAT;
+    const std::int64_t row_bytes = std::int64_t(spec.width) * spec.nchannels * std::int64_t(sent_bytes(sent));
+    // All rows at once from tiles, else whole blocks of scanlines of every compression.
+    constexpr std::int64_t most_rows = 256, most_bytes = 64 << 20;
+    const bool tiled = spec.tile_width != 0;
+    const auto band = int(std::clamp(most_bytes / row_bytes, std::int64_t(1), most_rows));
+    std::vector<char> rows(std::size_t(row_bytes * (tiled ? spec.height : std::min(band, spec.height))));
+    bool whole = !tiled || in.read_image(0, 0, 0, spec.nchannels, type, rows.data());
+    for (int y = 0; y < spec.height && whole; y += band) {
+        const int end = std::min(spec.height, y + band);
+        if (!tiled) whole = in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, type, rows.data());
+        if (whole)
+            reply.send(ReplyFrame::texels, rows.data() + (tiled ? y * row_bytes : 0),
+                       std::size_t((end - y) * row_bytes));
     }
-    const std::string message = in.geterror();
-    if (!whole || says_cut_short(message)) throw unreadable(path, message);
-}
-
-void read_picture(const FormatHost& host, const PictureFile& file, const ReadLimits& limits, bool texels,
-                  FormatPicture& picture) {
-    const OpenFile open(file);
-    const auto in = open_image(host, file, open, limits, picture);
-    if (!texels) return;
-    const OIIO::ImageSpec spec = in->spec();
-    try {
-        picture.image = Image<float>(spec.width, spec.height, spec.nchannels);
-        read_window(host, *in, file.path(), picture.image);
-        picture.image =
-            place(std::move(picture.image), {spec.x, spec.y, spec.width, spec.height}, picture_window(spec));
-    } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, file.path() + ": needs more memory than there is; scale it down");
-    } catch (const std::logic_error& error) { // some decoders pass on what their containers throw
-        throw unreadable(file.path(), std::string("its decoder gave up (") + error.what() + ")");
-    }
-}
-
-FormatResult read(const FormatHost& host, const PictureFile& file, const ReadLimits& limits, bool texels,
-                  FormatPicture& picture) try {
-    read_picture(host, file, limits, texels, picture);
-    return {};
-} catch (const Error& error) {
-    return FormatFailure{error.refusal, error.what()};
-} catch (const std::exception& error) {
-    return FormatFailure{Refusal::unsuitable, std::string("the picture cannot be handled (") + error.what() + ")"};
+    if (const std::string message = in.geterror(); !whole || says_cut_short(message)) throw said(file, message);
 }
 
 } // namespace
-} // namespace bake
 
-extern "C" const bake::PictureFormats* bake_picture_formats() {
-    static const bake::PictureFormats formats{bake::read};
-    return &formats;
+void decode(const PictureFile& file, const DecodeRequest& request, ReplyStream& reply) {
+    configure_oiio();
+    const OpenFile open(file);
+    const auto in = open_image(file, open, request.format);
+    const ReplyHeader header = read_header(*in, file, request.limits);
+    const double samples = double(header.data.width) * header.data.height * double(header.info.channels.size());
+    limit_decoder(decoder_limits(file.size(), std::max(samples, request.samples)), request.largest, request.libraries);
+    reply.send(ReplyFrame::header, to_bytes(header));
+    if (request.texels) send_texels(*in, file, header.sent, reply);
+    reply.send(ReplyFrame::end);
 }
+
+} // namespace bake

@@ -176,8 +176,6 @@ Image<float> read_pixels(Decoder& decoder, const PictureFile& file, const ImageI
 
 } // namespace
 
-bool is_png(const PictureFile& file) noexcept { return file.head().starts_with("\x89PNG"); }
-
 void read_png(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
     Decoder decoder(file);
     if (!decoder.read_header()) throw unreadable(file.path(), decoder.said());

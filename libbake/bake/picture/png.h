@@ -4,8 +4,6 @@
 
 namespace bake {
 
-bool is_png(const PictureFile& file) noexcept;
-
 /// Fills `info` from the header, and `image`, when given, as read_image does: palettes become RGB, transparent colours
 /// an alpha channel, and samples of 1, 2 and 4 bits are divided by their largest value. Throws as read_image.
 void read_png(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);

@@ -162,10 +162,6 @@ ImageInfo describe(const Header& header) {
 
 } // namespace
 
-bool is_rgbe(const PictureFile& file) noexcept {
-    return file.head().starts_with("#?RADIANCE") || file.head().starts_with("#?RGBE");
-}
-
 void read_rgbe(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
     Source source(file);
     const Header header = read_header(file, source);

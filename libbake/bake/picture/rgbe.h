@@ -5,8 +5,6 @@
 
 namespace bake {
 
-bool is_rgbe(const PictureFile& file) noexcept;
-
 /// Fills `info` from the header, and `image`, when given, as read_image does. Values are divided by the header's EXPOSURE
 /// and COLORCORR, as the format asks for. Throws as read_image.
 void read_rgbe(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);

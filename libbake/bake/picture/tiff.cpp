@@ -187,21 +187,6 @@ void tell_associated_alpha(const TiffHeader& header, const Image<float>& image, 
                              std::to_string(count) + " texels have an alpha below 1");
 }
 
-} // namespace
-
-bool is_tiff(const PictureFile& file) {
-    // The raw samples of cameras are in TIFF too, and need a decoder of their own.
-    constexpr std::string_view raw[] = {".dng", ".cr2", ".nef", ".nrw", ".arw", ".sr2", ".srf", ".pef",
-                                        ".srw", ".3fr", ".iiq", ".erf", ".mef", ".mos", ".dcr", ".kdc"};
-    if (std::find(std::begin(raw), std::end(raw), ending(file.path())) != std::end(raw)) return false;
-    const std::string& head = file.head();
-    for (const std::string_view magic : {"II*\0", "MM\0*", "II+\0", "MM\0+"})
-        if (head.starts_with(std::string_view(magic.data(), 4))) return true;
-    return false;
-}
-
-namespace {
-
 /// The texels of the current directory as they are stored.
 Image<float> read_texels(TiffFile& tiff, const TiffHeader& header) {
     const int width = header.data.width, height = header.data.height, channels = channel_count(header.samples);

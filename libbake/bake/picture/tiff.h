@@ -4,9 +4,6 @@
 
 namespace bake {
 
-/// By its first bytes; not for names of camera files, whose samples need another decoder.
-bool is_tiff(const PictureFile& file);
-
 /// Fills `info` from the header, and `image`, when given, as read_image does: palettes and inks become RGB, extra samples
 /// follow the colours. Throws as read_image.
 ///

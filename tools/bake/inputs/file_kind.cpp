@@ -9,8 +9,8 @@ namespace {
 enum class Kind { mesh, picture, scene, unknown };
 
 Kind kind_of(const std::string& path) {
-    constexpr const char* pictures[] = {".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg", ".hdr", ".tga",
-                                        ".bmp", ".dds", ".psd", ".webp", ".pfm", ".ktx",  ".ktx2"};
+    constexpr const char* pictures[] = {".png", ".exr", ".tif",  ".tiff", ".jpg", ".jpeg", ".hdr", ".tga", ".bmp",
+                                        ".dds", ".psd", ".webp", ".pfm",  ".pgm", ".ppm",  ".jp2", ".ktx", ".ktx2"};
     const std::string end = ending(path);
     if (named_like_a_mesh(path)) return Kind::mesh;
     if (std::find(std::begin(pictures), std::end(pictures), end) != std::end(pictures)) return Kind::picture;

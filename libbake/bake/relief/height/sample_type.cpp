@@ -25,7 +25,7 @@ bool is_cut(const ImageInfo& info) noexcept {
 }
 
 bool is_lossy(const ImageInfo& info) noexcept {
-    return info.format == "jpeg" || info.format == "webp" || info.format == "heif";
+    return info.format == "jpeg" || info.format == "webp";
 }
 
 } // namespace bake

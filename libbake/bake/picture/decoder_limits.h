@@ -1,0 +1,27 @@
+// What a decoder may use. It runs in a process of its own, which ends when it exceeds one of these.
+#pragma once
+#include <cstdint>
+#include <sys/types.h>
+
+namespace bake {
+
+struct DecoderLimits {
+    std::int64_t bytes = 0;   ///< of address space, beyond that of the libraries
+    std::int64_t seconds = 0; ///< of processor time
+};
+
+/// Limits for a file of `stored` bytes whose picture has `samples` samples (all channels of all texels; 0 while that is not
+/// known), many times what a file that is not damaged needs.
+DecoderLimits decoder_limits(std::int64_t stored, double samples) noexcept;
+
+/// The address space that this process takes now.
+std::int64_t address_space() noexcept;
+
+/// Limits this process to `limits` beyond `libraries` bytes. It can raise them again, up to `largest`. A crash leaves no
+/// core file.
+void limit_decoder(const DecoderLimits& limits, const DecoderLimits& largest, std::int64_t libraries) noexcept;
+
+/// Ends this process when `parent` ends, at once if it has ended already.
+void end_with(pid_t parent) noexcept;
+
+} // namespace bake
