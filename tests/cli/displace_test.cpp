@@ -357,6 +357,80 @@ TEST_SUITE("cli") {
                       "level");
     }
 
+#if !defined(__SANITIZE_ADDRESS__) // which keeps freed blocks
+    TEST_CASE("displace: the memory that is said to be needed is what is taken, within a tenth") {
+        const Folder folder;
+        const auto check_said = [&](std::vector<std::string> arguments) {
+            arguments.insert(arguments.begin(), {torus, "--height", waves(folder), "--amplitude", "1%"});
+            arguments.push_back("--json");
+            const Run run = displaced(folder, arguments);
+            const double said = nlohmann::json::parse(run.out)["bytes_needed"].get<double>() / 1048576;
+            CAPTURE(arguments[6]);
+            CAPTURE(arguments[8]);
+            CHECK(run.peak_mib == doctest::Approx(said).epsilon(0.1));
+        };
+        for (const char* out : {"a.obj", "a.ply", "a.glb"}) check_said({"--levels", "5", "-o", out});
+        check_said({"--levels", "4", "-o", "a.obj", "--audit"});
+        check_said({"--levels", "4", "-o", "a.ply", "--margin"});
+        check_said({"--max-error", "0.03%", "-o", "a.glb"});
+    }
+
+    TEST_CASE("displace: --max-memory is kept, by the audit too, and the refusal says what would fit without it") {
+        const Folder folder;
+        const auto in_memory = [&](const char* size, bool audit) {
+            std::vector<std::string> arguments = {"displace",     torus, "--height", waves(folder), "--levels", "5",
+                                                  "--max-memory", size,  "-o",       "a.ply"};
+            if (audit) arguments.push_back("--audit");
+            return run_bake(folder, arguments);
+        };
+        const Run refused = in_memory("230M", true);
+        CAPTURE(refused.err);
+        CHECK(refused.code == 4);
+        CHECK(refused.peak_mib < 230 * 1.1);
+        CHECK(refused.err.find("without --audit") != std::string::npos);
+        CHECK(refused.err.find("or leave out --audit, or set --levels to 4") != std::string::npos);
+        const Run fits = in_memory("230M", false);
+        CHECK(fits.code == 0);
+        CHECK(fits.peak_mib < 230 * 1.1);
+        // A mesh whose file alone is larger.
+        write_file(folder / "large.obj", cube_obj + std::string(std::size_t(80) << 20, '\n'));
+        check_refused(folder,
+                      {"displace", "large.obj", "--height", waves(folder), "--max-memory", "80M", "-o", "b.ply"}, 4,
+                      "more memory than the 80.0 MiB it may use (--max-memory)");
+    }
+#endif
+
+    TEST_CASE("displace: an error that cannot be reached is refused at once, with one that can") {
+        const Folder folder;
+        write_file(folder / "cube.obj", cube_obj);
+        for (const char* mesh : {torus.c_str(), "cube.obj"})
+            for (const char* error : {"1e-30", "1e-9", "1e-7%", "1e-7"}) {
+                const std::vector<std::string> arguments = {"displace", mesh,          "--height", waves(folder),
+                                                            "-o",       "a.ply",       "--max-error", error,
+                                                            "--max-memory", "1G"};
+                check_refused(folder, arguments, 4, "cannot be reached", {.seconds = 60});
+                const Run run = run_bake(folder, arguments);
+                CAPTURE(run.err);
+                CHECK(run.seconds < 10);
+                CHECK(run.err.find("set --max-error to ") != std::string::npos);
+            }
+        check_refused(folder, {"displace", torus, "--height", waves(folder), "-o", "a.ply", "--levels", "11"}, 2,
+                      "--levels");
+    }
+
+    TEST_CASE("displace: Ctrl-C ends the search for rates and the audit within a second") {
+        const Folder folder;
+        const auto interrupted = [&](std::vector<std::string> arguments, double after) {
+            arguments.insert(arguments.begin(), {"displace", torus, "--height", waves(folder), "-o", "a.ply"});
+            const Run run = run_bake(folder, arguments, {.seconds = 100, .interrupt_after = after});
+            CAPTURE(run.err);
+            CHECK(run.code == 130);
+            CHECK(run.seconds < after + 1);
+        };
+        interrupted({"--max-error", "0.0003%"}, 1);
+        interrupted({"--levels", "6", "--measure", "--audit"}, 0.5);
+    }
+
     TEST_CASE("displace: notes say when the amplitude is out of proportion, seams step and points fold") {
         const Folder folder;
         waves(folder);

@@ -1,8 +1,11 @@
 // bake displace: a mesh, the limit surface of a cage or a shape, displaced by a height or by vectors.
+#include "bake/base/memory.h"
 #include "bake/base/output_file.h"
-#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/file/write_memory.h"
 #include "displace_report.h"
+#include "inputs/byte_option.h"
 #include <filesystem>
+#include <new>
 
 namespace bake {
 namespace {
@@ -21,12 +24,13 @@ double mean_edge(const Mesh& mesh) {
     return edges > 0 ? sum / double(edges) : 0;
 }
 
-/// Adds the fold margin as an attribute of the corners.
+/// Makes the fold margin an attribute of the corners.
 void add_margin(Displaced& displaced) {
     Attribute attribute{.name = "fold_margin", .components = 1, .values = {}};
     attribute.values.reserve(displaced.mesh.corners());
     for (const std::uint32_t p : displaced.mesh.corner_position) attribute.values.push_back(displaced.margin[p]);
     displaced.mesh.attributes.push_back(std::move(attribute));
+    displaced.margin = {};
 }
 
 std::string describe_base(const DisplaceArgs& args) {
@@ -35,20 +39,57 @@ std::string describe_base(const DisplaceArgs& args) {
     return args.kind == BaseKind::loop ? "a Loop limit" : "a mesh";
 }
 
+/// Work that must stay within the memory. Where its need is not known beforehand, MemoryCap stops it.
+template <class Work>
+auto within_memory(const MemoryLimit& limit, const std::string& name, const char* what, const Work& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        throw Error(Refusal::unsuitable, name + ": " + what + " takes more memory than the " +
+                                             describe_bytes(double(limit.bytes)) + " it may use (" + limit.reason +
+                                             "); allow more by --max-memory, or take a smaller one");
+    }
+}
+
+/// What writing and testing the result take.
+std::vector<LaterStep> later_steps(const DisplaceArgs& args, const BaseSurface& base) {
+    const bool margin = args.margin, parts = base.mesh().materials.size() > 1 || base.mesh().groups.size() > 1;
+    const auto attribute = [margin](const DisplaceCount& c) { return margin ? c.corners * sizeof(float) : 0; };
+    std::vector<LaterStep> steps;
+    steps.push_back({"", [=, format = mesh_format(args.out)](const DisplaceCount& c) {
+                         return attribute(c) +
+                                write_memory(format, {c.points, c.normals, c.uvs, c.faces, c.corners, parts});
+                     }});
+    if (args.audit)
+        steps.push_back({"audit", [=](const DisplaceCount& c) {
+                             return attribute(c) + audit_memory(c.points, c.corners - 2 * c.faces);
+                         }});
+    return steps;
+}
+
 int run(DisplaceArgs& args, const CommonArgs& common) {
     complete(args);
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
     progress.start("read", 0);
-    const BaseSurface base = make_base(args);
+    MemoryLimit limit = memory_limit();
+    std::optional<MemoryCap> cap;
+    if (args.max_memory) limit = {*args.max_memory, "--max-memory"}, cap.emplace(*args.max_memory);
+    const BaseSurface base =
+        within_memory(limit, args.surface.name(), "reading it and finding its edges", [&] { return make_base(args); });
+    return_free_memory();
     DisplaceOutcome o;
     o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
     o.patches = base.complex().patches.size();
     watch.lap("base");
-    const ReliefFile file = load_relief(args, o.size, common);
-    const DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
+    const ReliefFile file =
+        within_memory(limit, args.height.path, "reading it", [&] { return load_relief(args, o.size, common); });
+    return_free_memory();
+    DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
+    options.taken = process_memory().resident;
+    options.later = later_steps(args, base);
     o.max_error = options.rates.error;
     o.described = file.described;
     o.notes = file.notes;
@@ -56,18 +97,25 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.amplitude_note = file.amplitude_note;
     watch.lap("height");
     OutputFile(args.out); // a file that cannot be written is refused before the work
-    Displaced displaced = displace(base, file.relief, options, &progress);
-    progress.finish();
+    const std::uint64_t before = peak_memory();
+    Displaced displaced = within_memory(limit, args.surface.name(), "displacing it",
+                                        [&] { return displace(base, file.relief, options, &progress); });
+    return_free_memory();
     o.report = displaced.report;
+    o.report.count.bytes = std::max(o.report.count.bytes, before);
     o.edge = mean_edge(displaced.mesh);
     watch.lap("displace");
+    progress.start("write", 0);
     if (args.margin) add_margin(displaced);
     o.file_bytes = std::uintmax_t(write_mesh(args.out, displaced.mesh));
     watch.lap("write");
     if (args.audit) {
+        progress.start("audit", 0);
+        return_free_memory();
         o.audit = audit(displaced.mesh, triangulate(displaced.mesh));
         watch.lap("audit");
     }
+    progress.finish();
     print_result(common, to_text(args, o), to_json(args, o), watch);
     warn(args, common, o);
     return 0;

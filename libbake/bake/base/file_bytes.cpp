@@ -1,6 +1,7 @@
 #include "bake/base/file_bytes.h"
 #include "bake/base/error.h"
 #include "bake/base/input_record.h"
+#include "bake/base/memory.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <cerrno>
@@ -39,10 +40,11 @@ FileBytes read_file(const std::string& path) {
     remember_input(status);
     FileBytes bytes;
     bytes.size = std::size_t(status.st_size);
-    const auto memory = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGESIZE));
-    if (bytes.size > memory)
-        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) +
-                                             " bytes are more than this machine's memory; split the file");
+    const MemoryLimit memory = memory_limit();
+    if (bytes.size > memory.bytes)
+        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) + " bytes are more than the " +
+                                             std::to_string(memory.bytes) + " that may be used (" + memory.reason +
+                                             "); split the file");
     bytes.data.reset(static_cast<char*>(allocate_pages(bytes.size + 1)));
     bytes.data[bytes.size] = '\n';
 

@@ -18,7 +18,7 @@ struct FileBytes {
 };
 
 /// Reads the regular file `path`, in parallel. Throws Error{Refusal::unreadable} with the system's reason, and
-/// Error{Refusal::unsuitable} when it is larger than the memory of this machine.
+/// Error{Refusal::unsuitable} when it is larger than memory_limit().
 FileBytes read_file(const std::string& path);
 
 } // namespace bake

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/pages.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/mesh.h"
 #include <bit>
 #include <cstdint>
@@ -57,6 +58,7 @@ template <class Hash, class Equal> Numbered number_distinct(std::size_t items, c
         table.swap(larger);
     };
     for (std::uint32_t i = 0; i < items; ++i) {
+        if (i % 65536 == 0) throw_if_interrupted();
         const std::size_t mask = table.size() - 1;
         if (i + 16 < items) __builtin_prefetch(&table[out.number[i + 16] & mask]);
         const std::uint32_t own = out.number[i];

@@ -1,6 +1,7 @@
 #include "bake/mesh/topology.h"
 #include "bake/base/pages.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -44,15 +45,18 @@ DisjointSets::Numbers DisjointSets::numbers() {
 EdgeTable make_edges(std::uint32_t vertices, std::uint32_t sides, const std::function<SideEnds(std::uint32_t)>& ends) {
     // A counting sort by the lower vertex, then a sort by the higher vertex in the list of each lower one.
     std::vector<std::uint32_t> first(std::size_t(vertices) + 1, 0);
+    throw_if_interrupted();
     for (std::uint32_t side = 0; side < sides; ++side)
         if (const SideEnds e = ends(side); e[0] != no_index) ++first[std::min(e[0], e[1]) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::vector<ListedSide> listed;
     resize_in_pages(listed, first[vertices]);
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t side = 0; side < sides; ++side)
+    for (std::uint32_t side = 0; side < sides; ++side) {
+        if (side % 65536 == 0) throw_if_interrupted();
         if (const SideEnds e = ends(side); e[0] != no_index)
             listed[next[std::min(e[0], e[1])]++] = {std::max(e[0], e[1]), side};
+    }
 
     std::vector<std::uint32_t>& count = next; // edges per lower vertex
     for_rows(vertices, grain, [&](std::int64_t begin, std::int64_t end) {

@@ -1,5 +1,6 @@
 #include "bake/mesh/triangle_tree.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +28,7 @@ struct Keyed {
 std::vector<Keyed> sorted_by_code(std::vector<Keyed> keys) {
     std::vector<Keyed> other(keys.size());
     for (int shift = 0; shift < 64; shift += 8) {
+        throw_if_interrupted();
         std::size_t begin[257] = {};
         for (const Keyed& k : keys) ++begin[((k.code >> shift) & 255) + 1];
         if (std::find(begin, begin + 257, keys.size()) != begin + 257) continue;
@@ -122,6 +124,12 @@ TriangleTree::TriangleTree(const Mesh& mesh, const std::vector<Triangle>& triang
         });
         levels_.push_back(std::move(nodes));
     }
+}
+
+std::uint64_t TriangleTree::memory(std::uint64_t triangles) noexcept {
+    const std::uint64_t own = triangles * (sizeof(std::array<Vec3f, 3>) + sizeof(std::uint32_t));
+    const std::uint64_t nodes = triangles / 3 * sizeof(Node); // a fourth, a sixteenth, ... of the triangles
+    return std::max(2 * triangles * sizeof(Keyed), own + nodes + triangles * sizeof(Keyed));
 }
 
 void TriangleTree::set_child_box(Node& node, int c, std::size_t level, std::size_t child) const noexcept {

@@ -27,6 +27,9 @@ public:
     /// The tree does not depend on the number of threads.
     TriangleTree(const Mesh& mesh, const std::vector<Triangle>& triangles);
 
+    /// Memory that the constructor takes at most, with the tree.
+    static std::uint64_t memory(std::uint64_t triangles) noexcept;
+
     std::uint32_t size() const noexcept { return std::uint32_t(corners_.size()); }
     /// The index of the triangle at `place` in the list given to the constructor.
     std::uint32_t index(std::uint32_t place) const noexcept { return index_[place]; }

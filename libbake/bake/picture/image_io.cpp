@@ -1,5 +1,6 @@
 #include "bake/picture/image_io.h"
 #include "bake/base/error.h"
+#include "bake/base/memory.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
@@ -49,7 +50,8 @@ double level_step(const ImageInfo& info) noexcept {
 namespace {
 
 /// Reads the header, and the texels into `image` when that is given.
-ImageInfo read_picture(const std::string& path, const ReadLimits& limits, Image<float>* image) {
+ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>* image) {
+    if (image) limits.max_bytes = std::min(limits.max_bytes, std::int64_t(memory_limit().bytes));
     ImageInfo info;
     const PictureFile file(path);
     const PictureKind kind = picture_kind(file);

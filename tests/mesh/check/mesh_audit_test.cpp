@@ -98,6 +98,55 @@ TEST_SUITE("unit" * doctest::skip(without_cgal())) {
                     {{0, 1, 2}, {3, 4, 5}}) == 0);
     }
 
+    TEST_CASE("audit: a vertex at which a sphere touches itself has two fans, and the sphere is not closed") {
+        Mesh pinched = unit_sphere(12, 8);
+        pinched.positions.front() = pinched.positions.back(); // both poles are one point
+        const MeshAudit result = audited(pinched);
+        CHECK(result.components == 1);
+        CHECK(result.closed_components == 0);
+        CHECK_FALSE(result.closed);
+    }
+
+    TEST_CASE("audit: the number of shells around a shell, with corners above corners and edges above edges") {
+        // Cubes around cubes, all with corners on the same vertical lines and diagonals; every other one is a wall.
+        Mesh cubes = cube();
+        for (int k = 1; k < 7; ++k) {
+            const float size = 1 - float(k) / 8;
+            const Mesh next = moved(cube(), size, Vec3f(0.5f - size / 2));
+            cubes = together(cubes, k % 2 ? turned(next) : next);
+        }
+        const MeshAudit nested = audited(cubes);
+        CHECK(nested.self_intersections == 0);
+        CHECK(nested.components == 7);
+        CHECK(nested.nested_components == 3);
+        CHECK(nested.inverted_components == 0);
+        CHECK(nested.bounds_volume);
+        // One below the other, with the same corners seen from above; and one in the hole of a torus.
+        CHECK(audited(together(cube(), moved(cube(), 1, {0, 0, 2}))).nested_components == 0);
+        // It hangs from a corner of the outer cube: its other corners decide.
+        const MeshAudit hung = audited(together(cube(), turned(moved(cube(), 0.5f, Vec3f(0)))));
+        CHECK(hung.closed_components == 2);
+    }
+
+    TEST_CASE("audit: orientation where the highest point is an edge, a face or the tip of a fold") {
+        const auto outward = [](const Mesh& mesh) {
+            const bool out = audited(mesh).outward;
+            CHECK(out != audited(turned(mesh)).outward);
+            return out;
+        };
+        // Turned about the x axis, so that an edge, a vertex or a face is highest.
+        for (const double angle : {0.0, pi / 4, 0.3, pi / 2, 2.0, pi, 4.0})
+            for (const Mesh& shape : {cube(), unit_sphere(8, 4)}) {
+                Mesh mesh = shape;
+                const double c = std::cos(angle), s = std::sin(angle);
+                for (Vec3f& p : mesh.positions)
+                    p = Vec3f(Vec3d(p.x, c * p.y - s * p.z, s * p.y + c * p.z));
+                CHECK(outward(mesh));
+            }
+        // The highest vertex is reentrant: both faces at its flattest edge lie on the same side of it.
+        CHECK(outward(mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {1, 5, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})));
+    }
+
     TEST_CASE("audit: the same for 1, 2 and 7 threads") {
         const Mesh mesh = random_soup(3000, 5);
         const auto run = [&](int threads) {

@@ -1,5 +1,6 @@
 #include "bake/mesh/check/hausdorff_bound.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/check/overlay_bound.h"
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,7 @@ Refined refine(const TriangleTree& b, const Piece& whole, double lower2, double 
     Refined r = {0, 0, {}};
     r.farthest.distance2 = lower2;
     for (;;) {
+        throw_if_interrupted(); // a piece may take millions of cuts
         const double limit2 = std::max(gap2 * r.farthest.distance2, least2);
         if (!(heap.front().upper2 > limit2) || r.cuts >= most) break;
         std::pop_heap(heap.begin(), heap.end(), less);
@@ -144,6 +146,7 @@ void overlay(std::vector<Piece>& pieces, const TriangleTree& b, double gap2, dou
         for (std::int64_t i = begin * stride; i < std::min(end * stride, std::int64_t(pieces.size())); i += stride) {
             const double limit2 = std::max(gap2 * own.distance2, least2);
             if (!(pieces[i].upper2 > limit2)) continue;
+            throw_if_interrupted();
             if (overlay_within(b, pieces[i].p, pieces[i].near, limit2, buffers)) {
                 pieces[i].upper2 = limit2;
                 continue;

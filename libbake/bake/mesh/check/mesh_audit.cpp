@@ -1,6 +1,7 @@
 // The only file that includes CGAL: with CGAL the binary is GPL-3.0-or-later as a whole, and this file is compiled with
 // -frounding-math, which interval arithmetic needs. Self intersections are searched in the triangle soup, so that
-// non-manifold meshes can be audited too. Our tree finds the pairs whose boxes overlap; CGAL's exact predicates decide.
+// non-manifold meshes can be audited too. Our tree finds the pairs whose boxes overlap; CGAL's exact predicates decide, and
+// the half-edge structures of CGAL, which took ten times the memory of the mesh, are not used.
 // With CGAL's box sweep and unsorted faces, the audit of a million triangles took 5 s of processor time, and 22 s if they
 // were shuffled; with the tree both take 3 s.
 #include "bake/mesh/check/mesh_audit.h"
@@ -9,33 +10,29 @@
 
 namespace bake {
 MeshAudit audit(const Mesh&, const std::vector<Triangle>&) { return {}; }
+std::uint64_t audit_memory(std::uint64_t, std::uint64_t) noexcept { return 0; }
 } // namespace bake
 
 #else
 
 #include "bake/base/parallel.h"
-#include "bake/mesh/topology.h"
+#include "bake/base/progress.h"
+#include "bake/mesh/check/closed_components.h"
 #include "bake/mesh/triangle_tree.h"
-#include "bake/mesh/weld.h"
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <numeric>
 
 namespace bake {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Surface = CGAL::Surface_mesh<Point>;
+using Point2 = Kernel::Point_2;
 using Index = std::uint32_t;
 using Corners = std::array<Vec3f, 3>;
+
+constexpr Index batch = 1 << 16; // triangles between two looks whether the user asked to stop
 
 Point point(const Vec3f& p) { return Point(p.x, p.y, p.z); }
 
@@ -124,114 +121,151 @@ Cuts find_cuts(const TriangleTree& tree, const std::vector<Index>& component) {
     return all;
 }
 
-/// Corners of each triangle as welded positions.
-std::vector<std::array<Index, 3>> welded(const Mesh& mesh, const std::vector<Triangle>& triangles) {
-    const std::vector<Index> first = first_equal(mesh.positions);
-    std::vector<std::array<Index, 3>> corners(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) corners[t][k] = first[mesh.corner_position[triangles[t].corner[k]]];
-    return corners;
-}
-
-bool flat(const std::array<Index, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
-
-/// Per triangle the number of its set of triangles connected through edges; no_index for a triangle that uses a position
-/// twice. Sets are numbered in the order of their first triangles.
-std::vector<Index> components(const std::vector<std::array<Index, 3>>& corners, Index positions, std::size_t& count) {
-    const EdgeTable edges = make_edges(positions, Index(3 * corners.size()), [&](Index side) -> SideEnds {
-        const std::array<Index, 3>& c = corners[side / 3];
-        if (flat(c)) return {no_index, no_index};
-        return {c[side % 3], c[(side + 1) % 3]};
-    });
-    DisjointSets sets = connected_faces(edges, corners.size(), [](Index side) { return side / 3; });
-    count = 0;
-    std::vector<Index> component(corners.size(), no_index);
-    for (Index t = 0; t < corners.size(); ++t) {
-        if (flat(corners[t])) continue;
-        const Index lowest = sets.find(t);
-        component[t] = lowest == t ? Index(count++) : component[lowest];
-    }
-    return component;
-}
-
+/// A closed component.
 struct Shell {
-    Surface surface;
-    CGAL::Bbox_3 box;
-    Index component = 0;
+    Index component = 0, first = no_index; ///< its first triangle
+    Vec3f low{0}, high{0};
+    Vec3f top{0}; ///< a corner with the largest z
+    double volume = 0;
     bool outward = false;
     std::size_t depth = 0; ///< number of shells that contain it
 };
 
-/// The components that are closed manifolds.
-std::vector<Shell> closed_shells(const Mesh& mesh, const std::vector<std::array<Index, 3>>& corners,
-                                 const TriangleTree& tree, const std::vector<Index>& component, std::size_t count) {
-    namespace pmp = CGAL::Polygon_mesh_processing;
-    std::vector<std::size_t> begin(count + 1, 0);
-    for (const Index c : component)
-        if (c != no_index) ++begin[c + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<Index> sorted(begin.back());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (Index place = 0; place < tree.size();
-         ++place) { // in the order of the tree: six times as fast for shuffled triangles
-        const Index t = tree.index(place);
-        if (component[t] != no_index) sorted[next[component[t]]++] = t;
+/// The boxes, top corners and volumes of the closed components. Volumes are sums over the triangles in their order.
+std::vector<Shell> measure_shells(const TriangleTree& tree, const Components& components) {
+    std::vector<Shell> shells(components.count());
+    const Vec3d reference = tree.size() > 0 ? Vec3d(tree.corners(0)[0]) : Vec3d(0);
+    for (Index place = 0; place < tree.size(); ++place) {
+        if (place % batch == 0) throw_if_interrupted();
+        const Index component = components.of[tree.index(place)];
+        if (component == no_index || !components.closed[component]) continue;
+        Shell& shell = shells[component];
+        const Corners& c = tree.corners(place);
+        if (shell.first == no_index) shell = {component, place, low(c), high(c), c[0]};
+        shell.low = glm::min(shell.low, low(c)), shell.high = glm::max(shell.high, high(c));
+        for (const Vec3f& p : c)
+            if (p.z > shell.top.z) shell.top = p;
+        const Vec3d a = Vec3d(c[0]) - reference, b = Vec3d(c[1]) - reference, d = Vec3d(c[2]) - reference;
+        shell.volume += glm::dot(a, glm::cross(b, d)) / 6;
     }
-
-    std::vector<Shell> shells;
-    std::vector<Index> local(mesh.positions.size(), no_index);
-    for (Index c = 0; c < count; ++c) {
-        std::vector<Point> points;
-        std::vector<Index> used;
-        std::vector<std::array<std::size_t, 3>> faces;
-        for (std::size_t i = begin[c]; i < begin[c + 1]; ++i) {
-            std::array<std::size_t, 3>& face = faces.emplace_back();
-            for (int k = 0; k < 3; ++k) {
-                const Index p = corners[sorted[i]][k];
-                if (local[p] == no_index) {
-                    local[p] = Index(points.size());
-                    points.push_back(point(mesh.positions[p]));
-                    used.push_back(p);
-                }
-                face[k] = local[p];
-            }
-        }
-        for (const Index p : used) local[p] = no_index;
-        if (!pmp::is_polygon_soup_a_polygon_mesh(faces)) continue;
-        Shell shell;
-        pmp::polygon_soup_to_polygon_mesh(points, faces, shell.surface);
-        if (!CGAL::is_closed(shell.surface)) continue;
-        shell.box = pmp::bbox(shell.surface);
-        shell.component = c;
-        shell.outward = pmp::is_outward_oriented(shell.surface);
-        shells.push_back(std::move(shell));
-    }
+    std::erase_if(shells, [](const Shell& shell) { return shell.first == no_index; });
     return shells;
 }
 
-bool contains(const CGAL::Bbox_3& outer, const CGAL::Bbox_3& inner) {
-    for (int k = 0; k < 3; ++k)
-        if (inner.min(k) < outer.min(k) || inner.max(k) > outer.max(k)) return false;
-    return true;
+/// A triangle at a shell's top corner, with the two other corners: it has the sides from -> top and top -> to.
+struct TopTriangle {
+    Vec3f from, to;
+};
+
+/// Whether the faces of a closed shell look outwards, by the triangles around a corner with the largest z: at the edge
+/// with the least slope, the upper one of the two triangles decides, as in CGAL's is_outward_oriented().
+bool looks_outward(const Vec3f& corner, const std::vector<TopTriangle>& around) {
+    const Point top = point(corner);
+    const TopTriangle* flattest = &around.front();
+    for (const TopTriangle& t : around)
+        if (CGAL::compare_slope(point(t.from), top, point(flattest->from), top) == CGAL::SMALLER) flattest = &t;
+    // The other triangle at the edge has the side top -> from.
+    const auto other =
+        std::find_if(around.begin(), around.end(), [&](const TopTriangle& t) { return t.to == flattest->from; });
+    if (other == around.end()) return false;
+    const Point p = point(flattest->from), own = point(flattest->to), beyond = point(other->from);
+    const auto seen_from_above = [](const Point& a, const Point& b, const Point& c) {
+        return CGAL::orientation(Point2(a.x(), a.y()), Point2(b.x(), b.y()), Point2(c.x(), c.y()));
+    };
+    const CGAL::Orientation first = seen_from_above(p, top, own), second = seen_from_above(top, p, beyond);
+    if (first == CGAL::COLLINEAR) return second == CGAL::LEFT_TURN;
+    if (second == CGAL::COLLINEAR || first == second) return first == CGAL::LEFT_TURN;
+    // Both triangles are on one side of the edge, one above the other.
+    if (first == CGAL::LEFT_TURN) return CGAL::orientation(p, top, own, beyond) == CGAL::NEGATIVE;
+    return CGAL::orientation(top, p, beyond, own) == CGAL::NEGATIVE;
 }
 
-void nest(std::vector<Shell>& shells, const std::vector<Pair>& cutting) {
-    for (const Shell& outer : shells) {
-        std::unique_ptr<CGAL::Side_of_triangle_mesh<Surface, Kernel>> side; // built on first use
-        for (Shell& inner : shells) {
-            if (&inner == &outer || !contains(outer.box, inner.box)) continue;
+void orient(std::vector<Shell>& shells, const TriangleTree& tree, const Components& components) {
+    for_rows(std::int64_t(shells.size()), 64, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<TopTriangle> around;
+        for (auto i = begin; i < end; ++i) {
+            Shell& shell = shells[std::size_t(i)];
+            around.clear();
+            tree.touching(shell.top, shell.top, 0, [&](Index place) {
+                if (components.of[tree.index(place)] != shell.component) return;
+                const Corners& c = tree.corners(place);
+                for (int k = 0; k < 3; ++k)
+                    if (c[k] == shell.top) around.push_back({c[(k + 2) % 3], c[(k + 1) % 3]});
+            });
+            shell.outward = looks_outward(shell.top, around);
+        }
+    });
+}
+
+/// On which side of the line from a to b, seen from above, the point p is: 1 left, -1 right. A point on the line counts
+/// as moved by (e, e^2) with e > 0 as small as needed, so that a point is never on an edge, and is inside exactly one of
+/// two triangles that meet there. 0 if a is above b.
+int side_of(const Vec3f& a, const Vec3f& b, const Vec3f& p) {
+    const CGAL::Orientation side = CGAL::orientation(Point2(a.x, a.y), Point2(b.x, b.y), Point2(p.x, p.y));
+    if (side != CGAL::COLLINEAR) return side == CGAL::LEFT_TURN ? 1 : -1;
+    if (a.y != b.y) return a.y > b.y ? 1 : -1;
+    return (b.x > a.x) - (b.x < a.x);
+}
+
+enum class Place { outside, inside, on };
+
+/// Where a point lies with respect to a shell that it touches at common corners only: by the number of triangles above.
+Place place_in(const Shell& shell, const Vec3f& p, const TriangleTree& tree, const Components& components) {
+    bool on = false, inside = false;
+    const Vec3f above(p.x, p.y, std::numeric_limits<float>::infinity());
+    tree.touching(p, above, 0, [&](Index place) {
+        if (on || components.of[tree.index(place)] != shell.component) return;
+        const Corners& c = tree.corners(place);
+        on = c[0] == p || c[1] == p || c[2] == p;
+        const int turn = side_of(c[0], c[1], p);
+        if (on || turn == 0 || side_of(c[1], c[2], p) != turn || side_of(c[2], c[0], p) != turn) return;
+        const CGAL::Orientation side = CGAL::orientation(point(c[0]), point(c[1]), point(c[2]), point(p));
+        on = side == CGAL::COPLANAR;
+        inside ^= (side == CGAL::NEGATIVE) == (turn > 0);
+    });
+    return on ? Place::on : inside ? Place::inside : Place::outside;
+}
+
+bool contains(const Shell& outer, const Shell& inner) {
+    return glm::min(outer.low, inner.low) == outer.low && glm::max(outer.high, inner.high) == outer.high;
+}
+
+/// Whether `inner` lies in `outer`. Shells may touch at vertices: the first vertex that is not on the other shell decides.
+bool is_inside(const Shell& inner, const Shell& outer, const TriangleTree& tree, const Components& components) {
+    for (Index place = inner.first; place < tree.size(); ++place) {
+        if (components.of[tree.index(place)] != inner.component) continue;
+        for (const Vec3f& p : tree.corners(place))
+            if (const Place where = place_in(outer, p, tree, components); where != Place::on)
+                return where == Place::inside;
+    }
+    return false;
+}
+
+/// Counts the shells around each shell. Shells that intersect are not nested.
+void nest(std::vector<Shell>& shells, const std::vector<Pair>& cutting, const TriangleTree& tree,
+          const Components& components) {
+    for_rows(std::int64_t(shells.size()), 1, [&](std::int64_t i, std::int64_t) {
+        Shell& inner = shells[std::size_t(i)];
+        for (const Shell& outer : shells) {
+            if (&inner == &outer || !contains(outer, inner)) continue;
             const auto [a, b] = std::minmax({inner.component, outer.component});
             if (std::binary_search(cutting.begin(), cutting.end(), Pair{a, b})) continue;
-            if (!side) side = std::make_unique<CGAL::Side_of_triangle_mesh<Surface, Kernel>>(outer.surface);
-            // Shells may touch at vertices: the first vertex that is not on the other shell decides.
-            for (const auto v : inner.surface.vertices()) {
-                const CGAL::Bounded_side where = (*side)(inner.surface.point(v));
-                if (where == CGAL::ON_BOUNDARY) continue;
-                inner.depth += where == CGAL::ON_BOUNDED_SIDE;
-                break;
-            }
+            inner.depth += is_inside(inner, outer, tree, components);
         }
+    });
+}
+
+/// The pair with the lowest numbers, and the centre of the overlap of its boxes.
+void report_first(MeshAudit& to, const Mesh& mesh, const std::vector<Triangle>& triangles, const Pair& pair) {
+    Corners c[2];
+    for (int i = 0; i < 2; ++i) {
+        const Triangle& t = triangles[pair[i]];
+        to.first_faces[i] = t.face;
+        for (int k = 0; k < 3; ++k) c[i][k] = mesh.positions[mesh.corner_position[t.corner[k]]];
     }
+    for (int k = 0; k < 3; ++k)
+        to.first_place[k] =
+            0.5 * (double(std::max(low(c[0])[k], low(c[1])[k])) + double(std::min(high(c[0])[k], high(c[1])[k])));
 }
 
 } // namespace
@@ -239,37 +273,35 @@ void nest(std::vector<Shell>& shells, const std::vector<Pair>& cutting) {
 MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     MeshAudit result;
     result.available = true;
-    const std::vector<std::array<Index, 3>> corners = welded(mesh, triangles);
-    const std::vector<Index> component = components(corners, Index(mesh.positions.size()), result.components);
+    const Components components =
+        find_components(welded_corners(mesh, triangles), Index(mesh.positions.size()));
     const TriangleTree tree(mesh, triangles);
-    const Cuts cuts = find_cuts(tree, component);
+    const Cuts cuts = find_cuts(tree, components.of);
     result.self_intersections = cuts.count;
-    if (cuts.count > 0) {
-        Corners c[2];
-        for (int i = 0; i < 2; ++i) {
-            const Triangle& t = triangles[cuts.first[i]];
-            result.first_faces[i] = t.face;
-            for (int k = 0; k < 3; ++k) c[i][k] = mesh.positions[mesh.corner_position[t.corner[k]]];
-        }
-        // The centre of the overlap of both boxes.
-        for (int k = 0; k < 3; ++k)
-            result.first_place[k] =
-                0.5 * (double(std::max(low(c[0])[k], low(c[1])[k])) + double(std::min(high(c[0])[k], high(c[1])[k])));
-    }
+    if (cuts.count > 0) report_first(result, mesh, triangles, cuts.first);
 
-    std::vector<Shell> shells = closed_shells(mesh, corners, tree, component, result.components);
-    nest(shells, cuts.components);
+    std::vector<Shell> shells = measure_shells(tree, components);
+    orient(shells, tree, components);
+    nest(shells, cuts.components, tree, components);
     for (const Shell& shell : shells) {
         const bool wall = shell.depth % 2 == 1;
         result.nested_components += wall;
         result.inverted_components += shell.outward == wall;
-        result.volume += CGAL::to_double(CGAL::Polygon_mesh_processing::volume(shell.surface));
+        result.volume += shell.volume;
     }
+    result.components = components.count();
     result.closed_components = shells.size();
     result.closed = result.components > 0 && shells.size() == result.components;
     result.outward = result.closed && result.inverted_components == 0;
     result.bounds_volume = result.outward && result.self_intersections == 0;
     return result;
+}
+
+std::uint64_t audit_memory(std::uint64_t positions, std::uint64_t triangles) noexcept {
+    const std::uint64_t list = triangles * sizeof(Triangle);
+    const std::uint64_t component = triangles * sizeof(Index), sound = triangles;
+    return list + std::max(components_memory(positions, triangles),
+                           component + sound + TriangleTree::memory(triangles));
 }
 
 } // namespace bake

@@ -32,6 +32,9 @@ struct MeshAudit {
     std::size_t nested_components = 0;   ///< closed ones inside an odd number of others: walls of cavities
 };
 
+/// Memory that audit() takes at most, with the triangles; 0 in a build without CGAL.
+std::uint64_t audit_memory(std::uint64_t positions, std::uint64_t triangles) noexcept;
+
 /// The result does not depend on the number of threads.
 MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles);
 

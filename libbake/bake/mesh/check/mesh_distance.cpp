@@ -1,5 +1,6 @@
 #include "bake/mesh/check/mesh_distance.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/check/hausdorff_bound.h"
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,7 @@ void add_angle(std::vector<Weighted>& to, const Vec3d& a, const Vec3d& b, double
 NormalDeviation deviation(std::vector<Weighted> angles) {
     NormalDeviation d;
     std::sort(angles.begin(), angles.end(), [](const Weighted& a, const Weighted& b) {
+        throw_if_interrupted();
         return a.value != b.value ? a.value < b.value : a.weight < b.weight;
     });
     double total = 0, sum = 0, below = 0;
@@ -97,7 +99,8 @@ void sample(const MeshWithTree& a, const MeshWithTree& b, double wanted, std::ui
     const double area = glm::length(normal) / 2;
     const int n = segments(area, wanted);
     const double weight = area / (double(n) * n);
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i) {
+        throw_if_interrupted(); // a large triangle has millions of samples
         for (int j = 0; j < 2 * (n - i) - 1; ++j) { // upright and inverted ones alternate
             const double third = j % 2 ? 2.0 / 3 : 1.0 / 3, b1 = (j / 2 + third) / n, b2 = (i + third) / n;
             const Vec3d p = p0 + b1 * e1 + b2 * e2;
@@ -110,6 +113,7 @@ void sample(const MeshWithTree& a, const MeshWithTree& b, double wanted, std::ui
             add_angle(to.shading, shading_normal(a, place, b1, b2),
                       shading_normal(b, found.triangle, found.b1, found.b2), weight);
         }
+    }
     to.area += area;
 }
 
@@ -117,6 +121,7 @@ Sampled sample_all(const MeshWithTree& a, const MeshWithTree& b, std::size_t sam
     double area = 0;
     std::vector<std::uint32_t> owner(a.mesh.positions.size(), no_index); // the first triangle that uses each position
     for (std::uint32_t place = 0; place < a.tree.size(); ++place) {
+        if (place % 65536 == 0) throw_if_interrupted();
         area += glm::length(facet_normal(a.tree, place)) / 2;
         for (int k = 0; k < 3; ++k) {
             std::uint32_t& first = owner[position_of(a, place, k)];

@@ -1,4 +1,5 @@
 #include "bake/mesh/check/overlay_bound.h"
+#include "bake/base/progress.h"
 #include <algorithm>
 #include <cmath>
 
@@ -77,6 +78,7 @@ using Corners = std::array<Vec3d, 3>;
 
 bool covered(const TriangleTree& other, const Corners& p, const std::array<std::uint32_t, 4>& first,
              const Vec3d& normal, double limit2, OverlayBuffers& buffers, int depth) {
+    throw_if_interrupted();
     Vec3d low = p[0], high = p[0];
     for (int k = 0; k < 3; ++k) {
         low[k] = std::min({p[0][k], p[1][k], p[2][k]});

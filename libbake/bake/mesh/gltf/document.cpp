@@ -1,5 +1,6 @@
 #include "bake/mesh/gltf/document.h"
 #include "bake/base/error.h"
+#include "bake/base/memory.h"
 #include "bake/base/progress.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/extensions.h"
@@ -306,8 +307,8 @@ void read_image(const json& object, std::size_t i, const std::string& path, Gltf
 } // namespace
 
 void refuse_unless_fits(const std::string& path, const std::string& what, double bytes) {
-    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (bytes > memory) throw Error(Refusal::unsuitable, path + ": " + what + ", more than fit here; split the scene");
+    if (bytes > double(memory_limit().bytes))
+        throw Error(Refusal::unsuitable, path + ": " + what + ", more than fit here; split the scene");
 }
 
 GltfDocument read_gltf_document(const std::string& path) {

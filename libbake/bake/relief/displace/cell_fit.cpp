@@ -83,8 +83,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
         places_.push_back(place);
         in_cell_.push_back(in_cell * samples);
     });
-    const auto at = patch_.points(cells_.patch(cell), places_);
-    points_.assign(at.begin(), at.end());
+    patch_.points(cells_.patch(cell), places_, points_);
 
     Misfit out;
     const double error2 = error * error;

@@ -16,12 +16,13 @@ struct CellSamples {
         for (std::uint32_t j = 0; j <= up; ++j)
             for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i)
                 st.push_back(cells.at(cell, i, across, j, up));
-        const auto points = patch.points(cells.patch(cell), st);
-        at.assign(std::size_t(across + 1) * (up + 1), Vec3d(0));
-        std::size_t next = 0;
-        for (std::uint32_t j = 0; j <= up; ++j)
-            for (std::uint32_t i = 0; i <= (quad ? across : across - j); ++i)
-                at[std::size_t(j) * (across + 1) + i] = points[next++];
+        patch.points(cells.patch(cell), st, at);
+        if (quad) return;
+        // The rows of a triangle move apart, the last one first.
+        std::size_t next = at.size();
+        at.resize(std::size_t(across + 1) * (up + 1), Vec3d(0));
+        for (std::uint32_t j = up + 1; j-- > 0;)
+            for (std::uint32_t i = across - j + 1; i-- > 0;) at[std::size_t(j) * (across + 1) + i] = at[--next];
     }
     const Vec3d& operator()(std::uint32_t i, std::uint32_t j) const noexcept {
         return at[std::size_t(j) * (across + 1) + i];

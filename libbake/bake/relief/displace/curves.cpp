@@ -25,8 +25,9 @@ std::vector<Vec3d> along(DisplacedPatch& patch, std::uint32_t number, const Vec2
                          std::uint32_t count) {
     std::vector<Vec2d> st(count + 1);
     for (std::uint32_t k = 0; k <= count; ++k) st[k] = glm::mix(from, to, double(k) / count);
-    const auto at = patch.points(number, st);
-    return {at.begin(), at.end()};
+    std::vector<Vec3d> curve;
+    patch.points(number, st, curve);
+    return curve;
 }
 
 double texels_along(DisplacedPatch& patch, std::uint32_t number, const Vec2d& from, const Vec2d& to) {

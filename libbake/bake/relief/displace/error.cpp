@@ -1,8 +1,16 @@
 #include "bake/relief/displace/error.h"
+#include "bake/base/progress.h"
 
 namespace bake {
 
+namespace {
+
+constexpr std::size_t batch = 4096;
+
+}
+
 std::span<const Vec3d> DisplacedPatch::points(std::uint32_t patch, std::span<const Vec2d> st) {
+    throw_if_interrupted();
     if (base_.size() < st.size()) base_.resize(st.size()), values_.resize(st.size()), points_.resize(st.size());
     surface_->base().evaluate(patch, st, {base_.data(), st.size()});
     surface_->values(patch, st, {base_.data(), st.size()}, {values_.data(), st.size()});
@@ -11,6 +19,14 @@ std::span<const Vec3d> DisplacedPatch::points(std::uint32_t patch, std::span<con
         points_[i] = base_[i].jet.p + surface_->displacement(base_[i], values_[i]);
     }
     return {points_.data(), st.size()};
+}
+
+void DisplacedPatch::points(std::uint32_t patch, std::span<const Vec2d> st, std::vector<Vec3d>& out) {
+    out.resize(st.size());
+    for (std::size_t done = 0; done < st.size(); done += batch) {
+        const auto some = points(patch, st.subspan(done, std::min(batch, st.size() - done)));
+        std::copy(some.begin(), some.end(), out.begin() + std::int64_t(done));
+    }
 }
 
 double distance_to_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept {
@@ -44,8 +60,6 @@ double distance_to_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, cons
 }
 
 namespace {
-
-constexpr std::size_t batch = 4096;
 
 /// Compares faces with the surface, in batches.
 class Comparison {
@@ -138,6 +152,7 @@ private:
 CellError cell_error(DisplacedPatch& patch, const PatchCells& cells, std::uint32_t cell, const PatchRates& r,
                      double enough) {
     std::vector<Vec2d> places;
+    places.reserve(std::size_t(inner_points(r)) + r.side[0] + r.side[1] + r.side[2] + (r.sides == 4 ? r.side[3] : 0));
     CellRing border;
     const std::uint32_t inside =
         border.number(cells, cell, r, [&](const Vec2d& place, const Vec2d&) { places.push_back(place); });

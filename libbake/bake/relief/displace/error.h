@@ -13,8 +13,10 @@ namespace bake {
 class DisplacedPatch {
 public:
     DisplacedPatch(const ReliefSurface& surface, const SeamBlend& blend) : surface_(&surface), blend_(&blend) {}
-    /// One point per parameter; valid until the next call, as is base().
+    /// One point per parameter; valid until the next call, as is base(). Ctrl-C comes out as Error{Refusal::interrupted}.
     std::span<const Vec3d> points(std::uint32_t patch, std::span<const Vec2d> st);
+    /// The same for any number of parameters, in batches, without base().
+    void points(std::uint32_t patch, std::span<const Vec2d> st, std::vector<Vec3d>& out);
     std::span<const SurfacePoint> base() const noexcept { return base_; }
     const ReliefSurface& surface() const noexcept { return *surface_; }
 

@@ -1,6 +1,7 @@
 #include "bake/relief/displace/rates.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/relief/displace/curves.h"
 
 namespace bake {
@@ -15,7 +16,7 @@ void cut_poles_as_cells(const PatchComplex& complex, CellRates& rates) {
 RatePlan uniform_rates(const BaseSurface& base, int levels) {
     if (levels < 0 || levels > 14)
         throw Error(Refusal::usage, "`rates.levels`: " + std::to_string(levels) + " is out of range; take 0 to 14");
-    return {PatchCells(base, 1), {.uniform = 1u << levels}};
+    return {PatchCells(base, 1), {.uniform = 1u << levels}, 1};
 }
 
 namespace {
@@ -62,7 +63,7 @@ std::uint32_t split_by_size(const ReliefSurface& surface, const SeamBlend& blend
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
     if (!(rates.size > 0)) throw Error(Refusal::usage, "`rates.size`: must be above 0; take a positive length");
     constexpr std::int64_t edges_per_job = 64, cells_per_job = 16;
-    RatePlan plan{PatchCells(surface.base(), split_by_size(surface, blend, rates)), {}};
+    RatePlan plan{PatchCells(surface.base(), split_by_size(surface, blend, rates)), {}, 1};
     const PatchCells& cells = plan.cells;
     const PatchComplex& complex = cells.complex();
     const std::vector<std::uint32_t> owner = edge_owners(complex);
@@ -96,14 +97,18 @@ RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, con
     return plan;
 }
 
-CellError plan_error(const ReliefSurface& surface, const SeamBlend& blend, const RatePlan& plan) {
+CellError plan_error(const ReliefSurface& surface, const SeamBlend& blend, const RatePlan& plan, Progress* progress) {
     const PatchCells& cells = plan.cells;
     std::vector<CellError> errors(cells.count());
-    for_rows(cells.count(), 1, [&](std::int64_t begin, std::int64_t end) {
-        DisplacedPatch patch(surface, blend);
-        for (auto c = std::uint32_t(begin); c < end; ++c)
-            errors[c] = cell_error(patch, cells, c, rates_of_cell(cells, plan.rates, c), HUGE_VAL);
-    });
+    if (progress) progress->start("measure", cells.count());
+    for_rows(
+        cells.count(), 1,
+        [&](std::int64_t begin, std::int64_t end) {
+            DisplacedPatch patch(surface, blend);
+            for (auto c = std::uint32_t(begin); c < end; ++c)
+                errors[c] = cell_error(patch, cells, c, rates_of_cell(cells, plan.rates, c), HUGE_VAL);
+        },
+        progress);
     CellError total;
     for (const CellError& e : errors) {
         total.inside = std::max(total.inside, e.inside), total.border = std::max(total.border, e.border);

@@ -5,9 +5,12 @@
 
 namespace bake {
 
+class Progress;
+
 struct RatePlan {
     PatchCells cells;
     CellRates rates;
+    std::uint32_t searched = 1; ///< the most cells along a patch that a search for the rates has tried
 };
 
 /// 2^levels everywhere. Throws Error{Refusal::usage} beyond 0 to 14.
@@ -16,15 +19,22 @@ RatePlan uniform_rates(const BaseSurface& base, int levels);
 /// Segments no longer than rates.size. Quads measure the two lines through their middle, triangles take the finest side.
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates);
 
+/// Called with what a search for rates is about to take: so many cells along each patch, and with the least number of
+/// triangles of the result. Throws if that is too much.
+using CheckSearch = std::function<void(std::uint32_t split, double triangles)>;
+
 /// Edges and lattices within an error of the displaced surface. Edges come first, each from its own points, then lattices;
 /// edges that turn out to be too coarse for the cells beside them are refined, and those cells are fitted again.
-RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates);
+RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates,
+                        const CheckSearch& check, Progress* progress);
 
 /// The measured error of a plan.
-CellError plan_error(const ReliefSurface& surface, const SeamBlend& blend, const RatePlan& plan);
+CellError plan_error(const ReliefSurface& surface, const SeamBlend& blend, const RatePlan& plan,
+                     Progress* progress = nullptr);
 
 /// Triangles of the coarsest uniform rate whose measured error is at most `error`; 0 if `most` segments are not enough.
-std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most);
+std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most,
+                                Progress* progress = nullptr);
 
 /// Gives sides without length the rate of the lattice beside them, so that the faces at a pole are triangles, each of one
 /// segment of the pole.

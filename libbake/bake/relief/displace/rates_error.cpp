@@ -1,7 +1,7 @@
 // Rates by error: each edge by its own points, each cell by its lattice (cell_fit.h). The size of the cells is the one that
 // needs the fewest triangles.
-#include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/relief/displace/cell_fit.h"
 #include "bake/relief/displace/curves.h"
 #include "bake/relief/displace/rates.h"
@@ -53,12 +53,13 @@ std::uint64_t triangles_of(const PatchRates& r) noexcept {
 
 /// The rate of each edge from its own points alone; at seams and creases from the points of every side.
 std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells,
-                                      double error, std::uint32_t most) {
+                                      double error, std::uint32_t most, Progress* progress) {
+    if (progress) progress->start("edges", cells.complex().edges);
     const PatchComplex& complex = cells.complex();
     const std::vector<std::uint32_t> owner = edge_owners(complex);
     const JunctionTable& junctions = cells.junctions().edges;
     std::vector<std::uint16_t> rates(complex.edges, 1);
-    for_rows(complex.edges, 64, [&](std::int64_t begin, std::int64_t end) {
+    const auto fit_edges = [&](std::int64_t begin, std::int64_t end) {
         DisplacedPatch patch(surface, blend);
         for (auto e = std::uint32_t(begin); e < end; ++e) {
             const auto consider = [&](std::uint32_t cell, int side) {
@@ -73,7 +74,8 @@ std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBl
                 for (const JunctionSide& s : junctions.sides_of(*j)) consider(s.patch, s.corner_or_side);
             else if (owner[e] != no_index) consider(owner[e] / 4, int(owner[e] % 4));
         }
-    });
+    };
+    for_rows(complex.edges, 64, fit_edges, progress);
     return rates;
 }
 
@@ -83,12 +85,13 @@ constexpr float first_aim = 0.85f;
 /// Plans rates for a given number of cells per patch, in two steps: fitted to samples, then corrected by measuring.
 class Planner {
 public:
-    Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split)
-        : surface_(surface), blend_(blend), error_(rates.error), plan_{PatchCells(surface.base(), split), {}},
+    Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split,
+            Progress* progress)
+        : surface_(surface), blend_(blend), progress_(progress), error_(rates.error), plan_{PatchCells(surface.base(), split), {}, split},
           aim_(plan_.cells.count(), first_aim), fitted_(plan_.cells.count(), Vec2f(0)) {
         const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
         most_ = std::clamp(4 * limit / split, 1u, limit);
-        plan_.rates.edge = edge_rates(surface, blend, plan_.cells, first_aim * error_, most_);
+        plan_.rates.edge = edge_rates(surface, blend, plan_.cells, first_aim * error_, most_, progress);
         plan_.rates.across.assign(plan_.cells.count(), 1), plan_.rates.up.assign(plan_.cells.count(), 1);
         changed_ = fit(std::vector<bool>(plan_.cells.count(), true), 1);
     }
@@ -109,10 +112,8 @@ public:
         for (int round = 1;; ++round) {
             cut_poles_as_cells(plan_.cells.complex(), plan_.rates);
             std::vector<char> failed(plan_.cells.count(), 0);
-            for_rows(plan_.cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-                CellFitter fitter(surface_, blend_, plan_.cells);
-                for (auto c = std::uint32_t(begin); c < end; ++c)
-                    if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(plan_.cells, plan_.rates, c)) > error_;
+            each_cell("check", [&](CellFitter& fitter, std::uint32_t c) {
+                if (changed_[c]) failed[c] = fitter.error(c, rates_of_cell(plan_.cells, plan_.rates, c)) > error_;
             });
             std::vector<bool> wanted(plan_.cells.count());
             for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) wanted[c] = failed[c] && has_room(c);
@@ -129,6 +130,18 @@ public:
     }
 
 private:
+    /// Calls visit(fitter, cell) for every cell, on all threads, under a name for the progress.
+    template <class Visit> void each_cell(const char* step, const Visit& visit) {
+        if (progress_) progress_->start(step, plan_.cells.count());
+        for_rows(
+            plan_.cells.count(), cells_per_job,
+            [&](std::int64_t begin, std::int64_t end) {
+                CellFitter fitter(surface_, blend_, plan_.cells);
+                for (auto c = std::uint32_t(begin); c < end; ++c) visit(fitter, c);
+            },
+            progress_);
+    }
+
     bool has_room(std::uint32_t c) const { return plan_.rates.across[c] < most_ || plan_.rates.up[c] < most_; }
 
     /// Fits these cells, and cells beside edges that change by it. Returns all cells that were fitted or changed.
@@ -137,20 +150,16 @@ private:
         std::vector<bool> changed = now;
         for (;;) {
             std::vector<char> too_coarse(plan_.cells.count(), 0);
-            for_rows(plan_.cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-                CellFitter fitter(surface_, blend_, plan_.cells);
-                for (auto c = std::uint32_t(begin); c < end; ++c) {
-                    if (!now[c]) continue;
-                    PatchRates start{
-                        .sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
-                    for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
-                    const CellFitter::Fit found =
-                        fitter.fit(c, start, aim_[c] * error_, most_, glm::max(Vec2d(density), Vec2d(fitted_[c])),
-                                   fitted_[c].x > 0);
-                    plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
-                    fitted_[c] = Vec2f(found.density);
-                    too_coarse[c] = found.sides_too_coarse;
-                }
+            each_cell("fit", [&](CellFitter& fitter, std::uint32_t c) {
+                if (!now[c]) return;
+                PatchRates start{
+                    .sides = complex.patches[c].sides(), .across = plan_.rates.across[c], .up = plan_.rates.up[c]};
+                for (int i = 0; i < start.sides; ++i) start.side[i] = plan_.rates.edge[complex.patches[c].edge[i]];
+                const CellFitter::Fit found = fitter.fit(c, start, aim_[c] * error_, most_,
+                                                         glm::max(Vec2d(density), Vec2d(fitted_[c])), fitted_[c].x > 0);
+                plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
+                fitted_[c] = Vec2f(found.density);
+                too_coarse[c] = found.sides_too_coarse;
             });
             std::vector<std::uint16_t> finer(plan_.rates.edge);
             for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) {
@@ -175,6 +184,7 @@ private:
 
     const ReliefSurface& surface_;
     const SeamBlend& blend_;
+    Progress* progress_;
     double error_;
     RatePlan plan_;
     std::uint32_t most_;        ///< segments of a cell
@@ -185,38 +195,47 @@ private:
 
 } // namespace
 
-RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates) {
-    if (!(rates.error > 0))
-        throw Error(Refusal::usage, "`rates.error`: must be above 0; take a length in object units");
+RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates,
+                        const CheckSearch& check, Progress* progress) {
     // Smaller cells follow the relief better, but each costs at least one face: halve them while the total falls.
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
     std::uint32_t split =
         choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
-    auto best = std::make_unique<Planner>(surface, blend, rates, split);
+    check(split, 0);
+    auto best = std::make_unique<Planner>(surface, blend, rates, split, progress);
     while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
         split *= 2;
-        auto next = std::make_unique<Planner>(surface, blend, rates, split);
+        check(split, 0);
+        auto next = std::make_unique<Planner>(surface, blend, rates, split, progress);
         if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles())
             break;
         best = std::move(next);
     }
-    return best->finish();
+    check(split, double(best->triangles())); // only grows from here
+    RatePlan plan = best->finish();
+    plan.searched = split;
+    return plan;
 }
 
-std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most) {
+std::uint64_t uniform_triangles(const ReliefSurface& surface, const SeamBlend& blend, double error, int most,
+                                Progress* progress) {
     // A patch of uniform rate is treated as cells of about 32 segments each. The edges give a lower bound of the rate.
     const PatchComplex& complex = surface.base().complex();
     const std::uint32_t split = std::max(1u, choose_split(surface, blend, error, std::uint32_t(most)) / 4);
     const PatchCells cells(surface.base(), split);
     const auto limit = std::max(1u, std::uint32_t(most) / split);
-    const std::vector<std::uint16_t> edges = edge_rates(surface, blend, cells, error, limit);
+    const std::vector<std::uint16_t> edges = edge_rates(surface, blend, cells, error, limit, progress);
     const std::uint32_t least = edges.empty() ? 1 : *std::max_element(edges.begin(), edges.end());
     if (least >= limit) return 0;
     std::vector<std::uint32_t> need(cells.count());
-    for_rows(cells.count(), cells_per_job, [&](std::int64_t begin, std::int64_t end) {
-        CellFitter fitter(surface, blend, cells);
-        for (auto c = std::uint32_t(begin); c < end; ++c) need[c] = fitter.uniform(c, least, error, limit);
-    });
+    if (progress) progress->start("compare", cells.count());
+    for_rows(
+        cells.count(), cells_per_job,
+        [&](std::int64_t begin, std::int64_t end) {
+            CellFitter fitter(surface, blend, cells);
+            for (auto c = std::uint32_t(begin); c < end; ++c) need[c] = fitter.uniform(c, least, error, limit);
+        },
+        progress);
     const std::uint32_t rate = *std::max_element(need.begin(), need.end());
     if (rate >= limit) return 0;
     const std::uint64_t high = std::uint64_t(rate) * split;

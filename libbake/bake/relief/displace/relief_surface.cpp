@@ -34,6 +34,15 @@ ReliefSurface::ReliefSurface(const BaseSurface& base, const Relief& relief, bool
     for (int c = 0; c < 3; ++c) channels_.emplace_back(channel(relief.values, c), relief.interpolation, relief.height);
 }
 
+SamplerMemory sampler_memory(const Relief& relief) noexcept {
+    const Image<float>& values = relief.values;
+    const std::uint64_t one = std::uint64_t(values.width() + 4) * std::uint64_t(values.height() + 4) * sizeof(float);
+    // A spline passes through two images on its way.
+    const std::uint64_t passing = relief.interpolation == Interpolation::c2 ? 2 * one : one;
+    if (!relief.vector) return {one, one + passing};
+    return {3 * one, 4 * one + passing}; // with a copy of the channel
+}
+
 Vec3d ReliefSurface::vector(const SurfacePoint& point) const noexcept {
     Vec3d v;
     for (int c = 0; c < 3; ++c) v[c] = channels_[c].sample(point.uv.x, point.uv.y).b;

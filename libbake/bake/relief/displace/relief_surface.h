@@ -64,6 +64,12 @@ private:
     std::vector<HeightSampler<float>> channels_; ///< one, or three
 };
 
+/// Memory of the samplers of a relief: what they keep, and the most that making them takes.
+struct SamplerMemory {
+    std::uint64_t kept = 0, most = 0;
+};
+SamplerMemory sampler_memory(const Relief& relief) noexcept;
+
 /// The value of a height: b and its slopes along the parameters of the jet.
 inline ReliefValue along_normal(const SurfacePoint& point, const Height<double>& h) noexcept {
     return {{h.b, 0, 0},

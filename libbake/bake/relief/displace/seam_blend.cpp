@@ -1,4 +1,5 @@
 #include "bake/relief/displace/seam_blend.h"
+#include "bake/base/progress.h"
 #include "bake/relief/displace/shared_value.h"
 #include "bake/surface/patch/patch_domain.h"
 #include <glm/mat3x3.hpp>
@@ -97,6 +98,7 @@ void SeamBlend::correct_corners(const ReliefSurface& surface, const JunctionTabl
     const PatchComplex& complex = surface.base().complex();
     std::vector<SideView> views;
     for (const Junction& j : vertices.junctions) {
+        throw_if_interrupted();
         if (!differ(surface, j)) continue;
         const std::span<const JunctionSide> sides = vertices.sides_of(j);
         views.resize(sides.size());
@@ -115,6 +117,7 @@ void SeamBlend::correct_corners(const ReliefSurface& surface, const JunctionTabl
 void SeamBlend::correct_sides(const ReliefSurface& surface, const JunctionTable& edges) {
     std::vector<SideView> views;
     for (const Junction& j : edges.junctions) {
+        throw_if_interrupted();
         if (!differ(surface, j)) continue;
         const std::span<const JunctionSide> sides = edges.sides_of(j);
         std::uint32_t count = 2;
@@ -143,6 +146,7 @@ void SeamBlend::correct_poles(const ReliefSurface& surface) {
     for (std::uint32_t p = 0; p < complex.patches.size(); ++p)
         for (int i = 0; i < complex.patches[p].sides(); ++i) {
             if (!is_point(complex.patches[p], i)) continue;
+            throw_if_interrupted();
             const std::vector<SideView> along = views_along(surface, p, i, false, samples_along(surface, p, i));
             Patch& patch = patch_at_seam(surface, p);
             const Vec3d shared = along.front().value.at + patch.corner[i];
@@ -158,6 +162,11 @@ SeamBlend::SeamBlend(const ReliefSurface& surface) : components_(surface.values_
     correct_corners(surface, vertices);
     correct_sides(surface, edges);
     correct_poles(surface);
+}
+
+std::uint64_t SeamBlend::bytes() const noexcept {
+    return of_.capacity() * sizeof(std::uint32_t) + patches_.capacity() * sizeof(Patch) +
+           nodes_.capacity() * sizeof(double);
 }
 
 SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end) {

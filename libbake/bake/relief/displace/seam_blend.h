@@ -19,6 +19,7 @@ public:
 
     /// Whether a patch has a correction.
     bool touches(std::uint32_t patch) const noexcept { return !of_.empty() && of_[patch] != no_index; }
+    std::uint64_t bytes() const noexcept;
     /// Adds the correction to the value at a point; only for patches that have one.
     void add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point, ReliefValue& value) const noexcept;
 

@@ -4,6 +4,7 @@
 #include "bake/relief/height/height.h"
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace bake {
 
@@ -46,17 +47,26 @@ struct Rates {
         1024; ///< largest number of segments of an edge; by error up to four times as many where only a part needs it
 };
 
+/// The size of the result, known before the work: exact but for bytes.
+struct DisplaceCount {
+    std::uint64_t points = 0, normals = 0, uvs = 0, faces = 0, corners = 0;
+    std::uint64_t bytes = 0; ///< resident memory at its peak, with DisplaceOptions::taken and later
+};
+
+/// Work of the caller on the result, such as writing it.
+struct LaterStep {
+    std::string option; ///< that asks for it, to name in a refusal; empty: it is always done
+    std::function<std::uint64_t(const DisplaceCount&)> bytes; ///< what it takes in memory beside the result
+};
+
 struct DisplaceOptions {
     Rates rates;
     Seam seam = Seam::blend;
-    std::uint64_t max_bytes = 0; ///< largest result that is not refused; 0: the memory of the machine
-    bool measure_error = false;  ///< fill report.error: distance of the result from the displaced surface
-    bool margin = false;         ///< fill Displaced::margin
-};
-
-/// The size of the result, known before the work: exact for points and faces, a close upper bound for bytes.
-struct DisplaceCount {
-    std::uint64_t points = 0, faces = 0, corners = 0, bytes = 0;
+    std::uint64_t max_bytes = 0;  ///< memory that may be taken; 0: memory_limit()
+    std::uint64_t taken = 0;      ///< of that, what is taken before the call, base and relief included
+    std::vector<LaterStep> later; ///< one after the other
+    bool measure_error = false;   ///< fill report.error: distance of the result from the displaced surface
+    bool margin = false;          ///< fill Displaced::margin
 };
 
 struct DisplaceReport {

@@ -1,4 +1,5 @@
 #include "bake/surface/patch/junctions.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/topology.h"
 #include <algorithm>
 
@@ -110,7 +111,10 @@ JunctionTable vertex_table(const PatchComplex& complex) {
                 of[patch.vertex[i]] = of[patch.vertex[(i + 1) % patch.sides()]] = 0;
     JunctionTable table =
         gather(complex, std::move(of), [](const PatchComplex::Patch& p, int i) { return p.vertex[i]; });
-    for (Junction& j : table.junctions) group_around_vertex(complex, table, j);
+    for (Junction& j : table.junctions) {
+        throw_if_interrupted();
+        group_around_vertex(complex, table, j);
+    }
     return table;
 }
 

@@ -1,5 +1,6 @@
 #include "bake/surface/patch/patch_complex.h"
 #include "bake/base/parallel.h"
+#include "bake/base/progress.h"
 #include "bake/mesh/topology.h"
 #include <algorithm>
 #include <utility>
@@ -68,13 +69,15 @@ void find_seams(PatchComplex& complex, const EdgeTable& edges, const Rim& rim, b
 void find_sharp_vertices(PatchComplex& complex, const Rim& rim) {
     complex.sharp_vertex.assign(complex.vertices, false);
     std::vector<Vec3f> first(complex.vertices, Vec3f(0));
-    for (std::uint32_t i = 0; i < complex.patches.size(); ++i)
+    for (std::uint32_t i = 0; i < complex.patches.size(); ++i) {
+        if (i % 65536 == 0) throw_if_interrupted();
         for (int k = 0; k < complex.patches[i].sides(); ++k) {
             const std::uint32_t v = complex.patches[i].vertex[k];
             const Vec3f n = rim(i, k).n;
             if (first[v] == Vec3f(0)) first[v] = n;
             else if (normals_differ(first[v], n)) complex.sharp_vertex[v] = true;
         }
+    }
 }
 
 } // namespace
