@@ -27,7 +27,8 @@ std::uint64_t result_bytes(const DisplaceCount& c, const Mesh& base, bool margin
 
 /// Cells that are not the patches of the base, and the tables of the layout.
 std::uint64_t plan_bytes(const Plan& plan) noexcept {
-    const auto& [cells, rates] = plan.rates;
+    const PatchCells& cells = plan.rates.cells;
+    const CellRates& rates = plan.rates.rates;
     const PatchLayout& l = plan.layout;
     std::uint64_t bytes =
         bytes_of(rates.edge) + bytes_of(rates.across) + bytes_of(rates.up) + bytes_of(l.edge_owner, l.vertex_owner) +
