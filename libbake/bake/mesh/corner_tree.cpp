@@ -15,10 +15,11 @@ bool is_right_of(const CornerBox& box, const Vec2d& a, const Vec2d& b) noexcept 
 
 EarRegion::EarRegion(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept : a_(a), b_(b), c_(c) {
     near_ = {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+    const double size = std::max(near_.max.x - near_.min.x, near_.max.y - near_.min.y);
+    flat_ = !(signed_area(a, b, c) > 1e-8 * size * size);
     // The computed areas of a triangle without width are rounding errors, and contains() may be true anywhere on its line.
     // The margin of others is far above these errors.
-    const double size = std::max(near_.max.x - near_.min.x, near_.max.y - near_.min.y);
-    const double margin = signed_area(a, b, c) > 1e-7 * size * size ? 1e-6 * size : std::numeric_limits<double>::max();
+    const double margin = flat_ ? std::numeric_limits<double>::max() : 1e-6 * size;
     near_.min -= margin;
     near_.max += margin;
 }

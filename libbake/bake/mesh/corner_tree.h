@@ -26,18 +26,22 @@ public:
     bool contains(const Vec2d& p) const noexcept {
         return signed_area(a_, b_, p) >= 0 && signed_area(b_, c_, p) >= 0 && signed_area(c_, a_, p) >= 0;
     }
+    /// True if the triangle has no width but for rounding: its area says little about what lies in it.
+    bool is_flat() const noexcept { return flat_; }
     /// True if contains() is false for all points of the box, or if all of them are a or c.
     bool misses(const CornerBox& box) const noexcept;
 
 private:
     Vec2d a_, b_, c_;
     CornerBox near_; ///< contains() is false outside
+    bool flat_;
 };
 
 class CornerTree {
 public:
     /// Over `corners`, each below points.size(). Throws Error{Refusal::interrupted} on Ctrl-C.
     void reset(std::span<const Vec2d> points, std::span<const std::uint32_t> corners);
+    std::size_t size() const noexcept { return nodes_[1].corners; }
     /// `corner` is in the tree.
     void remove(std::uint32_t corner) noexcept;
 

@@ -57,17 +57,23 @@ void stop_blocking(EarPolygon& g, std::uint32_t i) {
     release(g, 2 * i + 1);
 }
 
+/// Of many corners on a straight side, half are convex by rounding, and all others lie on the line of their triangles: from
+/// this number of blockers on, such triangles are cut without a search.
+constexpr std::size_t many_blockers = 256;
+
 /// Whether the polygon stays simple without corner i, which is convex. If it does not, the corner waits.
 bool is_ear(EarPolygon& g, std::uint32_t i) {
     const std::uint32_t before = g.before[i], after = g.after[i];
     const Vec2d a = g.points[before], b = g.points[i], c = g.points[after];
     const EarRegion ear(a, b, c);
+    if (ear.is_flat() && g.blockers.size() > many_blockers) return true;
     bool coincides = false;
     const std::uint32_t blocker = g.blockers.find(ear, i, g.steps, [&](std::uint32_t k) {
         const Vec2d& p = g.points[k];
         // Where the polygon touches itself, as at the bridge to a hole, two corners coincide.
         if (k == before || k == after || p == a || p == c) return false;
         coincides = p == b;
+        g.coinciding += coincides;
         if (coincides) return starts_inside(g, i, g.points[g.before[k]]) || starts_inside(g, i, g.points[g.after[k]]);
         return ear.contains(p);
     });
@@ -113,7 +119,7 @@ void cut_spikes(EarPolygon& g, EarTriangle*& out) {
 
 void start(EarPolygon& g) {
     const auto n = std::uint32_t(g.points.size());
-    g.steps = 0;
+    g.steps = g.coinciding = 0;
     g.left = n;
     g.before.resize(n), g.after.resize(n), g.convex.resize(n), g.blocks.resize(n);
     g.gone.assign(n, 0);
@@ -138,12 +144,15 @@ void start(EarPolygon& g) {
     for (std::uint32_t i = n; i > 0; --i) g.suspects.push_back(i - 1);
 }
 
-/// Many times what polygons without crossings take.
-std::size_t most_steps(const EarPolygon& g) noexcept { return 10000 + 1000 * g.points.size(); }
+/// Many times what polygons without crossings take. At most two of their corners at one place are blockers.
+bool takes_too_long(const EarPolygon& g) noexcept {
+    const double n = double(g.points.size());
+    return double(g.steps) > 10000 + n * (2000 + std::sqrt(n)) || double(g.coinciding) > 10000 + 100 * n;
+}
 
 void cut_ears(EarPolygon& g, EarTriangle*& out) {
     std::uint32_t looked_at = 0;
-    for (std::uint32_t i = 0; g.left > 3 && g.steps < most_steps(g);) {
+    for (std::uint32_t i = 0; g.left > 3 && !takes_too_long(g);) {
         if (++looked_at % 1024 == 0) throw_if_interrupted();
         while (g.gone[i]) i = g.after[i];
         const std::uint32_t next = g.candidates.next(i);

@@ -13,8 +13,9 @@ namespace bake {
 /// in its triangle: it is looked at again when that blocker is removed or becomes convex, or when a neighbour of its own
 /// is cut. Without that, each round through the polygon would look at all corners to find a few ears.
 struct EarPolygon {
-    std::vector<Vec2d> points; ///< counter-clockwise, at least three
-    std::size_t steps = 0;     ///< corners and nodes of the search tree that the last call visited
+    std::vector<Vec2d> points;  ///< counter-clockwise, at least three
+    std::size_t steps = 0;      ///< corners and nodes of the search tree that the last call visited
+    std::size_t coinciding = 0; ///< of these the corners that coincide with the one for which they were visited
 
     std::uint32_t left = 0;                   ///< corners that are not cut
     std::vector<std::uint32_t> before, after; ///< neighbours of each remaining corner
