@@ -278,6 +278,10 @@ TEST_SUITE("cli") {
         refused(folder, "wide.tif --roughness 1 -o a_%s.tif", 2, "--specular");
         refused(folder, "wide.tif --specular ggx --roughness 0.1,x -o a_%s.tif", 2, "--roughness");
         refused(folder, "wide.tif --specular ggx --roughness 2 -o a_%s.tif", 2, "roughness");
+        refused(folder, "wide.tif --specular ggx --roughness 0,0.1,0.2 --size 2 -o a_%s.tif", 2,
+                "3 levels are more than the 2");
+        refused(folder, "wide.tif --specular ggx --roughness 0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9,1,1 -o a_%s.tif", 2,
+                "12 levels are more than");
         refused(folder, "wide.tif --mips --to hcross -o a.tif", 2, "a.tif");
         refused(folder, "wide.tif --size 5 --to latlong -o a.tif", 2, "--size");
         refused(folder, "--capture scene.toml -o a.tif", 2, "--at");

@@ -86,11 +86,12 @@ void check_output(const CubemapArgs& args) {
         OutputFile{file};
     }
     complete_target(target, 512);
+    const int edge = wanted_edge(target);
     check_levels(target,
-                 args.wanted_specular ? args.wanted_specular->roughness.size()
-                 : args.mips          ? 2
-                                      : 1,
-                 wanted_edge(target));
+                 args.wanted_specular     ? args.wanted_specular->roughness.size()
+                 : args.mips && edge != 1 ? 2
+                                          : 1,
+                 edge);
 }
 
 int run_cubemap(CubemapArgs args, const CommonArgs& common) {
@@ -113,8 +114,9 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     nlohmann::json json = cubemap_json(args, report, written, sky.channels());
     json["notes"] = notes;
     print_result(common,
-                 format("%s: %s, %d x %d%s%s; ", args.target.file.c_str(), name(written.target.to), written.width,
-                        written.height, written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
+                 format("%s: %s, %d x %d%s%s; ", printable(args.target.file).c_str(), name(written.target.to),
+                        written.width, written.height,
+                        written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
                         seam_text(report).c_str()),
                  json, watch);
     return 0;

@@ -21,7 +21,7 @@ inline Vec2f uv_at(const Mesh& mesh, std::uint32_t corner) noexcept {
     return i == no_index ? Vec2f(0) : mesh.uvs[i];
 }
 
-/// Throws Error{Refusal::unwritable}, which names the first value of the mesh that is not finite: files never contain NaN
+/// Throws Error{Refusal::unsuitable}, which names the first value of the mesh that is not finite: files never contain NaN
 /// or infinity.
 void refuse_unless_finite(const Mesh& mesh, const std::string& path);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <embree3/rtcore.h>
+#include <new>
 #include <vector>
 
 namespace bake {
@@ -39,6 +40,12 @@ bool to_embree(const Ray& ray, RTCRay& out) noexcept {
     return true;
 }
 
+/// Embree gives no device.
+[[noreturn]] void refuse_device() {
+    if (rtcGetDeviceError(nullptr) != RTC_ERROR_UNSUPPORTED_CPU) throw std::bad_alloc();
+    throw Error(Refusal::unsuitable, "Embree does not run on this processor; use one with SSE2 or NEON");
+}
+
 } // namespace
 
 struct Bvh::Impl {
@@ -61,8 +68,7 @@ struct Bvh::Impl {
 
 Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
-    if (!impl_->device)
-        throw Error(Refusal::unsuitable, "Embree does not run on this processor; use one with SSE2 or NEON");
+    if (!impl_->device) refuse_device();
     impl_->scene = rtcNewScene(impl_->device);
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);

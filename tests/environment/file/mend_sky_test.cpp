@@ -1,6 +1,7 @@
 #include "bake/base/error.h"
 #include "bake/environment/file/mend_sky.h"
 #include "environment/skies.h"
+#include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
 
@@ -85,6 +86,35 @@ TEST_SUITE("unit") {
         const SkyFaults faults = mend_sky(sky, names, BadPolicy::clamp);
         CHECK(faults.bad.nan == 1);
         CHECK(sky.cube.faces[2].at(1, 1, 1) == 0);
+    }
+
+    TEST_CASE("mend_sky: alpha of any sign is kept; NaN, infinite and beyond all floats it goes by the policy") {
+        constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+        const auto with_alpha = [](float alpha) {
+            Environment sky;
+            sky.cube = test::even_sky(8, 4, 1);
+            sky.cube.faces[2].at(3, 4, 3) = alpha;
+            return sky;
+        };
+        for (const float kept : {-2.0f, -0.0f, 0.5f, 70000.0f, -1e30f}) {
+            Environment sky = with_alpha(kept);
+            const SkyFaults faults = mend_sky(sky, names, BadPolicy::refuse, 3);
+            CHECK(faults.bad.texels == 0);
+            CHECK(faults.negative == 0);
+            CHECK(sky.cube.faces[2].at(3, 4, 3) == kept);
+        }
+        for (const float bad :
+             {nan, inf, -inf, std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()}) {
+            Environment refused = with_alpha(bad);
+            CHECK_THROWS_AS(mend_sky(refused, names, BadPolicy::refuse, 3), Error);
+            for (const BadPolicy policy : {BadPolicy::zero, BadPolicy::clamp}) {
+                Environment sky = with_alpha(bad);
+                CHECK(mend_sky(sky, names, policy, 3).bad.texels == 1);
+                const float expected = std::isfinite(bad) ? std::copysign(largest_float, bad) : 1;
+                CHECK(sky.cube.faces[2].at(3, 4, 3) == expected);
+                CHECK(sky.cube.faces[2].at(3, 4, 0) == (policy == BadPolicy::zero ? 0 : 1));
+            }
+        }
     }
 
     TEST_CASE("mend_sky: a sky without any light above 0 has no share to tolerate") {

@@ -361,7 +361,7 @@ TEST_SUITE("unit") {
         const Outcome absent = outcome_of(
             folder.write("t.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"gone.bin"}]})"));
         CHECK(absent.code == 3);
-        CHECK(absent.reason.find("gone.bin: cannot be read") != std::string::npos);
+        CHECK(absent.reason.find("gone.bin: no such file") != std::string::npos);
     }
 
     TEST_CASE("gltf: scenes that take more memory than they are worth are refused before any is asked for") {
@@ -391,14 +391,14 @@ TEST_SUITE("unit") {
             return 0;
         };
         Mesh mesh = rich_triangles(2, 1);
-        CHECK(code(folder.file("a.glb"), Mesh{}) == 5);
+        CHECK(code(folder.file("a.glb"), Mesh{}) == 4);
         CHECK(code(folder.file("gone/a.glb"), mesh) == 5);
         CHECK(code(folder.file("gone/a.gltf"), mesh) == 5);
         mesh.attributes[2].values[3] = INFINITY;
-        CHECK(code(folder.file("a.gltf"), mesh) == 5);
+        CHECK(code(folder.file("a.gltf"), mesh) == 4);
         mesh.attributes.clear();
         mesh.tangents[5].z = NAN;
-        CHECK(code(folder.file("a.glb"), mesh) == 5);
+        CHECK(code(folder.file("a.glb"), mesh) == 4);
         CHECK(std::filesystem::is_empty(folder.path));
     }
 } // unit

@@ -111,8 +111,12 @@ std::vector<std::pair<std::string, std::string>> matches_of(const std::string& p
     const std::string folder = begin == 0 ? "." : whole.substr(0, begin), head = whole.substr(begin, at - begin),
                       tail = whole.substr(at + 2, end - at - 2);
     std::vector<std::pair<std::string, std::string>> matches;
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    std::error_code closed, ignored;
+    const fs::directory_iterator entries(folder, closed);
+    if (closed == std::errc::permission_denied)
+        throw Error(Refusal::unreadable,
+                    folder + ": cannot be listed (" + closed.message() + "); check its permissions");
+    for (const fs::directory_entry& entry : entries) {
         const std::string name = entry.path().filename().string();
         if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) continue;
         const std::string part = name.substr(head.size(), name.size() - head.size() - tail.size());

@@ -57,7 +57,7 @@ double negative_share(const Environment& sky, int alpha) {
     return all.positive > 0 ? all.negative / all.positive : 1;
 }
 
-void clamp_negative(Image<float>& image, int alpha) noexcept {
+void clamp_negative(Image<float>& image, int alpha) {
     for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = int(begin); y < int(end); ++y) {
             float* row = image.row(y);

@@ -22,7 +22,7 @@ struct SkyFaults {
     double negative_share = 0; ///< flux of all negative values over that of the positive ones, both over solid angle
 };
 
-/// Applies the policy. `files`: of the six faces; of a picture the first. Alpha may have any finite value. Throws
+/// Applies the policy. `files`: of the six faces; of a picture the first. Alpha may be negative. Throws
 /// Error{Refusal::unsuitable} naming the first file with a fault that the policy refuses.
 SkyFaults mend_sky(Environment& sky, const std::array<std::string, 6>& files, BadPolicy policy, int alpha_channel = -1);
 

@@ -13,9 +13,9 @@ constexpr float half_largest = 65504.0f;
 
 bool is_bad(float value, float largest) noexcept { return !(value >= 0 && value <= largest); }
 
-/// Alpha may have any finite value.
+/// Alpha may have any value of either sign up to `largest`.
 bool is_bad(const float* texel, int c, int alpha, float largest) noexcept {
-    return c == alpha ? !std::isfinite(texel[c]) : is_bad(texel[c], largest);
+    return is_bad(c == alpha ? std::abs(texel[c]) : texel[c], largest);
 }
 
 void count(BadTexels& bad, const float* texel, int channels, int alpha, float largest, int x, int y) noexcept {
@@ -26,8 +26,8 @@ void count(BadTexels& bad, const float* texel, int channels, int alpha, float la
         if (bad.x < 0) bad.x = x, bad.y = y, bad.value = value;
         nan |= std::isnan(value);
         infinite |= std::isinf(value);
-        negative |= value < 0 && !std::isinf(value);
-        over |= value > largest && !std::isinf(value);
+        negative |= value < 0 && !std::isinf(value) && c != alpha;
+        over |= (c == alpha ? std::abs(value) : value) > largest && !std::isinf(value);
     }
     bad.nan += nan;
     bad.infinite += infinite;
@@ -36,20 +36,25 @@ void count(BadTexels& bad, const float* texel, int channels, int alpha, float la
     bad.texels += nan || infinite || negative || over;
 }
 
+/// NaN and infinite alpha become opaque, as the texel may be all that is there.
+void mend_alpha(float& alpha, float largest) noexcept {
+    alpha = std::isfinite(alpha) ? std::clamp(alpha, -largest, largest) : 1;
+}
+
 void zero_texel(float* texel, int channels, int alpha, float largest) noexcept {
     bool faulty = false;
     for (int c = 0; c < channels; ++c) faulty |= is_bad(texel, c, alpha, largest);
     if (!faulty) return;
     for (int c = 0; c < channels; ++c)
         if (c != alpha) texel[c] = 0;
-        else if (!std::isfinite(texel[c])) texel[c] = 1;
+        else mend_alpha(texel[c], largest);
 }
 
 void clamp_texel(float* texel, int channels, int alpha, float largest) noexcept {
     for (int c = 0; c < channels; ++c) {
         if (!is_bad(texel, c, alpha, largest)) continue;
         if (c == alpha) {
-            texel[c] = 1;
+            mend_alpha(texel[c], largest);
             continue;
         }
         const float most = std::isinf(texel[c]) ? std::min(largest, half_largest) : largest;

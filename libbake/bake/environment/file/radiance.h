@@ -18,7 +18,7 @@ struct BadTexels {
     BadTexels& operator+=(const BadTexels& later) noexcept;
 };
 inline constexpr float largest_float = 3.4e38f;
-/// Values above `largest` count as over. Alpha may have any finite value.
+/// Values above `largest` count as over. Alpha may be negative; its magnitude counts.
 BadTexels find_bad(const Image<float>& image, float largest = largest_float, int alpha_channel = -1);
 /// "3 NaN, 1 infinite, 2 negative, 4 above 65504; first at column 5, row 7 (-2.5)"
 std::string to_text(const BadTexels& bad, float largest = largest_float);
@@ -26,11 +26,12 @@ std::string to_text(const BadTexels& bad, float largest = largest_float);
 /// How bad texels are treated.
 enum class BadPolicy {
     refuse, ///< Error{Refusal::unsuitable} with the counts and the first place
-    zero,   ///< every faulty texel becomes black, all channels; NaN and infinite alpha become 1
+    zero,   ///< every faulty texel becomes black, all channels
     clamp,  ///< NaN and negative values become 0, larger ones `largest`
 };
 /// Finds bad texels and treats them by the policy. Messages begin with `file`. Infinite values are clamped to at most 65504,
-/// the largest half float: nearly all infinite values in files are half floats that overflowed.
+/// the largest half float: nearly all infinite values in files are half floats that overflowed. By either policy, NaN and
+/// infinite alpha become 1, and alpha beyond `largest` is clamped.
 BadTexels mend(Image<float>& image, BadPolicy policy, const std::string& file, float largest = largest_float,
                int alpha_channel = -1);
 

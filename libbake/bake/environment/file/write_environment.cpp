@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <climits>
+#include <cmath>
 #include <memory>
 
 namespace bake {
@@ -21,9 +23,12 @@ constexpr float rounds_to_half = 65519.996f;
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
 
+/// The channel that pictures of two and of four channels are written with as alpha; -1 in others.
+int alpha_of(int channels) noexcept { return channels == 2 || channels == 4 ? channels - 1 : -1; }
+
 /// Values above 1 are counted as clipped; colour is sRGB-encoded if the target asks for that.
 void encode_integers(Image<float>& image, const EnvironmentTarget& target, EnvironmentWritten& written) {
-    const int channels = image.channels(), alpha = channels == 2 || channels == 4 ? channels - 1 : -1;
+    const int channels = image.channels(), alpha = alpha_of(channels);
     std::vector<std::int64_t> clipped(image.height(), 0);
     for_rows(image.height(), 32, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = int(begin); y < int(end); ++y) {
@@ -43,11 +48,12 @@ void encode(Image<float>& rows, int top, const EnvironmentTarget& target, const 
             EnvironmentWritten& written) {
     if (target.depth == Depth::u8 || target.depth == Depth::u16) return encode_integers(rows, target, written);
     if (target.depth != Depth::half) return;
-    BadTexels found = find_bad(rows, rounds_to_half);
+    const int alpha = alpha_of(rows.channels());
+    BadTexels found = find_bad(rows, rounds_to_half, alpha);
     if (found.over == 0) return;
     found.y += top;
     over += found;
-    if (target.bad != BadPolicy::refuse) mend(rows, target.bad, file, half_largest);
+    if (target.bad != BadPolicy::refuse) mend(rows, target.bad, file, half_largest, alpha);
 }
 
 /// To be called when a picture has been encoded.
@@ -176,15 +182,18 @@ Image<float> level_picture(const Environment& sky, int k, const EnvironmentTarge
     return height < picture.height() ? reduced(picture, height) : std::move(picture);
 }
 
-float largest_of(const Image<float>& image) noexcept {
+/// The largest magnitude: alpha may be negative.
+float largest_of(const Image<float>& image) {
     std::vector<float> rows(image.height(), 0.0f);
     for_rows(image.height(), 64, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = int(begin); y < int(end); ++y)
-            rows[y] = *std::max_element(image.row(y), image.row(y) + std::size_t(image.width()) * image.channels());
+        for (auto y = int(begin); y < int(end); ++y) {
+            const float* const row = image.row(y);
+            for (int i = 0; i < image.width() * image.channels(); ++i) rows[y] = std::max(rows[y], std::abs(row[i]));
+        }
     });
     return *std::max_element(rows.begin(), rows.end());
 }
-float largest_of(const Cube& cube) noexcept {
+float largest_of(const Cube& cube) {
     float largest = 0;
     for (const Image<float>& face : cube.faces) largest = std::max(largest, largest_of(face));
     return largest;
@@ -232,6 +241,10 @@ EnvironmentTarget complete_target(EnvironmentTarget target, int edge) {
 
 void check_levels(const EnvironmentTarget& target, std::size_t levels, int edge) {
     if (levels < 2) return;
+    const int most = edge > 0 ? std::bit_width(unsigned(edge)) : INT_MAX;
+    if (levels > std::size_t(most))
+        throw usage(target.file + ": " + std::to_string(levels) + " levels are more than the " + std::to_string(most) +
+                    " that faces of " + std::to_string(edge) + " texels have; give fewer, or a larger `size`");
     if (picture_format(target.file) == PictureFormat::png)
         throw usage(target.file + ": PNG has no mips; write .exr or .tif");
     const SkyFormat to = target.to == SkyFormat::automatic ? format_of_name(target.file) : target.to;

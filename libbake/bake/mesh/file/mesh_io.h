@@ -40,8 +40,8 @@ MeshFormat mesh_format(const std::string& path);
 /// .ply: binary little endian, one vertex per distinct corner, with zeros for a corner without uv or normal; tangents
 /// as tx ty tz tw, attributes as float properties (name_0, name_1, ... if there are several components); groups,
 /// materials and tags are lost. .gltf and .glb: see write_gltf().
-/// Throws Error{Refusal::unwritable}, also if a value of the mesh is not finite, and Error{Refusal::usage} for
-/// another ending.
+/// Throws Error{Refusal::unwritable}, Error{Refusal::unsuitable} if a value of the mesh is not finite or the format cannot
+/// hold the mesh, and Error{Refusal::usage} for another ending.
 std::int64_t write_mesh(const std::string& path, const Mesh& mesh);
 
 } // namespace bake

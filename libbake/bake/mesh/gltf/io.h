@@ -128,7 +128,7 @@ struct GltfWritten {
 /// (surface/chart/tangent_space.h); this module may not depend on it. Attributes COLOR_n and TEXCOORD_n keep their names;
 /// other names are written in capitals after '_'. The files pass the Khronos validator.
 /// Memory: one vertex per distinct corner, and 8 bytes for each corner and vertex.
-/// Throws Error{Refusal::unwritable}, also for a mesh without faces, values that are not finite, and a .glb larger than 4 GiB.
+/// Throws Error{Refusal::unwritable}, and {Refusal::unsuitable} for no faces, values not finite, and a .glb above 4 GiB.
 GltfWritten write_gltf(const std::string& path, const Gltf& gltf);
 GltfWritten write_gltf(const std::string& path, const Mesh& mesh);
 

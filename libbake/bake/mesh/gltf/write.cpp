@@ -17,7 +17,7 @@ using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-    throw Error(Refusal::unwritable, path + ": not written, " + why);
+    throw Error(Refusal::unsuitable, path + ": not written, " + why);
 }
 
 /// JSON holds UTF-8 alone; names from other formats may be anything.

@@ -330,7 +330,7 @@ void BaseSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::
     if (const auto* shape = std::get_if<ShapeBase>(&base_->kind)) bake::evaluate(*shape, patch, st, out);
 }
 
-void BaseSurface::evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const noexcept {
+void BaseSurface::evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const {
     const bool quad = complex().patches[patch].sides() == 4;
     const LimitBase* limit = std::get_if<LimitBase>(&base_->kind);
     if (limit && limit->corner[patch] == 0) {

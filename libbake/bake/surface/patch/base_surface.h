@@ -31,7 +31,7 @@ public:
     /// a caller that needs equal points evaluates one of the patches.
     void evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept;
     /// The lattice (i / rate, j / rate), in rows of equal j, as SubdivisionSurface::evaluate_lattice.
-    void evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const noexcept;
+    void evaluate_lattice(std::uint32_t patch, int rate, std::span<SurfacePoint> out) const;
 
 private:
     struct Base;
