@@ -114,7 +114,7 @@ TEST_SUITE("cli") {
             check_refused(folder, arguments, 2, named);
         };
         refused({"nosuch"}, "nosuch: is not a verb; see bake --help");
-        refused({""}, "is not a verb");
+        refused({""}, "argument 1: is empty");
         refused({"Normal-Map"}, "Normal-Map: is not a verb (did you mean normal-map?)");
         refused({"--nosuch"}, "--help");
         const auto map = [&](std::vector<std::string> more, const std::string& named) {
@@ -124,7 +124,7 @@ TEST_SUITE("cli") {
         map({"-o", "a.png", "--nosuch"}, "--nosuch");
         map({}, "--out");
         map({"-o"}, "--out");
-        map({"-o", ""}, "--out");
+        map({"-o", ""}, "-o: is empty");
         map({"-o", "a"}, "ending");
         map({"-o", "a.jpg"}, "a.jpg");
         map({"-o", "a.png", "--depth", "half"}, "half");
@@ -160,7 +160,7 @@ TEST_SUITE("cli") {
             refused(more, named);
         };
         refused({"bump-table"}, "grey");
-        refused({"bump-table", "", "-o", "a.png"}, "grey");
+        refused({"bump-table", "", "-o", "a.png"}, "argument 2: is empty");
         table({}, "--out");
         table({"-o", "a.png", "--depth", "half"}, "half");
         table({"-o", "a.png", "--depth", "8"}, "--depth");

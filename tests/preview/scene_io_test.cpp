@@ -127,6 +127,30 @@ scale = [1, 2, 3]
 
 TEST_SUITE("unit") {
 
+    TEST_CASE(
+        "scene_io: NaN, infinity and numbers beyond all doubles are refused for every key, with its line and name") {
+        const std::string text = every_key;
+        int numbers = 0;
+        for (std::size_t begin = 0, end = 0, line = 1; begin < text.size(); begin = end + 1, ++line) {
+            end = text.find('\n', begin);
+            const std::string whole = text.substr(begin, end - begin);
+            const std::size_t equals = whole.find(" = ");
+            if (equals == std::string::npos || whole.find('"') != std::string::npos) continue;
+            for (std::size_t at = equals; (at = whole.find_first_of("-0123456789", at)) != std::string::npos;) {
+                const std::size_t stop = std::min(whole.find_first_not_of("-.0123456789", at), whole.size());
+                for (const char* bad : {"nan", "inf", "-inf", "+nan", "1e999", "-1e999"}) {
+                    CAPTURE(whole);
+                    std::string changed = text;
+                    changed.replace(begin + at, stop - at, bad);
+                    check_refused_at(int(line), bad[1] == '1' || bad[0] == '1' ? "" : whole.substr(0, equals), changed);
+                }
+                at = stop;
+                ++numbers;
+            }
+        }
+        CHECK(numbers == 52);
+    }
+
     TEST_CASE("scene_io: every key is read") {
         const Folder folder;
         const SceneEntries s = read_scene(folder.write("scene.toml", every_key));

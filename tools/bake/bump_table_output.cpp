@@ -114,7 +114,7 @@ void write_table(const BumpTableArgs& args, const BumpTable& table, Depth depth,
 
 std::string to_text(const BumpTableArgs& args, const BumpTableReport& r) {
     std::string text =
-        format("%s: %d x %d, slopes %s, filter %s (%s), amplitude %g\n", args.out.c_str(), r.table.width(),
+        format("%s: %d x %d, slopes %s, filter %s (%s), amplitude %g\n", printable(args.out).c_str(), r.table.width(),
                r.table.height(), std::string(name(args.options.units)).c_str(),
                std::string(name(r.table.filter())).c_str(), describe_levels(r.height).c_str(), args.options.amplitude);
     if (r.code) text += "stored biased: " + to_text(*r.code) + "\n";

@@ -2,7 +2,6 @@
 #include "bake/verdict/inspect.h"
 #include "inputs/file_kind.h"
 #include "options.h"
-#include <cstdio>
 #include <new>
 
 namespace bake {
@@ -32,13 +31,13 @@ template <class Report> bool over_limit(const Report&) { return false; }
 template <class Inspect>
 void add_result(Results& results, const std::string& file, const CommonArgs& common, const Inspect& inspect) {
     const auto refuse = [&](const std::string& message, Refusal why) {
-        std::fprintf(stderr, "bake: %s\n", message.c_str());
-        if (results.code == 0) results.code = int(why);
-        results.files.push_back({{"file", file}, {"error", message}, {"code", int(why)}});
+        const int code = fail(message, why);
+        if (results.code == 0) results.code = code;
+        results.files.push_back({{"file", file}, {"error", with_flags(message)}, {"code", code}});
     };
     try {
         Progress progress(common.quiet);
-        progress.start("check " + file, 0);
+        progress.start("check " + printable(file), 0);
         auto report = inspect();
         progress.finish();
         for (auto* lines : {&report.findings.warnings, &report.findings.notes})
@@ -51,7 +50,7 @@ void add_result(Results& results, const std::string& file, const CommonArgs& com
                 *found = with_flags(found->get<std::string>());
             results.files.push_back(std::move(object));
         } else {
-            std::printf("%s%s", results.printed ? "\n" : "", with_flags(to_text(report)).c_str());
+            print_text((results.printed ? "\n" : "") + with_flags(to_text(report)));
             results.printed = true;
         }
     } catch (const Error& error) {
@@ -78,10 +77,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common,
                    [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
-    if (common.json) {
-        const nlohmann::ordered_json all = {{"files", results.files}};
-        std::printf("%s\n", all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
-    }
+    if (common.json) print_json({{"files", results.files}}, -1);
     if (results.code != 0) return results.code;
     return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
 }
@@ -101,24 +97,21 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                                     "down (directx)")
         ->needs(pair);
     add_mesh_options(sub, args->options.read);
-    sub.add_option("--overlap-size", args->options.uv.overlap_size,
-                   "Samples along a UV tile for measuring overlaps; 0: not measured")
-        ->check(CLI::Range(0, 8192))
-        ->capture_default_str();
+    add_integer_option(sub, "--overlap-size", args->options.uv.overlap_size, 0, 8192,
+                       "Samples along a UV tile for measuring overlaps; 0: not measured")
+        ->default_str(std::to_string(args->options.uv.overlap_size));
     sub.add_flag("--audit", args->options.audit,
                  "Meshes: report self-intersections, orientation and volume too, computed exactly (slow)");
     const auto against = sub.add_option("--against", args->against,
                                         "Report the distance of the meshes from this mesh instead of what is in them")
                              ->type_name("MESH");
-    sub.add_option("--limit", args->options.limit,
-                   "With --against: exit with 1 if the distance may be larger, object units")
+    add_number_option(sub, "--limit", args->options.limit, 1e-30, 1e30,
+                      "With --against: exit with 1 if the distance may be larger, object units")
+        ->needs(against);
+    add_integer_option(sub, "--samples", args->options.distance.samples, 1, 1000000000,
+                       "With --against: points of equal area for means and normals, at least one per triangle")
         ->needs(against)
-        ->check(CLI::PositiveNumber);
-    sub.add_option("--samples", args->options.distance.samples,
-                   "With --against: points of equal area for means and normals, at least one per triangle")
-        ->needs(against)
-        ->check(CLI::Range(1, 1000000000))
-        ->capture_default_str();
+        ->default_str(std::to_string(args->options.distance.samples));
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
     add_examples(sub, "  bake check meshes/torus.obj meshes/bricks.png\n"
                       "  bake check --strict --json meshes/*.obj\n"

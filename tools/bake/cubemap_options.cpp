@@ -2,7 +2,6 @@
 #include "inputs/file_kind.h"
 #include "options.h"
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 namespace bake {
@@ -25,11 +24,11 @@ std::vector<double> parse_numbers(const std::string& flag, const std::string& te
 IrradianceOptions parse_irradiance(const std::string& text) {
     IrradianceOptions options;
     if (text == "direct") return options;
-    int end = 0;
-    options.method = IrradianceMethod::sh;
-    if (std::sscanf(text.c_str(), "sh:%2d%n", &options.bands, &end) != 1 || std::size_t(end) != text.size() ||
-        options.bands < 1)
+    const auto bands = text.starts_with("sh:") ? parse_whole_number(text.substr(3)) : std::nullopt;
+    if (!bands || *bands < 1 || *bands > 99)
         throw usage("--irradiance " + text + ": is neither direct nor sh:N with N bands; write such as sh:3");
+    options.method = IrradianceMethod::sh;
+    options.bands = int(*bands);
     return options;
 }
 
@@ -56,27 +55,25 @@ void add_filter_options(CLI::App& sub, CubemapArgs& args) {
     add_choice<Specular>(sub, "--specular", args.specular,
                          {{"none", Specular::none}, {"phong", Specular::phong}, {"ggx", Specular::ggx}},
                          "Write levels blurred by a specular lobe instead");
-    sub.add_option("--roughness", args.roughness, "Of each level: alpha for ggx, exponent for phong; a,b,...");
+    sub.add_option("--roughness", args.roughness, "Of each level: alpha for ggx, exponent for phong")
+        ->type_name("A,B,...");
 }
 
 } // namespace
 
 void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     sub.add_option("input", args.inputs,
-                   "Six faces in any order, a pattern with %s, one image, or labels: the built-in test sky")
-        ->check(not_empty());
+                   "Six faces in any order, a pattern with %s, one image, or labels: the built-in test sky");
     sub.add_option("-o,--out", args.target.file,
                    "File to write (.exr, .tif, .png); with %s: six files, named px nx py ny pz nz")
-        ->required()
-        ->check(not_empty());
+        ->required();
     add_choice(sub, "--from", args.reading.from, format_names(false),
                "Format of the input; auto: by its tag or its shape");
     add_choice(sub, "--to", args.target.to, format_names(true),
                "Format to write; auto: faces for a %s, openexr-cube for .exr, else a strip");
-    sub.add_option("--size", args.target.size,
-                   "Texels: the edge of a face, the width of a lat-long or octahedral map; 0: as fine as the input")
-        ->check(CLI::Range(0, 32768))
-        ->capture_default_str();
+    add_integer_option(sub, "--size", args.target.size, 0, 32768,
+                       "Texels: the edge of a face, the width of a lat-long or octahedral map; 0: as fine as the input")
+        ->default_str(std::to_string(args.target.size));
     add_choice<Samples>(
         sub, "--samples", args.resampling.samples,
         {{"auto", Samples::automatic}, {"1", Samples::one}, {"4x4", Samples::grid4}, {"exact", Samples::exact}},
@@ -85,10 +82,14 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     add_choice<FaceOrder>(
         sub, "--order", args.target.order, {{"gl", FaceOrder::gl}, {"openexr", FaceOrder::openexr}},
         "Order and rotation of written faces and strips; gl is also Direct3D's, Vulkan's and RenderMan's");
-    sub.add_option("--yaw", args.yaw, "Turn the sky, degrees: what is ahead moves to the right")->capture_default_str();
-    sub.add_option("--pitch", args.pitch, "Then what is ahead moves up")->capture_default_str();
-    sub.add_option("--roll", args.roll, "Then the picture ahead turns clockwise")->capture_default_str();
-    sub.add_flag("--fix-orientation", args.reading.fix_orientation, "Turn, swap or mirror faces so that their seams match");
+    const auto add_angle = [&](const std::string& flag, double& degrees, const char* help) {
+        add_number_option(sub, flag, degrees, -1e6, 1e6, help)->default_str("0");
+    };
+    add_angle("--yaw", args.yaw, "Turn the sky, degrees: what is ahead moves to the right");
+    add_angle("--pitch", args.pitch, "Then what is ahead moves up");
+    add_angle("--roll", args.roll, "Then the picture ahead turns clockwise");
+    sub.add_flag("--fix-orientation", args.reading.fix_orientation,
+                 "Turn, swap or mirror faces so that their seams match");
     add_choice<BadPolicy>(sub, "--bad", args.target.bad,
                           {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}},
                           "NaN, infinite and negative texels, and with --depth half those too bright for it");
@@ -98,7 +99,7 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
                  "Input is sRGB-encoded, whatever its tags say; without either: by its tags, untagged 8 bits are sRGB")
         ->excludes(linear);
     sub.add_option("--capture", args.capture, "Scene (TOML) to capture instead of reading an input, with --at");
-    sub.add_option("--at", args.at, "Point to look from, in world space: X,Y,Z");
+    sub.add_option("--at", args.at, "Point to look from, in world space")->type_name("X,Y,Z");
     add_choice<Depth>(sub, "--depth", args.target.depth,
                       {{"auto", Depth::automatic},
                        {"8", Depth::u8},

@@ -6,14 +6,12 @@ namespace bake {
 namespace {
 
 void add_rate_options(CLI::App& sub, DisplaceArgs& args) {
-    sub.add_option("--levels", args.levels, "Every edge is cut into 2^N [3; 0 for the mesh as it is]")
-        ->check(CLI::Range(0, 10))
-        ->type_name("N");
+    add_integer_option(sub, "--levels", args.levels, 0, 10, "Every edge is cut into 2^N [3; 0 for the mesh as it is]");
     add_number_option(sub, "--edge-px", args.edge_px, 0.01, 1e6,
                       "Edges no longer than P pixels in the picture of --camera")
         ->type_name("P");
     sub.add_option("--camera", args.camera, "Scene file, or position=0,1,5:target=0,0,0:fov-deg=40:height=1080")
-        ->check(not_empty());
+        ->type_name("CAMERA");
     add_length_option(
         sub, "--max-error", args.max_error,
         "Cut where it needs to be, to stay within this distance of the displaced surface: object units or a "

@@ -39,11 +39,12 @@ nlohmann::json to_json(const MeshAudit& audit) {
 std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& o) {
     const DisplaceReport& r = o.report;
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-    std::string text = format("%s: %llu points, %llu faces (%llu triangles) over %zu patches of %s, %s\n",
-                              args.out.c_str(), count(r.count.points), count(r.count.faces), count(r.triangles),
-                              o.patches, o.base.c_str(), describe_bytes(double(o.file_bytes)).c_str()) +
-                       format("%s: amplitude %g, midlevel %g; b from %.6g to %.6g\n", o.described.c_str(), o.amplitude,
-                              o.midlevel, r.height_min, r.height_max);
+    std::string text =
+        format("%s: %llu points, %llu faces (%llu triangles) over %zu patches of %s, %s\n", printable(args.out).c_str(),
+               count(r.count.points), count(r.count.faces), count(r.triangles), o.patches, o.base.c_str(),
+               describe_bytes(double(o.file_bytes)).c_str()) +
+        format("%s: amplitude %g, midlevel %g; b from %.6g to %.6g\n", o.described.c_str(), o.amplitude, o.midlevel,
+               r.height_min, r.height_max);
     if (r.seam_points > 0)
         text += format("uv seams: %llu points, largest mismatch %.6g at %s; %s\n", count(r.seam_points),
                        r.seam_mismatch, place(r.seam_worst).c_str(), name(args.seam));

@@ -2,7 +2,6 @@
 #include "bake/verdict/explain.h"
 #include "inputs/file_kind.h"
 #include "normal_map_options.h"
-#include <cstdio>
 
 namespace bake {
 namespace {
@@ -26,7 +25,8 @@ int run(ExplainArgs& args, const CommonArgs& common) {
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);
     const std::vector<RouteStep> route = explain(input);
-    std::printf("%s%s", (common.json ? to_json(route) : to_text(route)).c_str(), common.json ? "\n" : "");
+    if (common.json) print_json(nlohmann::ordered_json::parse(to_json(route)));
+    else print_text(to_text(route));
     return 0;
 }
 

@@ -1,7 +1,9 @@
 // bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
 #include "bake/base/input_record.h"
 #include "bake/base/parallel.h"
+#include "bake/base/text.h"
 #include "bake/base/version.h"
+#include "inputs/number_option.h"
 #include "nearest.h"
 #include "verb.h"
 #include <algorithm>
@@ -15,19 +17,42 @@ namespace bake {
 
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
-void note(const CommonArgs& common, const std::string& line) {
-    if (line.empty() || common.quiet || common.json) return;
+namespace {
+
+void print_line(const std::string& message) {
     const char* const wipe = isatty(STDERR_FILENO) ? "\r\033[K" : ""; // a bar that is drawn there
-    std::fprintf(stderr, "%sbake: %s\n", wipe, with_flags(line).c_str());
+    std::fprintf(stderr, "%sbake: %s\n", wipe, printable(with_flags(message)).c_str());
+}
+
+} // namespace
+
+void note(const CommonArgs& common, const std::string& line) {
+    if (!line.empty() && !common.quiet && !common.json) print_line(line);
+}
+
+int fail(const std::string& message, Refusal why) {
+    print_line(message);
+    return int(why);
+}
+
+void print_text(const std::string& text) { std::fputs(printable_lines(text).c_str(), stdout); }
+
+void print_json(const nlohmann::ordered_json& object, int indent) {
+    const auto dump = [&](bool ascii) {
+        return object.dump(indent, ' ', ascii, nlohmann::ordered_json::error_handler_t::replace);
+    };
+    std::string text = dump(false);
+    if (printable_lines(text) != text) text = dump(true); // as \u009b
+    std::printf("%s\n", text.c_str());
 }
 
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch) {
     common.outputs->commit();
     if (common.json) {
         if (!object.contains("seconds")) object["seconds"] = watch.to_json();
-        std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        print_json(object);
     } else if (!common.quiet) {
-        std::printf("%s%s\n", text.c_str(), watch.to_text().c_str());
+        print_text(text + watch.to_text() + "\n");
     }
 }
 
@@ -51,15 +76,8 @@ constexpr VerbEntry verbs[] = {
     {"explain", "Print every step from the height file to the shaded pixel for one texel", explain_verb},
 };
 
-int fail(const std::string& message, Refusal why) {
-    std::fprintf(stderr, "bake: %s\n", with_flags(message).c_str());
-    return int(why);
-}
-
-std::string one_line(std::string text) {
+std::string without_end(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    for (char& c : text)
-        if (c == '\n') c = ' ';
     return text;
 }
 
@@ -74,9 +92,8 @@ int refuse_verb(const std::string& word) {
     for (const VerbEntry& entry : verbs) names.emplace_back(entry.name);
     std::error_code absent;
     if (std::filesystem::is_regular_file(word, absent))
-        return fail(one_line(word) + ": is a file, not a verb; bake check " + one_line(word) + " says what is in it",
-                    Refusal::usage);
-    return fail(one_line(word) + ": is not a verb" + suggestion(word, names) + "; see bake --help", Refusal::usage);
+        return fail(word + ": is a file, not a verb; bake check " + word + " says what is in it", Refusal::usage);
+    return fail(word + ": is not a verb" + suggestion(word, names) + "; see bake --help", Refusal::usage);
 }
 
 int refuse_arguments(const CLI::App& sub, const std::string& reason) {
@@ -87,10 +104,9 @@ int refuse_arguments(const CLI::App& sub, const std::string& reason) {
     // An unknown option is the better reason than what its absence or its value led to.
     for (const std::string& word : sub.remaining())
         if (word.size() > 1 && word[0] == '-')
-            return fail(one_line(word) + ": is not an option of " + verb + suggestion(word, names) + "; see " + verb +
-                            " --help",
+            return fail(word + ": is not an option of " + verb + suggestion(word, names) + "; see " + verb + " --help",
                         Refusal::usage);
-    return fail(one_line(reason) + "; see " + verb + " --help", Refusal::usage);
+    return fail(without_end(reason) + "; see " + verb + " --help", Refusal::usage);
 }
 
 /// An option's value that begins with two dashes is an option whose predecessor lacks its value.
@@ -102,6 +118,21 @@ void refuse_options_as_values(CLI::App& sub) {
         "");
     for (CLI::Option* option : sub.get_options())
         if (option->nonpositional() && option->get_items_expected_max() > 0) option->check(plain);
+}
+
+/// Refuses empty arguments, which a script's unset variables leave: no verb, file, value or list is empty, and CLI11 takes
+/// the word behind "--out=" for its value.
+void refuse_empty(const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const bool option = word.starts_with("--") && word.find('=') + 1 == word.size();
+        if (!word.empty() && !option) continue;
+        const bool value = i > 0 && words[i - 1].size() > 1 && words[i - 1][0] == '-';
+        const std::string what = option  ? word.substr(0, word.size() - 1)
+                                 : value ? words[i - 1]
+                                         : "argument " + std::to_string(i + 1);
+        throw Error(Refusal::usage, what + ": is empty; write what belongs there, or leave it out");
+    }
 }
 
 /// The arguments, with `help [VERB]` and nothing at all turned into --help.
@@ -130,15 +161,15 @@ int run(int argc, char** argv) {
     for (const VerbEntry& entry : verbs) {
         CLI::App* sub = app.add_subcommand(entry.name, entry.job);
         const std::function<int()> job = entry.verb(*sub, common);
-        sub->add_option("--threads", common.threads, "Threads to use; 0: one per core")
-            ->check(CLI::Range(0, 1024))
-            ->capture_default_str();
+        add_integer_option(*sub, "--threads", common.threads, 0, 1024, "Threads to use; 0: one per core")
+            ->default_str(std::to_string(common.threads));
         sub->add_flag("--quiet", common.quiet, "No progress bar, no notes, no result as text");
         sub->add_flag("--json", common.json, "Print one JSON object");
         refuse_options_as_values(*sub);
         sub->callback([&chosen, job] { chosen = job; });
     }
     std::vector<std::string> words = arguments(argc, argv);
+    refuse_empty(words);
     const auto known = [&](const VerbEntry& entry) { return entry.name == words[0]; };
     if (words[0][0] != '-' && std::none_of(std::begin(verbs), std::end(verbs), known)) return refuse_verb(words[0]);
     std::reverse(words.begin(), words.end()); // as CLI11 takes them

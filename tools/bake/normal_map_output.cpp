@@ -6,12 +6,12 @@ std::string to_text(const NormalMapArgs& args, const HeightTexture& height, cons
     const NormalMapOptions& options = result.options;
     const NormalMapReport& r = result.report;
     const double share = 100.0 / (double(options.width) * options.height);
-    std::string text =
-        format("%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\namplitude %g, midlevel %g",
-               args.out.c_str(), options.width, options.height, options.space == Space::tangent ? "tangent" : "object",
-               options.directx ? "down (DirectX)" : "up (OpenGL)", std::string(name(options.method)).c_str(),
-               std::string(name(result.filter)).c_str(), describe_levels(height).c_str(),
-               options.height_options.amplitude, options.height_options.midlevel);
+    std::string text = format(
+        "%s: %d x %d, %s space, green %s, method %s, filter %s (%s)\namplitude %g, midlevel %g",
+        printable(args.out).c_str(), options.width, options.height,
+        options.space == Space::tangent ? "tangent" : "object", options.directx ? "down (DirectX)" : "up (OpenGL)",
+        std::string(name(options.method)).c_str(), std::string(name(result.filter)).c_str(),
+        describe_levels(height).c_str(), options.height_options.amplitude, options.height_options.midlevel);
     if (height.step > 0)
         text += format("; one level of the height tilts the normal by %.3f deg along u", result.tilt_deg);
     if (!args.mesh.empty())

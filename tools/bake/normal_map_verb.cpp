@@ -80,9 +80,8 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
     add_normal_options(sub, *args);
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
-    sub.add_option("--padding", args->padding, "Texels filled beyond the charts' borders")
-        ->check(CLI::Range(0, 4096))
-        ->capture_default_str();
+    add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
+        ->default_str(std::to_string(args->padding));
     add_depth_option(sub, args->depth, "auto: 16 for .png, half for .exr, float for .tif");
     add_examples(
         sub, "  bake normal-map meshes/bricks.png -o bricks.png\n"

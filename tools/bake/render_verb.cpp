@@ -5,6 +5,7 @@
 #include "bake/preview/tracer.h"
 #include "inputs/depth_option.h"
 #include "inputs/file_kind.h"
+#include "inputs/number_option.h"
 #include "inputs/output_name.h"
 #include "inputs/size_option.h"
 #include "inputs/stopwatch.h"
@@ -44,8 +45,8 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
         {"render_seconds", seconds}, {"seconds", watch.total()}};
     if (!scene.notes.empty()) object["notes"] = scene.notes;
     print_result(common,
-                 format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s; ", args.out.c_str(), settings.width,
-                        settings.height, settings.spp, triangles, rate * 1e-6),
+                 format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s; ", printable(args.out).c_str(),
+                        settings.width, settings.height, settings.spp, triangles, rate * 1e-6),
                  object, watch);
 }
 
@@ -86,7 +87,7 @@ std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
         sub, args->out,
         "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance");
     add_size_option(sub, args->size, "Pixels, instead of the scene's", 32768);
-    sub.add_option("--spp", args->spp, "Samples per pixel, instead of the scene's")->check(CLI::Range(1, 65536));
+    add_integer_option(sub, "--spp", args->spp, 1, 65536, "Samples per pixel, instead of the scene's");
     add_depth_option(sub, args->depth, "auto: 8 for .png, half for .exr, float for .tif");
     add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"

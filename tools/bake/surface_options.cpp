@@ -29,16 +29,13 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
     sub.add_option_function<std::string>(
            "--maps", [&args](const std::string& text) { args.maps = parse_maps(text); },
            "Maps to write, apart by commas [all]: position, normal, pu, pv, tangent, mean-curvature, gauss-curvature")
-        ->check(not_empty())
         ->type_name("NAMES");
     sub.add_option("--maps-out", args.maps_out, "What the maps' names begin with: PREFIX_normal.exr and so on")
-        ->check(not_empty())
         ->type_name("PREFIX");
     add_size_option(sub, args.size, "Texels of the maps [1024]");
     add_tile_option(sub, args.tile);
-    sub.add_option("--padding", args.padding, "Texels filled beyond the charts' borders")
-        ->check(CLI::Range(0, 4096))
-        ->capture_default_str();
+    add_integer_option(sub, "--padding", args.padding, 0, 4096, "Texels filled beyond the charts' borders")
+        ->default_str(std::to_string(args.padding));
     sub.footer(shapes_text() +
                "Examples:\n"
                "  bake surface --shape torus:R=2,r=0.7 --resolution 128x64 -o torus.ply\n"

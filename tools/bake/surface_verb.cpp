@@ -78,8 +78,8 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
     if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
     if (!maps.empty()) object["texels"] = to_json(report);
-    print_result(common, to_text(loaded.what, mesh, summary) + (maps.empty() ? "" : to_text(report, options)), object,
-                 watch);
+    const std::string text = to_text(printable(loaded.what), mesh, summary);
+    print_result(common, text + (maps.empty() ? "" : to_text(report, options)), object, watch);
     note_all(common, title, loaded.surface.mesh().notes);
     warn(common, title, report);
     return 0;

@@ -2,13 +2,26 @@
 #pragma once
 #include "bake/base/error.h"
 #include "bake/base/output_file.h"
+#include "bake/base/printable.h"
 #include "bake/base/progress.h"
 #include "inputs/stopwatch.h"
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+
+// CLI11 reads numbers by the locale, and takes NaN, infinity, hexadecimal and octal digits: its own conversion of numbers
+// does not compile here. inputs/number_option.h has ours.
+template <> CLI::Option* CLI::App::add_option<double>(std::string, double&, std::string) = delete;
+template <> CLI::Option* CLI::App::add_option<float>(std::string, float&, std::string) = delete;
+template <> CLI::Option* CLI::App::add_option<int>(std::string, int&, std::string) = delete;
+template <> CLI::Option* CLI::App::add_option<std::size_t>(std::string, std::size_t&, std::string) = delete;
+template <>
+CLI::Option* CLI::App::add_option<std::optional<double>>(std::string, std::optional<double>&, std::string) = delete;
+template <>
+CLI::Option* CLI::App::add_option<std::optional<int>>(std::string, std::optional<int>&, std::string) = delete;
 
 namespace bake {
 
@@ -36,8 +49,17 @@ Verb cubemap_verb;
 void add_examples(CLI::App& sub, const std::string& examples);
 /// The message with `field`, as the library names a field of its options, replaced by the flag that sets the field.
 std::string with_flags(const std::string& message);
+
+// All that the command prints goes through the following functions, which escape what a terminal would obey (printable()
+// of base/printable.h).
 /// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
+/// One line on stderr: why the run, or a part of it, is refused. Returns the exit code.
+int fail(const std::string& message, Refusal why);
+/// Text of several lines on stdout. The names in it are printable(), as a newline in a name is not told from its own.
+void print_text(const std::string& text);
+/// One JSON object on stdout, escaped as JSON does it; bytes that are not UTF-8 become U+FFFD.
+void print_json(const nlohmann::ordered_json& object, int indent = 2);
 /// Makes the files of a verb appear under their names, all together, and prints its result on stdout: the object under --json, else the lines of text unless --quiet, each
 /// with the seconds of the steps.
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch);

@@ -21,8 +21,10 @@ struct Descriptor {
 };
 
 [[noreturn]] void refuse(const std::string& path, int reason) {
-    throw Error(Refusal::unreadable,
-                path + ": cannot be read (" + std::strerror(reason) + "); check its name and its permissions");
+    if (reason == ENOENT || reason == ENOTDIR)
+        throw Error(Refusal::unreadable, path + ": no such file; check the name");
+    throw Error(Refusal::unreadable, path + ": cannot be read (" + std::strerror(reason) +
+                                         "); check its permissions and those of its folders");
 }
 
 } // namespace

@@ -1,10 +1,9 @@
 #include "bake/base/number_lines.h"
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
+#include "bake/base/parse_double.h"
 #include "bake/base/text_encoding.h"
-#include "bake/base/text_line.h"
-#include <charconv>
-#include <cmath>
+#include <string_view>
 
 namespace bake {
 
@@ -24,19 +23,15 @@ std::vector<NumberLine> read_number_lines(const std::string& path) {
                 ++at;
                 continue;
             }
-            double value = 0;
-            const bool plus = *at == '+' && at[1] != '-'; // std::from_chars takes no plus
-            const auto read = std::from_chars(at + plus, end, value);
-            const bool ends = read.ptr == end || std::string_view(" \t\r,#").find(*read.ptr) != std::string_view::npos;
-            if (read.ec != std::errc() || !ends || !std::isfinite(value)) {
-                const char* stop = at;
-                while (stop < end && *stop != ' ' && *stop != ',') ++stop;
-                throw Error{Refusal::unreadable, path + ": line " + std::to_string(number) + ": " +
-                                                     shown({at, std::size_t(stop - at)}) +
+            const char* stop = at;
+            while (stop < end && std::string_view(" \t\r,#").find(*stop) == std::string_view::npos) ++stop;
+            const std::string_view word(at, std::size_t(stop - at));
+            const auto value = parse_finite(word);
+            if (!value)
+                throw Error{Refusal::unreadable, path + ": line " + std::to_string(number) + ": " + shown(word) +
                                                      " is not a number; only numbers and # comments belong here"};
-            }
-            line.values.push_back(value);
-            at = read.ptr;
+            line.values.push_back(*value);
+            at = stop;
         }
         if (!line.values.empty()) lines.push_back(std::move(line));
     }

@@ -1,4 +1,5 @@
 #include "bake/base/text.h"
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
@@ -6,12 +7,14 @@
 namespace bake {
 
 std::string format(const char* pattern, ...) {
-    char buffer[1024];
-    va_list values;
+    va_list values, again;
     va_start(values, pattern);
-    std::vsnprintf(buffer, sizeof buffer, pattern, values);
+    va_copy(again, values);
+    std::string text(std::size_t(std::max(0, std::vsnprintf(nullptr, 0, pattern, values))), '\0');
+    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+    va_end(again);
     va_end(values);
-    return buffer;
+    return text;
 }
 
 std::string ending(const std::string& path) {

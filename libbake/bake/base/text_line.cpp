@@ -1,4 +1,5 @@
 #include "bake/base/text_line.h"
+#include "bake/base/printable.h"
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -17,8 +18,17 @@ const char* find_newline(const char* from, const char* end) noexcept {
     return static_cast<const char*>(std::memchr(from, '\n', std::size_t(end - from)));
 }
 
-/// What a decimal number outside the range of float rounds to: infinity or 0, with its sign.
-float round_extreme(std::string_view number) noexcept {
+} // namespace
+
+std::string shown(std::string_view text) {
+    constexpr std::size_t most = 40;
+    if (text.size() <= most) return "'" + printable(text) + "'";
+    std::size_t end = most;
+    while (end > most - 4 && (text[end] & 0xc0) == 0x80) --end; // not within a character of UTF-8
+    return "'" + printable(text.substr(0, end)) + "...'";
+}
+
+float detail::round_extreme(std::string_view number) noexcept {
     const std::size_t e = std::min(number.find_first_of("eE"), number.size());
     const auto point = std::int64_t(std::min(number.find('.'), e));
     const auto first = std::int64_t(number.find_first_of("123456789"));
@@ -31,15 +41,6 @@ float round_extreme(std::string_view number) noexcept {
     const std::int64_t magnitude = point - first + (first > point) + power;
     const float value = magnitude > 0 ? std::numeric_limits<float>::infinity() : 0.0f;
     return number.front() == '-' ? -value : value;
-}
-
-} // namespace
-
-std::string shown(std::string_view text) {
-    const std::size_t most = 40;
-    std::string out = "'";
-    for (const char c : text.substr(0, most)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    return out + (text.size() > most ? "...'" : "'");
 }
 
 bool detail::parse_float_slowly(const char*& p, float& value) noexcept {

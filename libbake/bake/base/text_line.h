@@ -12,7 +12,7 @@
 
 namespace bake {
 
-/// `text` as an error message shows it: in quotes, one line, at most 40 characters.
+/// `text` as an error message shows it: in quotes, printable(), at most 40 bytes of it.
 std::string shown(std::string_view text);
 
 // These two have no branches, so that the compiler vectorises loops over them.
@@ -26,6 +26,8 @@ inline void skip_blanks(const char*& p) noexcept {
 
 namespace detail {
 bool parse_float_slowly(const char*& p, float& value) noexcept;
+/// What a decimal number outside the range of its type rounds to: infinity or 0, with its sign.
+float round_extreme(std::string_view number) noexcept;
 inline constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                            1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 } // namespace detail

@@ -1,4 +1,5 @@
 #include "bake/verdict/explain.h"
+#include "bake/base/printable.h"
 #include "bake/relief/map/error_budget.h"
 #include <algorithm>
 #include <cmath>
@@ -200,7 +201,7 @@ std::string to_text(const std::vector<RouteStep>& route) {
     std::string text;
     char buffer[64];
     for (const RouteStep& step : route) {
-        text += step.title + "\n";
+        text += printable(step.title) + "\n";
         for (const RouteEntry& entry : step.entries) {
             std::snprintf(buffer, sizeof buffer, "  %-22s", entry.name.c_str());
             text += buffer;
@@ -208,7 +209,7 @@ std::string to_text(const std::vector<RouteStep>& route) {
                 std::snprintf(buffer, sizeof buffer, " %12.6g", value == 0 ? 0.0 : value); // prints -0 as 0
                 text += buffer;
             }
-            if (!entry.words.empty()) text += "  " + entry.words;
+            if (!entry.words.empty()) text += "  " + printable(entry.words);
             text += "\n";
         }
     }
@@ -223,7 +224,8 @@ std::string to_json(const std::vector<RouteStep>& route) {
             entries.push_back({{"name", entry.name}, {"values", entry.values}, {"words", entry.words}});
         steps.push_back({{"step", step.title}, {"entries", entries}});
     }
-    return nlohmann::json{{"route", steps}}.dump(2);
+    // Names of files may not be UTF-8.
+    return nlohmann::json{{"route", steps}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace bake

@@ -1,3 +1,4 @@
+#include "bake/base/printable.h"
 #include "bake/base/text.h"
 #include "bake/relief/height/sample_type.h"
 #include "bake/verdict/inspect.h"
@@ -6,13 +7,13 @@ namespace bake {
 namespace {
 
 std::string row(const std::string& name, const std::string& value) {
-    return format("  %-14s ", name.c_str()) + value + "\n";
+    return format("  %-14s ", printable(name).c_str()) + printable(value) + "\n";
 }
 
 std::string endings(const Findings& findings) {
     std::string text;
     for (const std::string& note : findings.notes) text += row("note", note);
-    for (const std::string& warning : findings.warnings) text += "  warning: " + warning + "\n";
+    for (const std::string& warning : findings.warnings) text += "  warning: " + printable(warning) + "\n";
     if (findings.warnings.empty()) text += "  nothing wrong\n";
     return text;
 }
@@ -110,7 +111,7 @@ std::string bake_options(const PairReport& report) {
 std::string to_text(const MeshReport& report) {
     const MeshCheck& c = report.check;
     const Connectivity& t = c.welded;
-    std::string text = report.file + "\n";
+    std::string text = printable(report.file) + "\n";
     text += row("mesh", format("%zu positions, %zu faces (%s), %zu corners, %zu triangles", c.positions, c.faces,
                                face_sizes(c).c_str(), c.corners, c.triangles));
     if (c.materials > 0 || c.groups > 0)
@@ -142,7 +143,7 @@ std::string to_text(const ImageReport& report) {
     const ImageCheck& c = report.check;
     std::string names;
     for (const ChannelCheck& channel : c.channels) names += (names.empty() ? "" : " ") + channel.name;
-    std::string text = report.file + "\n";
+    std::string text = printable(report.file) + "\n";
     text += row("image", format("%d x %d, %s, %d-bit %s, channels ", c.info.width, c.info.height, c.info.format.c_str(),
                                 c.info.bits, name(c.info.type)) +
                              names);
@@ -175,7 +176,7 @@ std::string to_text(const ImageReport& report) {
 
 std::string to_text(const PairReport& report) {
     const PairCheck& c = report.check;
-    std::string text = report.height_file + " + " + report.normal_file + "\n";
+    std::string text = printable(report.height_file + " + " + report.normal_file) + "\n";
     text += row("pair", format("height %d x %d, normals %d x %d, compared at %d x %d", report.height_width,
                                report.height_height, report.normal_width, report.normal_height, c.width, c.height));
     text += row("correlation",
@@ -197,7 +198,7 @@ std::string to_text(const DistanceReport& report) {
     const MeshDistance& d = report.distance;
     const OneWayDistance& worst = d.there.lower >= d.back.lower ? d.there : d.back;
     const double part = d.diagonal > 0 ? 1 / d.diagonal : 0;
-    std::string text = report.file + " against " + report.other + "\n";
+    std::string text = printable(report.file + " against " + report.other) + "\n";
     text += row("hausdorff", format("%.6g to %.6g (%.3g to %.3g of the diagonal %.5g)", d.lower, d.upper,
                                     d.lower * part, d.upper * part, d.diagonal));
     const int digits = glm::length(worst.farthest) > 10 * d.diagonal ? 12 : 5; // far from zero the first are all equal

@@ -255,8 +255,8 @@ TEST_SUITE("stability") {
         check_refused("torus:R", Refusal::usage, "needs a number");
         check_refused("torus:R=two", Refusal::usage, "needs a number");
         check_refused("torus:R=2x", Refusal::usage, "needs a number");
-        check_refused("torus:R=nan", Refusal::usage, "between");
-        check_refused("torus:R=inf", Refusal::usage, "between");
+        for (const char* bad : {"nan", "inf", "-inf", "1e999", "0x10", ""})
+            check_refused(std::string("torus:R=") + bad, Refusal::usage, "R needs a number");
         check_refused("torus:R=-1", Refusal::usage, "between");
         check_refused("torus:R=1,R=2", Refusal::usage, "twice");
         check_refused("torus:R=1,r=1", Refusal::usage, "less than R");

@@ -1,6 +1,5 @@
 #include "inputs/byte_option.h"
 #include "bake/base/text.h"
-#include "inputs/choice.h"
 #include "inputs/number_option.h"
 #include <cctype>
 #include <cmath>
@@ -25,7 +24,6 @@ CLI::Option* add_memory_option(CLI::App& sub, std::optional<std::uint64_t>& byte
     return sub
         .add_option_function<std::string>("--max-memory", parse,
                                           "Refuse what needs more memory, such as 2G [the memory that the machine has]")
-        ->check(not_empty())
         ->type_name("SIZE");
 }
 

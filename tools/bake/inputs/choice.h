@@ -8,8 +8,6 @@ namespace bake {
 
 /// Accepts these names alone. The help does not list them a second time after the type's name.
 CLI::Validator one_of(const std::vector<std::string>& names);
-/// Refuses the empty text that a script's unset variable leaves.
-CLI::Validator not_empty();
 
 /// Adds an option whose value is one of a few names, and writes the value that belongs to the name. The help shows the
 /// name of the present value as the default; a std::optional without a value has none. The last `aliases` choices are

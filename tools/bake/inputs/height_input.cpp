@@ -10,8 +10,7 @@
 namespace bake {
 
 CLI::Option* add_height_path(CLI::App& sub, const std::string& name, HeightInput& input) {
-    return sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded")
-        ->check(not_empty());
+    return sub.add_option(name, input.path, "Height picture; values are taken as they are stored, never sRGB-decoded");
 }
 
 CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& grey, const std::string& help) {

@@ -1,6 +1,6 @@
 #include "inputs/number_option.h"
+#include "bake/base/parse_double.h"
 #include "bake/base/text.h"
-#include "inputs/choice.h"
 #include <cmath>
 
 namespace bake {
@@ -10,26 +10,29 @@ Error usage(const std::string& message) { return Error(Refusal::usage, message);
 
 } // namespace
 
-std::optional<double> parse_number(const std::string& text) {
-    std::size_t used = 0;
-    double value = 0;
-    try {
-        value = std::stod(text, &used);
-    } catch (const std::logic_error&) {
-        return {};
-    }
-    if (used != text.size() || !std::isfinite(value)) return {};
+std::optional<double> parse_number(const std::string& text) { return parse_finite(text); }
+
+std::optional<std::int64_t> parse_whole_number(const std::string& text) {
+    const std::string word = text + '\n'; // ends the digits
+    const char* p = word.data();
+    std::int64_t value = 0;
+    if (!parse_integer(p, value) || p != word.data() + text.size()) return {};
     return value;
 }
 
-CLI::Option* add_number_option(CLI::App& sub, const std::string& flag, std::optional<double>& value, double least,
-                               double most, const std::string& help) {
-    const auto parse = [&value, flag, least, most](const std::string& text) {
-        value = parse_number(text);
-        if (!value || *value < least || *value > most)
-            throw usage(flag + " " + text + format(": is not a number from %g to %g; write such as 0.5", least, most));
-    };
-    return sub.add_option_function<std::string>(flag, parse, help)->check(not_empty())->type_name("NUMBER");
+double number_of(const std::string& flag, const std::string& text, double least, double most) {
+    const auto value = parse_number(text);
+    if (!value || *value < least || *value > most)
+        throw usage(flag + " " + text + format(": is not a number from %g to %g; write such as 0.5", least, most));
+    return *value;
+}
+
+int whole_number_of(const std::string& flag, const std::string& text, int least, int most) {
+    const auto value = parse_whole_number(text);
+    if (!value || *value < least || *value > most)
+        throw usage(flag + " " + text + ": is not a whole number from " + std::to_string(least) + " to " +
+                    std::to_string(most) + "; write one");
+    return int(*value);
 }
 
 Length parse_length(const std::string& flag, const std::string& text, bool positive) {
@@ -46,7 +49,7 @@ CLI::Option* add_length_option(CLI::App& sub, const std::string& flag, std::opti
     const auto parse = [&length, flag, positive](const std::string& text) {
         length = parse_length(flag, text, positive);
     };
-    return sub.add_option_function<std::string>(flag, parse, help)->check(not_empty())->type_name("LENGTH|N%");
+    return sub.add_option_function<std::string>(flag, parse, help)->type_name("LENGTH|N%");
 }
 
 Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive) {
@@ -64,7 +67,6 @@ CLI::Option* add_extent_option(CLI::App& sub, std::optional<Vec2d>& extent, cons
     return sub
         .add_option_function<std::string>(
             "--extent", [&](const std::string& text) { extent = parse_pair("--extent", text); }, help)
-        ->check(not_empty())
         ->type_name("W,H");
 }
 

@@ -7,7 +7,7 @@
 
 namespace bake {
 
-/// Adds -o, --out, which is required and refuses an empty name.
+/// Adds -o, --out, which is required.
 CLI::Option* add_output_option(CLI::App& sub, std::string& out, const std::string& help);
 
 } // namespace bake

@@ -13,7 +13,6 @@ Error usage(const std::string& message) { return Error(Refusal::usage, message);
 void add_surface_input(CLI::App& sub, SurfaceInput& input) {
     sub.add_option("mesh", input.mesh, "Mesh, or cage of a subdivision surface (.obj, .ply, .glb, .gltf)");
     sub.add_option("--shape", input.shape, "Analytic shape instead of a mesh, such as torus:R=2,r=0.7")
-        ->check(not_empty())
         ->type_name("NAME[:KEY=VALUE,...]");
     add_choice<UvSmoothing>(
         sub, "--uv-smoothing", input.uv_smoothing,

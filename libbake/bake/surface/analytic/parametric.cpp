@@ -1,11 +1,10 @@
 #include "bake/surface/analytic/parametric.h"
 #include "bake/base/error.h"
+#include "bake/base/parse_double.h"
 #include "bake/base/text.h"
-#include "bake/base/text_line.h"
 #include "bake/surface/analytic/parametric_shapes.h"
 #include "bake/surface/point/curvature.h"
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 
 namespace bake {
@@ -77,13 +76,11 @@ std::string read_values(const ShapeKind& kind, const std::string& head, std::str
             file = value;
             continue;
         }
-        double number = 0;
-        const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
-        if (read.ec != std::errc() || read.ptr != value.data() + value.size())
-            refuse(name + " needs a number, not " + shown(value) + "; write " + spelled(kind));
-        if (!(number >= key->least && number <= key->most))
+        const auto number = parse_finite(value);
+        if (!number) refuse(name + " needs a number, not " + shown(value) + "; write " + spelled(kind));
+        if (!(*number >= key->least && *number <= key->most))
             refuse(name + format(" must be between %g and %g; its default is %g", key->least, key->most, key->value));
-        values[std::size_t(key - kind.keys.begin())] = number;
+        values[std::size_t(key - kind.keys.begin())] = *number;
     }
     return file;
 }
