@@ -1,4 +1,5 @@
 #include "bake/base/error.h"
+#include "bake/base/memory.h"
 #include "bake/base/text_encoding.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/distinct_corners.h"
@@ -80,6 +81,16 @@ template <class Value> void spread(const Mesh& mesh, std::vector<Value>& values,
     for (const std::uint32_t p : mesh.corner_position)
         for (std::size_t k = 0; k < components; ++k) corners.push_back(values[p * components + k]);
     values = std::move(corners);
+}
+
+/// The values of a vertex become those of all corners at it, and a file of few vertices may have many faces.
+void refuse_too_large(const Mesh& mesh, const std::string& path) {
+    double bytes = mesh.tangents.empty() ? 0 : double(sizeof(Vec4f)) * double(mesh.corners());
+    for (const Attribute& a : mesh.attributes) bytes += double(sizeof(float)) * a.components * double(mesh.corners());
+    if (bytes > double(memory_limit().bytes))
+        throw Error(Refusal::unsuitable, path + ": its properties at " + std::to_string(mesh.corners()) +
+                                             " corners are more than fit here; export it without those that are not "
+                                             "needed");
 }
 
 PlyLayout layout_of(const PlyHeader& header, const std::string& path) {
@@ -197,6 +208,7 @@ Mesh read_ply(const std::string& path) {
     if (!mesh.normals.empty()) mesh.corner_normal = mesh.corner_position;
     if (!body.texcoord.empty()) weld_texcoord(body);
     else if (!mesh.uvs.empty()) mesh.corner_uv = mesh.corner_position;
+    refuse_too_large(mesh, path);
     if (!mesh.tangents.empty()) spread(mesh, mesh.tangents, 1);
     for (Attribute& a : mesh.attributes) spread(mesh, a.values, std::size_t(a.components));
     return std::move(body.mesh);
