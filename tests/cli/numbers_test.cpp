@@ -1,5 +1,6 @@
 // Numbers of the command line are finite and decimal, whichever option they belong to.
 #include "cli/command.h"
+#include <algorithm>
 #include <map>
 #include <sstream>
 

@@ -3,5 +3,5 @@
 #include "fuzz/picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return bake::fuzz::read_picture(bake::is_masked_bmp, bake::read_masked_bmp, data, size);
+    return bake::fuzz::read_picture(bake::PictureKind::bmp, bake::read_masked_bmp, data, size);
 }

@@ -33,5 +33,5 @@ void correct_checksums(std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<std::uint8_t> bytes(data, data + size);
     correct_checksums(bytes);
-    return bake::fuzz::read_picture(bake::is_png, bake::read_png, bytes.data(), bytes.size());
+    return bake::fuzz::read_picture(bake::PictureKind::png, bake::read_png, bytes.data(), bytes.size());
 }

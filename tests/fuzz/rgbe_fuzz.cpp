@@ -3,5 +3,5 @@
 #include "fuzz/picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return bake::fuzz::read_picture(bake::is_rgbe, bake::read_rgbe, data, size);
+    return bake::fuzz::read_picture(bake::PictureKind::hdr, bake::read_rgbe, data, size);
 }

@@ -3,5 +3,5 @@
 #include "fuzz/picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return bake::fuzz::read_picture(bake::is_tiff, bake::read_tiff, data, size);
+    return bake::fuzz::read_picture(bake::PictureKind::tiff, bake::read_tiff, data, size);
 }
