@@ -1,17 +1,17 @@
 // How the time of some work grows with its size.
 #pragma once
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 
 namespace bake::test {
 
-/// Least time of three runs of work(size), in seconds.
+/// Least processor time of three runs of work(size), in seconds: what else the machine does counts little.
 template <class Work> double least_seconds(const Work& work, int size) {
     double least = 1e9;
     for (int run = 0; run < 3; ++run) {
-        const auto begin = std::chrono::steady_clock::now();
+        const std::clock_t begin = std::clock();
         work(size);
-        least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        least = std::min(least, double(std::clock() - begin) / CLOCKS_PER_SEC);
     }
     return least;
 }

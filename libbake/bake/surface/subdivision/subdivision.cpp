@@ -25,6 +25,7 @@ namespace {
 
 SubdivisionSurface::SubdivisionSurface(const Mesh& cage, const SubdivisionOptions& options, const std::string& path)
     : limit_(std::make_unique<Limit>()) {
+    if (cage.faces() == 0) refuse_nothing_left(cage, path);
     try {
         make_patches(cage, options, limit_->patches);
     } catch (const std::bad_alloc&) {
