@@ -165,6 +165,16 @@ TEST_SUITE("cli") {
         CHECK(!runs(greedy.folder / "bake_formats"));
     }
 
+    TEST_CASE("foreign_picture: a picture of 34 bytes does not make its decoder take gigabytes") {
+        if (!limits_memory) return;
+        const Folder folder;
+        std::string psd = std::string("8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\5\0\0\0\x09\0\x08\0\3", 26);
+        write_file(folder / "a.psd",
+                   psd + "\x7f" + std::string(7, '\0')); // 2 GB of colours for the mode RGB, which has none
+        check_refused(folder, {"check", "a.psd"}, 3, "took too much memory");
+        CHECK(run_bake(folder, {"check", "a.psd"}).peak_mib < 512);
+    }
+
     TEST_CASE("foreign_picture: a decoder ends with the command that started it, however that ends") {
         const GreedyBake greedy;
         const Folder folder;
