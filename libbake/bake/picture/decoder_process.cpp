@@ -97,7 +97,8 @@ DecoderProcess::DecoderProcess(const std::string& program, const std::vector<std
 
 DecoderProcess::~DecoderProcess() {
     close(answer_);
-    if (child_ < 0) return;
+    // In a program that leaves its children to the system, the number may be another's by now.
+    if (child_ < 0 || waitpid(child_, nullptr, WNOHANG) != 0) return;
     kill(child_, SIGKILL);
     while (waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -126,13 +127,12 @@ void DecoderProcess::read(void* to, std::size_t size) {
 }
 
 Error DecoderProcess::end() {
-    // Its pipe is closed: it has ended, or has lost its mind.
+    // A closed pipe means that it has ended or is about to, or that damage made it close the pipe.
     int status = 0;
     pid_t ended = 0;
     for (int ms = 0; ms < 1000 && (ended = waitpid(child_, &status, WNOHANG)) == 0; ++ms)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (ended == 0) return decoder_failed(path_, "crashed");
-    if (ended == child_) child_ = -1;
+    if (ended != 0) child_ = -1;
     throw_if_interrupted();
     constexpr int not_started = 127; // by the dynamic loader
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == not_started)
