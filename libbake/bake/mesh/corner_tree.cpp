@@ -42,12 +42,16 @@ void CornerTree::reset(std::span<const Vec2d> points, std::span<const std::uint3
         return around.max.x - around.min.x >= around.max.y - around.min.y ? 0 : 1;
     };
     tree_.build(corners_, box, [&](std::uint32_t c, int axis) { return points[c][axis]; });
-    for (std::uint32_t i = 0; i < corners_.size(); ++i) place_[corners_[i]] = i;
+    points_.resize(corners_.size());
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        place_[corners_[i]] = i;
+        points_[i] = points[corners_[i]];
+    }
 }
 
 void CornerTree::remove(std::uint32_t corner) noexcept {
     const std::uint32_t place = place_[corner];
-    corners_[place] = no_index;
+    points_[place] = Vec2d(std::numeric_limits<double>::quiet_NaN());
     for (std::size_t n = 1;; n = 2 * n + (place >= tree_.end_of(2 * n) ? 1 : 0)) {
         --nodes_[n].corners;
         if (tree_.is_leaf(n)) return;

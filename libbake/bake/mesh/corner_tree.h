@@ -26,9 +26,11 @@ public:
     bool contains(const Vec2d& p) const noexcept {
         return signed_area(a_, b_, p) >= 0 && signed_area(b_, c_, p) >= 0 && signed_area(c_, a_, p) >= 0;
     }
+    /// contains(p), or p is b.
+    bool reaches(const Vec2d& p) const noexcept { return p == b_ || contains(p); }
     /// True if the triangle has no width but for rounding: its area says little about what lies in it.
     bool is_flat() const noexcept { return flat_; }
-    /// True if contains() is false for all points of the box, or if all of them are a or c.
+    /// True if reaches() is false for all points of the box, or if all of them are a or c.
     bool misses(const CornerBox& box) const noexcept;
 
 private:
@@ -45,7 +47,7 @@ public:
     /// `corner` is in the tree.
     void remove(std::uint32_t corner) noexcept;
 
-    /// A corner in the region for which test(corner) is true; no_index if there is none. Which one of several depends on
+    /// A corner that the region reaches and for which test(corner) is true; no_index if there is none. Which one of several depends on
     /// `seed`. Adds the number of visited nodes and corners to `steps`.
     template <class Test>
     std::uint32_t find(const EarRegion& region, std::uint32_t seed, std::size_t& steps, const Test& test) const {
@@ -64,7 +66,7 @@ public:
             }
             for (std::size_t i = tree_.begin_of(n); i < tree_.end_of(n); ++i) {
                 ++steps;
-                if (corners_[i] != no_index && test(corners_[i])) return corners_[i];
+                if (region.reaches(points_[i]) && test(corners_[i])) return corners_[i];
             }
         }
         return no_index;
@@ -78,7 +80,8 @@ private:
 
     HalvingTree tree_;
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> corners_; ///< in the order of the leaves; no_index where removed
+    std::vector<std::uint32_t> corners_; ///< in the order of the leaves
+    std::vector<Vec2d> points_;          ///< of corners_; NaN, which no region reaches, where removed
     std::vector<std::uint32_t> place_;   ///< of each corner in corners_
 };
 

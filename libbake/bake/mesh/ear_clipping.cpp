@@ -74,8 +74,7 @@ bool is_ear(EarPolygon& g, std::uint32_t i) {
         if (k == before || k == after || p == a || p == c) return false;
         coincides = p == b;
         g.coinciding += coincides;
-        if (coincides) return starts_inside(g, i, g.points[g.before[k]]) || starts_inside(g, i, g.points[g.after[k]]);
-        return ear.contains(p);
+        return !coincides || starts_inside(g, i, g.points[g.before[k]]) || starts_inside(g, i, g.points[g.after[k]]);
     });
     if (blocker == no_index) return true;
     wait(g, i, 2 * blocker + (coincides ? 1 : 0));
