@@ -13,6 +13,17 @@ void cut_poles_as_cells(const PatchComplex& complex, CellRates& rates) {
                 rates.edge[complex.patches[c].edge[i]] = i % 2 == 0 ? rates.across[c] : rates.up[c];
 }
 
+std::uint64_t triangles_of(const RatePlan& plan) noexcept {
+    std::uint64_t sum = 0;
+    for (std::uint32_t c = 0; c < plan.cells.count(); ++c) {
+        const PatchRates r = rates_of_cell(plan.cells, plan.rates, c);
+        std::uint64_t border = 0;
+        for (int i = 0; i < r.sides; ++i) border += r.side[i];
+        sum += 2 * std::uint64_t(inner_points(r)) + border - 2;
+    }
+    return sum;
+}
+
 RatePlan uniform_rates(const BaseSurface& base, int levels) {
     if (levels < 0 || levels > 14)
         throw Error(Refusal::usage, "`rates.levels`: " + std::to_string(levels) + " is out of range; take 0 to 14");

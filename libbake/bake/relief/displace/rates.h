@@ -13,6 +13,9 @@ struct RatePlan {
     std::uint32_t searched = 1; ///< the most cells along a patch that a search for the rates has tried
 };
 
+/// Triangles of the result, by Euler's formula; a quad counts as two.
+std::uint64_t triangles_of(const RatePlan& plan) noexcept;
+
 /// 2^levels everywhere. Throws Error{Refusal::usage} beyond 0 to 14.
 RatePlan uniform_rates(const BaseSurface& base, int levels);
 

@@ -44,13 +44,6 @@ std::uint32_t choose_split(const ReliefSurface& surface, const SeamBlend& blend,
 
 constexpr std::int64_t cells_per_job = 8;
 
-/// Triangles of a cell, by Euler's formula; a quad counts as two.
-std::uint64_t triangles_of(const PatchRates& r) noexcept {
-    std::uint64_t border = 0;
-    for (int i = 0; i < r.sides; ++i) border += r.side[i];
-    return 2 * std::uint64_t(inner_points(r)) + border - 2;
-}
-
 /// The rate of each edge from its own points alone; at seams and creases from the points of every side.
 std::vector<std::uint16_t> edge_rates(const ReliefSurface& surface, const SeamBlend& blend, const PatchCells& cells,
                                       double error, std::uint32_t most, Progress* progress) {
@@ -96,10 +89,7 @@ public:
         changed_ = fit(std::vector<bool>(plan_.cells.count(), true), 1);
     }
     std::uint64_t triangles() const {
-        std::uint64_t sum = 0;
-        for (std::uint32_t c = 0; c < plan_.cells.count(); ++c)
-            sum += triangles_of(rates_of_cell(plan_.cells, plan_.rates, c));
-        return sum;
+        return triangles_of(plan_);
     }
     /// Whether every cell could be finer.
     bool within_limit() const {

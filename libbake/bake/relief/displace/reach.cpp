@@ -94,6 +94,20 @@ void refuse_unreachable(const SeamedRelief& scene, const Rates& rates, const Dis
                smallest);
 }
 
+/// Before the layout, whose time grows with the number of faces.
+void refuse_too_small(const RatePlan& plan, const Rates& rates, const DisplaceMemory& memory) {
+    const auto triangles = double(triangles_of(plan));
+    const std::uint64_t bytes = memory.least_bytes(triangles);
+    const double over = std::max(double(bytes) / double(memory.limit()), 2 * triangles / double(no_index));
+    if (over <= 1) return;
+    throw Error(Refusal::unsuitable,
+                format("segments of %g take %.2g triangles, ", rates.size, triangles) + in_binary_units(bytes, true) +
+                    " of memory, more than " +
+                    (bytes <= memory.limit() ? "indices can count" : memory.described_limit()) +
+                    format("; allow more by `max_bytes`, or set `rates.size` to %.2g or more",
+                           1.05 * rates.size * std::sqrt(over)));
+}
+
 } // namespace
 
 double rounding_of_floats(const Mesh& mesh) noexcept {
@@ -130,7 +144,11 @@ ErrorNeed need_of(const SeamedRelief& scene, double error, Progress* progress) {
 }
 
 RatePlan plan_rates(const SeamedRelief& scene, const Rates& rates, const DisplaceMemory& memory, Progress* progress) {
-    if (rates.rule == Rates::Rule::edge_size) return rates_by_size(scene.surface, scene.blend, rates);
+    if (rates.rule == Rates::Rule::edge_size) {
+        RatePlan plan = rates_by_size(scene.surface, scene.blend, rates);
+        refuse_too_small(plan, rates, memory);
+        return plan;
+    }
     if (!(rates.error > 0))
         throw Error(Refusal::usage, "`rates.error`: must be above 0; take a length in object units");
     refuse_unreachable(scene, rates, memory, progress);
