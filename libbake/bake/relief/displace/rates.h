@@ -22,9 +22,9 @@ RatePlan uniform_rates(const BaseSurface& base, int levels);
 /// Segments no longer than rates.size. Quads measure the two lines through their middle, triangles take the finest side.
 RatePlan rates_by_size(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates);
 
-/// Called with what a search for rates is about to take: so many cells along each patch, and with the least number of
-/// triangles of the result. Throws if that is too much.
-using CheckSearch = std::function<void(std::uint32_t split, double triangles)>;
+/// Called on any thread with what a search for rates takes: so many cells along each patch, the least number of
+/// triangles of the result as far as it is known, and the number to expect. Throws if the least is too much.
+using CheckSearch = std::function<void(std::uint32_t split, double least, double expected)>;
 
 /// Edges and lattices within an error of the displaced surface. Edges come first, each from its own points, then lattices;
 /// edges that turn out to be too coarse for the cells beside them are refined, and those cells are fitted again.

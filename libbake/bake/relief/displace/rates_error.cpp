@@ -5,6 +5,8 @@
 #include "bake/relief/displace/cell_fit.h"
 #include "bake/relief/displace/curves.h"
 #include "bake/relief/displace/rates.h"
+#include <atomic>
+#include <cmath>
 #include <memory>
 
 namespace bake {
@@ -79,13 +81,15 @@ constexpr float first_aim = 0.85f;
 class Planner {
 public:
     Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split,
-            Progress* progress)
-        : surface_(surface), blend_(blend), progress_(progress), error_(rates.error), plan_{PatchCells(surface.base(), split), {}, split},
+            const CheckSearch& check, Progress* progress)
+        : surface_(surface), blend_(blend), check_(check), progress_(progress), error_(rates.error), plan_{PatchCells(surface.base(), split), {}, split},
           aim_(plan_.cells.count(), first_aim), fitted_(plan_.cells.count(), Vec2f(0)) {
         const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
         most_ = std::clamp(4 * limit / split, 1u, limit);
         plan_.rates.edge = edge_rates(surface, blend, plan_.cells, first_aim * error_, most_, progress);
         plan_.rates.across.assign(plan_.cells.count(), 1), plan_.rates.up.assign(plan_.cells.count(), 1);
+        const double expected = triangles_of_edges();
+        check_(split, expected, expected);
         changed_ = fit(std::vector<bool>(plan_.cells.count(), true), 1);
     }
     std::uint64_t triangles() const {
@@ -120,6 +124,17 @@ public:
     }
 
 private:
+    /// Triangles of lattices as coarse as the coarser one of two opposite sides.
+    double triangles_of_edges() const {
+        double sum = 0;
+        for (const PatchComplex::Patch& p : plan_.cells.complex().patches) {
+            const auto rate = [&](int side) { return double(plan_.rates.edge[p.edge[std::size_t(side)]]); };
+            if (p.sides() == 4) sum += 2 * std::min(rate(0), rate(2)) * std::min(rate(1), rate(3));
+            else sum += std::pow(std::min({rate(0), rate(1), rate(2)}), 2);
+        }
+        return sum;
+    }
+
     /// Calls visit(fitter, cell) for every cell, on all threads, under a name for the progress.
     template <class Visit> void each_cell(const char* step, const Visit& visit) {
         if (progress_) progress_->start(step, plan_.cells.count());
@@ -140,6 +155,7 @@ private:
         std::vector<bool> changed = now;
         for (;;) {
             std::vector<char> too_coarse(plan_.cells.count(), 0);
+            std::atomic<std::uint64_t> triangles = 0, cells = 0;
             each_cell("fit", [&](CellFitter& fitter, std::uint32_t c) {
                 if (!now[c]) return;
                 PatchRates start{
@@ -150,6 +166,10 @@ private:
                 plan_.rates.across[c] = std::uint16_t(found.across), plan_.rates.up[c] = std::uint16_t(found.up);
                 fitted_[c] = Vec2f(found.density);
                 too_coarse[c] = found.sides_too_coarse;
+                // A result that grows too large is known as such before the last cell.
+                const std::uint64_t own = std::uint64_t(start.sides - 2) * found.across * found.up;
+                const auto least = double(triangles += own);
+                check_(plan_.cells.split(), least, least * plan_.cells.count() / double(++cells));
             });
             std::vector<std::uint16_t> finer(plan_.rates.edge);
             for (std::uint32_t c = 0; c < plan_.cells.count(); ++c) {
@@ -174,6 +194,7 @@ private:
 
     const ReliefSurface& surface_;
     const SeamBlend& blend_;
+    const CheckSearch& check_;
     Progress* progress_;
     double error_;
     RatePlan plan_;
@@ -191,17 +212,17 @@ RatePlan rates_by_error(const ReliefSurface& surface, const SeamBlend& blend, co
     const auto patches = std::uint64_t(surface.base().complex().patches.size());
     std::uint32_t split =
         choose_split(surface, blend, first_aim * rates.error, std::uint32_t(std::clamp(rates.most, 1, 65535)));
-    check(split, 0);
-    auto best = std::make_unique<Planner>(surface, blend, rates, split, progress);
+    check(split, 0, 0);
+    auto best = std::make_unique<Planner>(surface, blend, rates, split, check, progress);
     while (2 * split <= std::uint32_t(std::max(1, rates.most)) && patches * split * split * 8 < best->triangles()) {
         split *= 2;
-        check(split, 0);
-        auto next = std::make_unique<Planner>(surface, blend, rates, split, progress);
+        check(split, 0, 0);
+        auto next = std::make_unique<Planner>(surface, blend, rates, split, check, progress);
         if (next->within_limit() != best->within_limit() ? best->within_limit() : next->triangles() > best->triangles())
             break;
         best = std::move(next);
     }
-    check(split, double(best->triangles())); // only grows from here
+    check(split, double(best->triangles()), double(best->triangles())); // only grows from here
     RatePlan plan = best->finish();
     plan.searched = split;
     return plan;

@@ -152,10 +152,10 @@ RatePlan plan_rates(const SeamedRelief& scene, const Rates& rates, const Displac
     if (!(rates.error > 0))
         throw Error(Refusal::usage, "`rates.error`: must be above 0; take a length in object units");
     refuse_unreachable(scene, rates, memory, progress);
-    const auto check = [&](std::uint32_t split, double triangles) {
-        const std::uint64_t bytes =
-            std::max(memory.options().taken + memory.search_bytes(split), memory.least_bytes(triangles));
-        if (bytes <= memory.limit() && triangles <= double(no_index) / 2) return;
+    const auto check = [&](std::uint32_t split, double least, double triangles) {
+        const std::uint64_t search = memory.options().taken + memory.search_bytes(split);
+        if (std::max(search, memory.least_bytes(least)) <= memory.limit() && least <= double(no_index) / 2) return;
+        const std::uint64_t bytes = std::max(search, memory.least_bytes(triangles));
         // The number of triangles is inverse to the error.
         const double over = std::max(double(bytes) / double(memory.limit()), 2 * triangles / double(no_index));
         refuse(rates,
