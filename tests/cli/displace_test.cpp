@@ -367,9 +367,9 @@ TEST_SUITE("cli") {
             const double said = nlohmann::json::parse(run.out)["bytes_needed"].get<double>() / 1048576;
             CAPTURE(arguments[6]);
             CAPTURE(arguments[8]);
-            CHECK(run.peak_mib == doctest::Approx(said).epsilon(0.1));
+            CHECK(std::abs(run.peak_mib - said) < 0.1 * said + 8); // 8: blocks that a small result does not fill
         };
-        for (const char* out : {"a.obj", "a.ply", "a.glb"}) check_said({"--levels", "5", "-o", out});
+        for (const char* out : {"a.obj", "a.ply", "a.glb"}) check_said({"--levels", "4", "-o", out});
         check_said({"--levels", "4", "-o", "a.obj", "--audit"});
         check_said({"--levels", "4", "-o", "a.ply", "--margin"});
         check_said({"--max-error", "0.03%", "-o", "a.glb"});
@@ -378,25 +378,25 @@ TEST_SUITE("cli") {
     TEST_CASE("displace: --max-memory is kept, by the audit too, and the refusal says what would fit without it") {
         const Folder folder;
         const auto in_memory = [&](const char* size, bool audit) {
-            std::vector<std::string> arguments = {"displace",     torus, "--height", waves(folder), "--levels", "5",
+            std::vector<std::string> arguments = {"displace",     torus, "--height", waves(folder), "--levels", "4",
                                                   "--max-memory", size,  "-o",       "a.ply"};
             if (audit) arguments.push_back("--audit");
             return run_bake(folder, arguments);
         };
-        const Run refused = in_memory("230M", true);
+        const Run refused = in_memory("100M", true);
         CAPTURE(refused.err);
         CHECK(refused.code == 4);
-        CHECK(refused.peak_mib < 230 * 1.1);
+        CHECK(refused.peak_mib < 100 * 1.1);
         CHECK(refused.err.find("without --audit") != std::string::npos);
-        CHECK(refused.err.find("or leave out --audit, or set --levels to 4") != std::string::npos);
-        const Run fits = in_memory("230M", false);
+        CHECK(refused.err.find("or leave out --audit, or set --levels to 3") != std::string::npos);
+        const Run fits = in_memory("100M", false);
         CHECK(fits.code == 0);
-        CHECK(fits.peak_mib < 230 * 1.1);
+        CHECK(fits.peak_mib < 100 * 1.1);
         // A mesh whose file alone is larger.
         write_file(folder / "large.obj", cube_obj + std::string(std::size_t(80) << 20, '\n'));
         check_refused(folder,
                       {"displace", "large.obj", "--height", waves(folder), "--max-memory", "80M", "-o", "b.ply"}, 4,
-                      "more memory than the 80.0 MiB it may use (--max-memory)");
+                      "large.obj: does not fit in the memory");
     }
 #endif
 
@@ -404,10 +404,10 @@ TEST_SUITE("cli") {
         const Folder folder;
         write_file(folder / "cube.obj", cube_obj);
         for (const char* mesh : {torus.c_str(), "cube.obj"})
-            for (const char* error : {"1e-30", "1e-9", "1e-7%", "1e-7"}) {
+            for (const char* error : {"1e-30", "1e-9", "1e-7%", "1.5e-7"}) { // beyond the floats; beyond the memory
                 const std::vector<std::string> arguments = {"displace", mesh,          "--height", waves(folder),
                                                             "-o",       "a.ply",       "--max-error", error,
-                                                            "--max-memory", "1G"};
+                                                            "--max-memory", "100M"};
                 check_refused(folder, arguments, 4, "cannot be reached", {.seconds = 60});
                 const Run run = run_bake(folder, arguments);
                 CAPTURE(run.err);
