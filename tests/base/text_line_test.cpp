@@ -148,7 +148,7 @@ TEST_SUITE("unit") {
         CHECK(bake::line_number(text.data(), text.data() + 2) == 2);
         CHECK(bake::line_number(text.data(), text.data() + 5) == 4);
         CHECK(bake::shown("word") == "'word'");
-        CHECK(bake::shown("tab\there\x7f") == "'tab?here?'");
+        CHECK(bake::shown("tab\there\x7f") == "'tab\\there\\x7f'");
         CHECK(bake::shown(std::string(41, 'x')) == "'" + std::string(40, 'x') + "...'");
     }
 } // unit

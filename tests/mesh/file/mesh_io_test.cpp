@@ -154,7 +154,7 @@ TEST_SUITE("unit") {
     TEST_CASE(
         "read_mesh: files that are missing, folders, pipes, of unknown format or without faces are refused by kind") {
         const TemporaryFolder folder;
-        CHECK(outcome_of(folder.file("missing.obj")).reason.find("No such file") != std::string::npos);
+        CHECK(outcome_of(folder.file("missing.obj")).reason.find("no such file") != std::string::npos);
         CHECK(outcome_of(folder.file("missing.obj")).code == 3);
         std::filesystem::create_directory(folder.file("folder.obj"));
         CHECK(outcome_of(folder.file("folder.obj")).reason.find("is a folder") != std::string::npos);
