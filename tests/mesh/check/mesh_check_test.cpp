@@ -306,6 +306,6 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
 TEST_SUITE("stability") {
     TEST_CASE("check_mesh: the time grows with the number of components, not with its square") {
-        CHECK(test::growth([](int n) { check(cubes_in_cubes(n)); }, 4000) < test::most_growth);
+        CHECK(test::growth([](int n) { check(cubes_in_cubes(n)); }, 8000) < test::most_growth);
     }
 }
