@@ -1,4 +1,5 @@
 #include "bake/relief/displace/cell_fit.h"
+#include "bake/base/progress.h"
 #include "bake/relief/displace/curves.h"
 
 namespace bake {
@@ -38,6 +39,7 @@ PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t m
     std::vector<Vec3d> line;
     const std::uint32_t stride_up = std::max(1u, samples_.up / 12), stride_across = std::max(1u, samples_.across / 12);
     for (std::uint32_t j = stride_up / 2; j < samples_.up; j += stride_up) {
+        throw_if_interrupted();
         line.clear();
         for (std::uint32_t i = 0; i <= (samples_.quad ? samples_.across : samples_.across - j); ++i)
             line.push_back(samples_(i, j));
@@ -46,6 +48,7 @@ PatchRates CellFitter::first_try(PatchRates rates, double error, std::uint32_t m
         rates.across = std::max(rates.across, std::min(most, part * rate_within(line, error, most)));
     }
     for (std::uint32_t i = stride_across / 2; i < samples_.across; i += stride_across) {
+        throw_if_interrupted();
         line.clear();
         for (std::uint32_t j = 0; j <= (samples_.quad ? samples_.up : samples_.up - i); ++j)
             line.push_back(samples_(i, j));
@@ -88,6 +91,7 @@ Misfit CellFitter::misfit(std::uint32_t cell, const PatchRates& r, double error)
     Misfit out;
     const double error2 = error * error;
     FaceVisitor visitor([&](std::span<const std::uint32_t> face) {
+        throw_if_interrupted();
         if (out.inside) return; // the lattice will be refined whatever the faces along the border are
         bool inside = true;
         for (const std::uint32_t c : face) inside &= c >= first_inside;
