@@ -109,15 +109,16 @@ int refuse_arguments(const CLI::App& sub, const std::string& reason) {
     return fail(without_end(reason) + "; see " + verb + " --help", Refusal::usage);
 }
 
-/// An option's value that begins with two dashes is an option whose predecessor lacks its value.
-void refuse_options_as_values(CLI::App& sub) {
+/// An option's value that begins with two dashes is an option whose predecessor lacks its value; a flag has no value.
+void refuse_wrong_values(CLI::App& sub) {
     const CLI::Validator plain(
         [](std::string& text) {
             return text.starts_with("--") && text.size() > 2 ? text + " stands where its value is expected" : "";
         },
         "");
     for (CLI::Option* option : sub.get_options())
-        if (option->nonpositional() && option->get_items_expected_max() > 0) option->check(plain);
+        if (option->get_items_expected_max() == 0) option->disable_flag_override();
+        else if (option->nonpositional()) option->check(plain);
 }
 
 /// Refuses empty arguments, which a script's unset variables leave: no verb, file, value or list is empty, and CLI11 takes
@@ -165,7 +166,7 @@ int run(int argc, char** argv) {
             ->default_str(std::to_string(common.threads));
         sub->add_flag("--quiet", common.quiet, "No progress bar, no notes, no result as text");
         sub->add_flag("--json", common.json, "Print one JSON object");
-        refuse_options_as_values(*sub);
+        refuse_wrong_values(*sub);
         sub->callback([&chosen, job] { chosen = job; });
     }
     std::vector<std::string> words = arguments(argc, argv);
