@@ -58,7 +58,7 @@ void decode(const PictureFile& file, const DecodeRequest&, ReplyStream& reply) {
     if (act == "memory") send_picture(reply, header, std::string(std::size_t(1) << 29, 'x'));
     if (act == "careless") crash_without_memory();
     if (act == "time")
-        for (volatile int turns = 0;;) turns = turns + 1;
+        for (volatile unsigned turns = 0;;) turns = turns + 1;
     if (act == "throw") throw std::length_error("vector::_M_default_append");
     if (act == "foreign")
         reply.send(ReplyFrame::failure, to_bytes(ReplyFailure{Refusal::unreadable, "/etc/passwd: no"}));
