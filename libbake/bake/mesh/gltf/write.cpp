@@ -307,9 +307,9 @@ std::int64_t write_beside(const std::string& path, Layout& layout, const Images&
         bytes += out.bytes();
     };
     write((folder / name).string(), [&](BlockWriter& out) { write_pieces(out, layout); });
-    for (const auto& [image_name, image] : images.beside)
-        write((folder / image_name).string(), [&](BlockWriter& out) {
-            out.write({reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size()});
+    for (const auto& named : images.beside)
+        write((folder / named.first).string(), [&](BlockWriter& out) {
+            out.write({reinterpret_cast<const char*>(named.second->bytes.data()), named.second->bytes.size()});
         });
     write(path, [&](BlockWriter& out) { out.write(layout.root.dump(1, ' ') + '\n'); });
     together.commit();
