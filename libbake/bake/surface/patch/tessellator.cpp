@@ -230,7 +230,7 @@ void write_pole_uvs(const PatchLayout& layout, std::uint32_t cell, Mesh& mesh) {
 void write_vertices(const PatchLayout& layout, const VertexWriter& writer, Mesh& mesh, Progress* progress) {
     constexpr std::int64_t vertices_per_job = 256, edges_per_job = 16;
     const std::vector<CellJob> jobs = vertex_jobs(layout);
-    const auto& [edges, vertices] = layout.cells->junctions();
+    const JunctionTable &edges = layout.cells->junctions().edges, &vertices = layout.cells->junctions().vertices;
     const auto patch_jobs = std::int64_t(jobs.size()), vertex_count = std::int64_t(vertices.junctions.size()),
                edge_count = std::int64_t(edges.junctions.size());
     const std::int64_t first_edge_job = patch_jobs + (vertex_count + vertices_per_job - 1) / vertices_per_job;
