@@ -12,8 +12,6 @@
 namespace bake {
 namespace {
 
-constexpr std::int64_t largest_profile = 8 << 20; ///< ICC profile, or text, when decompressed
-
 /// The bytes of the file in their order, through a buffer.
 struct Source {
     const PictureFile& file;
@@ -67,8 +65,6 @@ public:
     /// Up to the first pixels, which are to come out as whole samples of 8 or 16 bits.
     bool read_header() noexcept {
         if (!info_ || setjmp(png_jmpbuf(png_))) return false;
-        // A chunk is no larger than its file. libpng takes the length that a chunk claims before it reads it.
-        png_set_chunk_malloc_max(png_, png_alloc_size_t(std::max<std::int64_t>(largest_profile, source_.file.size())));
         keep_unknown_chunks(png_);
         png_read_info(png_, info_);
         const bool palette = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
