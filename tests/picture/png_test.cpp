@@ -123,6 +123,9 @@ TEST_SUITE("unit") {
         };
         const std::string good = png_bytes(2, 1, 8, 0, {rows});
         CHECK(given(good));
+        // A chunk that claims 1.9 GB, of which nothing follows: refused before the memory is taken.
+        write_file(path, good.substr(0, 33) + big_endian(2'000'000'000) + "tEXtComment");
+        CHECK_THROWS_WITH_AS(read_image(path), doctest::Contains("has a chunk that is longer than the file"), Error);
         CHECK(given(good + "what follows the end"));
         CHECK(given(good.substr(0, good.size() - 12))); // no end
         CHECK_FALSE(given(good.substr(0, 40)));

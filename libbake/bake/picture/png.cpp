@@ -4,6 +4,7 @@
 #include "bake/picture/upright.h"
 #include <algorithm>
 #include <csetjmp>
+#include <cstdlib>
 #include <cstring>
 #include <png.h>
 #include <string_view>
@@ -39,6 +40,17 @@ void take(png_structp png, png_bytep to, std::size_t size) {
     if (!static_cast<Source*>(png_get_io_ptr(png))->take(to, size)) png_error(png, "is cut short");
 }
 
+/// Memory for libpng, which takes as many bytes as a chunk claims before it has read one of them. A chunk is no longer than
+/// its file. The rest, rows of a million texels and profiles of at most 8 MB, is smaller than the allowance.
+png_voidp allocate(png_structp png, png_alloc_size_t size) {
+    constexpr png_alloc_size_t allowance = 16 << 20;
+    const auto* const source = static_cast<const Source*>(png_get_mem_ptr(png));
+    if (size > std::max(allowance, png_alloc_size_t(source->file.size()) + 1))
+        png_error(png, "has a chunk that is longer than the file");
+    return std::malloc(size);
+}
+void release(png_structp, png_voidp bytes) { std::free(bytes); }
+
 void keep_error(png_structp png, png_const_charp message) {
     // A plain array: the jump may not pass over a destructor.
     auto* const said = static_cast<char*>(png_get_error_ptr(png));
@@ -54,7 +66,8 @@ void ignore_warning(png_structp, png_const_charp) {}
 class Decoder {
 public:
     explicit Decoder(const PictureFile& file)
-        : source_{file}, png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, said_, keep_error, ignore_warning)) {
+        : source_{file}, png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, said_, keep_error, ignore_warning,
+                                                       &source_, allocate, release)) {
         if (png_) info_ = png_create_info_struct(png_);
         if (info_) png_set_read_fn(png_, &source_, take);
     }
