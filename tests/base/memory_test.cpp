@@ -88,7 +88,7 @@ TEST_SUITE("unit") {
     TEST_CASE("MemoryCap: allocations beyond it fail, and no longer once it is gone") {
         const std::size_t much = std::size_t(256) << 20;
         {
-            const MemoryCap cap(process_memory().resident + (std::size_t(64) << 20));
+            const MemoryCap cap(process_memory().resident + (std::size_t(64) << 20), 2);
             CHECK_THROWS_AS(std::vector<char>(much, 'a'), std::bad_alloc);
             CHECK_NOTHROW(std::vector<char>(std::size_t(32) << 20, 'a'));
         }

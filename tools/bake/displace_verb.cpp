@@ -1,6 +1,7 @@
 // bake displace: a mesh, the limit surface of a cage or a shape, displaced by a height or by vectors.
 #include "bake/base/memory.h"
 #include "bake/base/output_file.h"
+#include "bake/base/parallel.h"
 #include "bake/mesh/file/write_memory.h"
 #include "displace_report.h"
 #include "inputs/byte_option.h"
@@ -74,7 +75,7 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     progress.start("read", 0);
     MemoryLimit limit = memory_limit();
     std::optional<MemoryCap> cap;
-    if (args.max_memory) limit = {*args.max_memory, "--max-memory"}, cap.emplace(*args.max_memory);
+    if (args.max_memory) limit = {*args.max_memory, "--max-memory"}, cap.emplace(*args.max_memory, thread_count());
     const BaseSurface base =
         within_memory(limit, args.surface.name(), "reading it and finding its edges", [&] { return make_base(args); });
     return_free_memory();

@@ -2,6 +2,7 @@
 // decoder that crashes, takes too much memory or does not end on a damaged file takes no more than this process with it.
 //
 // Descriptor 3 is the open picture, descriptor 4 the pipe for the answer (bake/picture/picture_reply.h).
+#include "bake/base/memory.h"
 #include "bake/picture/decoder_limits.h"
 #include "bake/picture/picture_formats.h"
 #include <cstdio>
@@ -23,7 +24,7 @@ void decode_limited(char** arguments, bake::ReplyStream& reply) {
                                       .samples = std::atof(arguments[5]),
                                       .largest =
                                           bake::decoder_limits(file.size(), double(limits.max_bytes) / sizeof(float)),
-                                      .libraries = bake::address_space()};
+                                      .libraries = std::int64_t(bake::process_memory().address_space)};
     bake::limit_decoder(bake::decoder_limits(file.size(), request.samples), request.largest, request.libraries);
     decode(file, request, reply);
 }

@@ -1,5 +1,4 @@
 #include "bake/base/memory.h"
-#include "bake/base/parallel.h"
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -143,7 +142,7 @@ void return_free_memory() noexcept {
 #endif
 }
 
-MemoryCap::MemoryCap([[maybe_unused]] std::uint64_t bytes) {
+MemoryCap::MemoryCap([[maybe_unused]] std::uint64_t bytes, [[maybe_unused]] int threads) {
 #if !defined(__SANITIZE_ADDRESS__) // the sanitizer ends the process where an allocation fails
     rlimit limit{};
     if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
@@ -151,7 +150,7 @@ MemoryCap::MemoryCap([[maybe_unused]] std::uint64_t bytes) {
     // Threads that have not started yet map their stacks, and use little of them.
     constexpr std::uint64_t stack = std::uint64_t(8) << 20;
     const ProcessMemory now = process_memory();
-    const std::uint64_t most = now.data + difference(bytes, now.resident) + std::uint64_t(thread_count()) * stack;
+    const std::uint64_t most = now.data + difference(bytes, now.resident) + std::uint64_t(threads) * stack;
     limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
     set_ = setrlimit(RLIMIT_DATA, &limit) == 0;
 #endif

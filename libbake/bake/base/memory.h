@@ -35,10 +35,10 @@ void return_free_memory() noexcept;
 
 /// During the lifetime of this object, allocations fail (std::bad_alloc) that would raise the resident memory of the process
 /// above `bytes`. For work whose need is not known before, such as reading a file. Address space counts as soon as it
-/// is allocated, so some allocations fail earlier.
+/// is allocated, so some allocations fail earlier; the stacks of `threads` threads that are yet to start do not count.
 class MemoryCap {
 public:
-    explicit MemoryCap(std::uint64_t bytes);
+    MemoryCap(std::uint64_t bytes, int threads);
     ~MemoryCap();
     MemoryCap(const MemoryCap&) = delete;
     MemoryCap& operator=(const MemoryCap&) = delete;

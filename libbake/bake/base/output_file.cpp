@@ -57,7 +57,7 @@ fs::path followed(const std::string& path) {
 
 bool is_null_device(const struct stat& file) {
     struct stat null {};
-    return S_ISCHR(file.st_mode) && stat("/dev/null", &null) == 0 && file.st_rdev == null.st_rdev;
+    return S_ISCHR(file.st_mode) && stat(null_device, &null) == 0 && file.st_rdev == null.st_rdev;
 }
 
 /// Refuses to replace inputs and what is not a file.
@@ -98,6 +98,7 @@ struct OutputFile::Reserved {
 struct OutputSet::Files {
     std::mutex mutex;
     std::vector<std::unique_ptr<OutputFile::Reserved>> written;
+    std::vector<fs::path> swept; ///< folders without the temporary files of killed runs
 };
 
 namespace {
@@ -144,6 +145,16 @@ void refuse_unwritten(const std::string& path, const std::string& reason) {
     throw Error(Refusal::unwritable, path + ": cannot be written (" + reason + "); is the disk full?");
 }
 
+void OutputFile::sweep_once(const std::filesystem::path& folder) {
+    if (OutputSet* const set = current_set) {
+        const std::lock_guard lock(set->files_->mutex);
+        std::vector<fs::path>& swept = set->files_->swept;
+        if (std::find(swept.begin(), swept.end(), folder) != swept.end()) return;
+        swept.push_back(folder);
+    }
+    sweep_temporary_files(folder);
+}
+
 OutputFile::OutputFile(const std::string& path) {
     if (const std::string place = number_place(fs::path(path).filename().string()); !place.empty())
         throw Error(Refusal::usage, path + ": " + place +
@@ -155,6 +166,7 @@ OutputFile::OutputFile(const std::string& path) {
     const bool discarded = stat(target.c_str(), &file) == 0 && is_null_device(file);
     std::error_code none;
     const fs::path folder = discarded ? fs::temp_directory_path(none) : target.parent_path();
+    if (!discarded) sweep_once(folder);
     TemporaryFile made(folder.string(), discarded);
     if (made.descriptor() < 0)
         refuse_name(path, std::strerror(errno), "choose a folder that exists and that you may write to");

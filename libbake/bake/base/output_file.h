@@ -2,11 +2,15 @@
 #pragma once
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace bake {
+
+/// What is written there is discarded; the name has no ending that tells a format.
+inline constexpr const char* null_device = "/dev/null";
 
 /// The old file stays as it was until commit(); a destructor without commit() removes the temporary file. A symbolic link
 /// is followed, and the file that it names is replaced. The new file has the mode of the old one, and its owner where
@@ -37,6 +41,8 @@ public:
     struct Reserved;
 
 private:
+    static void sweep_once(const std::filesystem::path& folder);
+
     std::unique_ptr<Reserved> reserved_;
 };
 

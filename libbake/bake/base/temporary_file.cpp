@@ -49,12 +49,6 @@ void remove_if_left(const fs::path& path) {
     close(file);
 }
 
-void sweep(const fs::path& folder) {
-    std::error_code failed;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-        if (is_temporary_name(entry->path().filename().string())) remove_if_left(entry->path());
-}
-
 /// Locks a file that was just made. False if another run removed it before it was locked.
 bool hold(int file) {
     // File systems without locks keep what killed runs leave.
@@ -65,9 +59,15 @@ bool hold(int file) {
 
 } // namespace
 
+void sweep_temporary_files(const fs::path& folder) {
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end; !failed && entry != end;
+         entry.increment(failed))
+        if (is_temporary_name(entry->path().filename().string())) remove_if_left(entry->path());
+}
+
 TemporaryFile::TemporaryFile(const std::string& folder, bool nameless) {
     const fs::path where = folder.empty() ? fs::path(".") : fs::path(folder);
-    if (!nameless) sweep(where);
     constexpr int attempts = 100;
     for (int attempt = 0; attempt < attempts && descriptor_ < 0; ++attempt) {
         path_ = (where / random_name()).string();

@@ -5,8 +5,10 @@
 
 namespace bake {
 
-/// An empty file of a random name in a folder, locked as long as it is open. A file of such a name without a lock was left
-/// by a run that was killed, and is removed when the next one is made there.
+/// Removes the temporary files that killed runs left in a folder: those that nobody has locked.
+void sweep_temporary_files(const std::filesystem::path& folder);
+
+/// An empty file of a random name in a folder, locked as long as it is open.
 class TemporaryFile {
 public:
     /// `folder`: empty for the working directory. `nameless`: without a name in any folder. descriptor() is -1, and errno

@@ -1,10 +1,8 @@
 #include "bake/picture/decoder_limits.h"
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -34,14 +32,6 @@ DecoderLimits decoder_limits(std::int64_t stored, double samples) noexcept {
     const double counted = std::clamp(samples, 0.0, most_samples);
     return {.bytes = bytes + 2 * stored + std::int64_t(counted) * bytes_per_sample,
             .seconds = seconds + stored / bytes_per_second + std::int64_t(counted / samples_per_second)};
-}
-
-std::int64_t address_space() noexcept {
-    long long pages = 0;
-    std::FILE* const file = std::fopen("/proc/self/statm", "r");
-    if (!file || std::fscanf(file, "%lld", &pages) != 1) pages = 0;
-    if (file) std::fclose(file);
-    return pages * sysconf(_SC_PAGESIZE);
 }
 
 void limit_decoder(const DecoderLimits& limits, const DecoderLimits& largest, std::int64_t libraries) noexcept {

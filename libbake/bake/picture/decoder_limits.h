@@ -14,9 +14,6 @@ struct DecoderLimits {
 /// known), many times what a file that is not damaged needs.
 DecoderLimits decoder_limits(std::int64_t stored, double samples) noexcept;
 
-/// The address space that this process takes now.
-std::int64_t address_space() noexcept;
-
 /// Limits this process to `limits` beyond `libraries` bytes. It can raise them again, up to `largest`. A crash leaves no
 /// core file.
 void limit_decoder(const DecoderLimits& limits, const DecoderLimits& largest, std::int64_t libraries) noexcept;

@@ -69,7 +69,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("gltf: the uvs are those of the set that the normal texture names, itself or by its transform") {
-        for (const std::string normal : {texture(R"(,"texCoord":1)"), transformed(R"({"texCoord":1})")}) {
+        for (const std::string& normal : {texture(R"(,"texCoord":1)"), transformed(R"({"texCoord":1})")}) {
             const Read got = read(text_of(R"({"normalTexture":)" + normal + R"(,"occlusionTexture":{"index":0}})"));
             CHECK(got.uv(0) == Vec2f(0, 0.5f));
             CHECK(got.uv(2) == Vec2f(0.75f, 0.25f));

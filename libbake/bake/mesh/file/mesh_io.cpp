@@ -1,5 +1,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/base/output_file.h"
 #include "bake/base/text.h"
 #include "bake/mesh/file/obj.h"
 #include "bake/mesh/file/ply.h"
@@ -43,7 +44,7 @@ Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& 
 } // namespace
 
 MeshFormat mesh_format(const std::string& path) {
-    if (path == "/dev/null") return MeshFormat::ply;
+    if (path == null_device) return MeshFormat::ply;
     const std::string end = ending(path);
     return end == ".obj"                     ? MeshFormat::obj
            : end == ".ply"                   ? MeshFormat::ply
