@@ -48,7 +48,8 @@ TEST_SUITE("unit") {
         root.write("proc/self/mountinfo",
                    "40 30 0:31 /docker/abc /sys/fs/cgroup/my\\040memory ro - cgroup cgroup rw,memory\n"
                    "41 30 0:32 /docker/abc /sys/fs/cgroup/cpu ro - cgroup cgroup rw,cpu\nnot a mount\n");
-        root.write("proc/self/cgroup", "9:name=systemd:/other\n8:cpu,cpuacct:/docker/abc\n4:memory:/docker/abc/in\n0::/\n");
+        root.write("proc/self/cgroup",
+                   "9:name=systemd:/other\n8:cpu,cpuacct:/docker/abc\n4:memory:/docker/abc/in\n0::/\n");
         root.write("sys/fs/cgroup/cpu/memory.limit_in_bytes", "5\n");
         CHECK(!root.limit());
         root.write("sys/fs/cgroup/my memory/memory.limit_in_bytes", "700\n");

@@ -36,9 +36,9 @@ struct RunLimits {
     long long file_bytes = -1;   ///< largest file it may write; -1: any
     double interrupt_after = -1; ///< seconds after which the signal is sent; -1: never
     int signal = SIGINT;
-    bool twice = false; ///< the signal is sent again, 10 ms later
-    bool as_nobody = false;      ///< without root's rights
-    std::string stdout_path;     ///< where stdout goes instead
+    bool twice = false;      ///< the signal is sent again, 10 ms later
+    bool as_nobody = false;  ///< without root's rights
+    std::string stdout_path; ///< where stdout goes instead
 };
 
 struct Run {

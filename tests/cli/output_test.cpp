@@ -264,8 +264,8 @@ TEST_SUITE("cli") {
         for (const int signal : {SIGTERM, SIGHUP, SIGINT})
             for (const bool twice : {false, true}) {
                 const auto& arguments = twice ? many : one;
-                const Run run = run_bake(
-                    folder, arguments, {.seconds = 100, .interrupt_after = 0.4, .signal = signal, .twice = twice});
+                const Run run = run_bake(folder, arguments,
+                                         {.seconds = 100, .interrupt_after = 0.4, .signal = signal, .twice = twice});
                 CAPTURE(run.err);
                 CHECK(run.code == 130);
                 CHECK(folder.names() == before);

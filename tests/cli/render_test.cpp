@@ -191,8 +191,8 @@ TEST_SUITE("cli") {
         const auto picture = [&](const std::string& table) {
             test::write_file(folder / (table + ".toml"), R"(light = [{type = "directional", from = [1, 2, 3]}]
                 material = [{name = "relief", diffuse = 1, bump = ")" +
-                                                       table +
-                                                       R"("}]
+                                                             table +
+                                                             R"("}]
                 mesh = [{file = "floor.ply", material = "relief"}]
                 camera = {position = [0, 0, 3], target = [0, 0, 0]}
                 render = {size = 64, spp = 1})");

@@ -240,7 +240,8 @@ TEST_SUITE("cli") {
         const Folder folder;
         write_mesh(folder / "a.ply", read_mesh(torus));
         const std::string before = contents(folder / "a.ply");
-        check_refused(folder, {"surface", "a.ply", "-o", "a.ply"}, 2, "would replace a file that the output is made from");
+        check_refused(folder, {"surface", "a.ply", "-o", "a.ply"}, 2,
+                      "would replace a file that the output is made from");
         CHECK(contents(folder / "a.ply") == before);
     }
 

@@ -57,10 +57,10 @@ std::vector<LaterStep> later_steps(const DisplaceArgs& args, const BaseSurface& 
     const bool margin = args.margin, parts = base.mesh().materials.size() > 1 || base.mesh().groups.size() > 1;
     const auto attribute = [margin](const DisplaceCount& c) { return margin ? c.corners * sizeof(float) : 0; };
     std::vector<LaterStep> steps;
-    steps.push_back({"", [=, format = mesh_format(args.out)](const DisplaceCount& c) {
-                         return attribute(c) +
-                                write_memory(format, {c.points, c.normals, c.uvs, c.faces, c.corners, parts});
-                     }});
+    steps.push_back(
+        {"", [=, format = mesh_format(args.out)](const DisplaceCount& c) {
+             return attribute(c) + write_memory(format, {c.points, c.normals, c.uvs, c.faces, c.corners, parts});
+         }});
     if (args.audit)
         steps.push_back({"audit", [=](const DisplaceCount& c) {
                              return attribute(c) + audit_memory(c.points, c.corners - 2 * c.faces);

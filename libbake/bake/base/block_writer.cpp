@@ -6,8 +6,7 @@
 
 namespace bake {
 
-BlockWriter::BlockWriter(const std::string& path)
-    : path_(path), file_(path), stream_(file_.open_stream()) {}
+BlockWriter::BlockWriter(const std::string& path) : path_(path), file_(path), stream_(file_.open_stream()) {}
 
 BlockWriter::~BlockWriter() {
     if (stream_) std::fclose(stream_);
@@ -23,8 +22,6 @@ void BlockWriter::commit() {
     file_.commit();
 }
 
-void BlockWriter::refuse() {
-    refuse_unwritten(path_, std::strerror(errno));
-}
+void BlockWriter::refuse() { refuse_unwritten(path_, std::strerror(errno)); }
 
 } // namespace bake

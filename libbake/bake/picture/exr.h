@@ -16,8 +16,7 @@ class ExrWriter {
 public:
     /// Writes to `file`, which is empty; messages name `path`. The depth is half or float32.
     /// All functions throw Error{Refusal::unwritable}.
-    ExrWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
-              const WriteOptions& options);
+    ExrWriter(const std::string& path, const OutputFile& file, const PictureSize& size, const WriteOptions& options);
     ~ExrWriter();
     ExrWriter(const ExrWriter&) = delete;
     ExrWriter& operator=(const ExrWriter&) = delete;

@@ -85,9 +85,7 @@ struct ExrWriter::Impl {
     int level = 0, row = 0;
     std::vector<Imath::half> halves = {};
 
-    [[noreturn]] void fail(const std::string& why) const {
-        refuse_unwritten(path, why);
-    }
+    [[noreturn]] void fail(const std::string& why) const { refuse_unwritten(path, why); }
     /// Calls into the library, whose exceptions become ours.
     template <class Call> void attempt(Call&& call) {
         try {

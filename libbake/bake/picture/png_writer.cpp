@@ -134,9 +134,7 @@ PngWriter::~PngWriter() {
     if (file_) std::fclose(file_);
 }
 
-void PngWriter::fail() const {
-    refuse_unwritten(path_, std::strerror(errno));
-}
+void PngWriter::fail() const { refuse_unwritten(path_, std::strerror(errno)); }
 
 void PngWriter::put(const void* bytes, std::size_t size) {
     if (std::fwrite(bytes, 1, size, file_) != size) fail();

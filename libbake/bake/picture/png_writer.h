@@ -13,8 +13,7 @@ class PngWriter {
 public:
     /// Writes to `file`, which is empty; messages name `path`. The depth is u8 or u16. All
     /// functions throw Error{Refusal::unwritable}; this one Error{Refusal::usage} for mips or more than 4 channels.
-    PngWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
-              const WriteOptions& options);
+    PngWriter(const std::string& path, const OutputFile& file, const PictureSize& size, const WriteOptions& options);
     ~PngWriter();
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;

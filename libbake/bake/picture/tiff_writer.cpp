@@ -86,9 +86,7 @@ bool TiffWriter::close_files() noexcept {
     return closed;
 }
 
-void TiffWriter::fail(const std::string& why) const {
-    refuse_unwritten(path_, why);
-}
+void TiffWriter::fail(const std::string& why) const { refuse_unwritten(path_, why); }
 
 void TiffWriter::describe_level() {
     const auto set = [&](std::uint32_t tag, int value) { return TIFFSetField(tiff_, tag, value) == 1; };

@@ -13,8 +13,7 @@ namespace bake {
 class TiffWriter {
 public:
     /// Writes to `file`, which is empty; messages name `path`. Throws Error{Refusal::unwritable}, as all functions here.
-    TiffWriter(const std::string& path, const OutputFile& file, const PictureSize& size,
-               const WriteOptions& options);
+    TiffWriter(const std::string& path, const OutputFile& file, const PictureSize& size, const WriteOptions& options);
     ~TiffWriter();
     TiffWriter(const TiffWriter&) = delete;
     TiffWriter& operator=(const TiffWriter&) = delete;

@@ -139,12 +139,12 @@ TEST_SUITE("unit" * doctest::skip(without_cgal())) {
             for (const Mesh& shape : {cube(), unit_sphere(8, 4)}) {
                 Mesh mesh = shape;
                 const double c = std::cos(angle), s = std::sin(angle);
-                for (Vec3f& p : mesh.positions)
-                    p = Vec3f(Vec3d(p.x, c * p.y - s * p.z, s * p.y + c * p.z));
+                for (Vec3f& p : mesh.positions) p = Vec3f(Vec3d(p.x, c * p.y - s * p.z, s * p.y + c * p.z));
                 CHECK(outward(mesh));
             }
         // The highest vertex is reentrant: both faces at its flattest edge lie on the same side of it.
-        CHECK(outward(mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {1, 5, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})));
+        CHECK(outward(
+            mesh_of({{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {1, 5, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})));
     }
 
     TEST_CASE("audit: the same for 1, 2 and 7 threads") {

@@ -273,8 +273,7 @@ void report_first(MeshAudit& to, const Mesh& mesh, const std::vector<Triangle>& 
 MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     MeshAudit result;
     result.available = true;
-    const Components components =
-        find_components(welded_corners(mesh, triangles), Index(mesh.positions.size()));
+    const Components components = find_components(welded_corners(mesh, triangles), Index(mesh.positions.size()));
     const TriangleTree tree(mesh, triangles);
     const Cuts cuts = find_cuts(tree, components.of);
     result.self_intersections = cuts.count;
@@ -300,8 +299,8 @@ MeshAudit audit(const Mesh& mesh, const std::vector<Triangle>& triangles) {
 std::uint64_t audit_memory(std::uint64_t positions, std::uint64_t triangles) noexcept {
     const std::uint64_t list = triangles * sizeof(Triangle);
     const std::uint64_t component = triangles * sizeof(Index), sound = triangles;
-    return list + std::max(components_memory(positions, triangles),
-                           component + sound + TriangleTree::memory(triangles));
+    return list +
+           std::max(components_memory(positions, triangles), component + sound + TriangleTree::memory(triangles));
 }
 
 } // namespace bake

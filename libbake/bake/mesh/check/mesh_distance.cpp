@@ -100,7 +100,7 @@ void sample(const MeshWithTree& a, const MeshWithTree& b, double wanted, std::ui
     const int n = segments(area, wanted);
     const double weight = area / (double(n) * n);
     for (int i = 0; i < n; ++i) {
-        throw_if_interrupted(); // a large triangle has millions of samples
+        throw_if_interrupted();                     // a large triangle has millions of samples
         for (int j = 0; j < 2 * (n - i) - 1; ++j) { // upright and inverted ones alternate
             const double third = j % 2 ? 2.0 / 3 : 1.0 / 3, b1 = (j / 2 + third) / n, b2 = (i + third) / n;
             const Vec3d p = p0 + b1 * e1 + b2 * e2;

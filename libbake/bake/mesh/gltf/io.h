@@ -117,7 +117,7 @@ struct GltfWritten {
     std::size_t dropped_images =
         0; ///< images without bytes or in other formats than PNG and JPEG, omitted with their textures
     std::size_t moved_nodes =
-        0; ///< nodes whose matrix is not a translation, rotation and scale, written in world space
+        0;                  ///< nodes whose matrix is not a translation, rotation and scale, written in world space
     std::int64_t bytes = 0; ///< of all files
 };
 

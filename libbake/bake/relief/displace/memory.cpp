@@ -30,10 +30,10 @@ std::uint64_t plan_bytes(const Plan& plan) noexcept {
     const PatchCells& cells = plan.rates.cells;
     const CellRates& rates = plan.rates.rates;
     const PatchLayout& l = plan.layout;
-    std::uint64_t bytes =
-        bytes_of(rates.edge) + bytes_of(rates.across) + bytes_of(rates.up) + bytes_of(l.edge_owner, l.vertex_owner) +
-        bytes_of(l.edge_first, l.inner_first, l.face_first, l.corner_first) + bytes_of(l.edge_normals, l.edge_uvs) +
-        bytes_of(l.vertex_normals, l.vertex_uvs);
+    std::uint64_t bytes = bytes_of(rates.edge) + bytes_of(rates.across) + bytes_of(rates.up) +
+                          bytes_of(l.edge_owner, l.vertex_owner) +
+                          bytes_of(l.edge_first, l.inner_first, l.face_first, l.corner_first) +
+                          bytes_of(l.edge_normals, l.edge_uvs) + bytes_of(l.vertex_normals, l.vertex_uvs);
     if (cells.split() > 1)
         bytes += bytes_of(cells.complex().patches) + bytes_of(cells.junctions().edges) +
                  bytes_of(cells.junctions().vertices) + cells.complex().edges / 4;
@@ -85,8 +85,7 @@ DisplaceCount DisplaceMemory::count(const Plan& plan, const SeamBlend* blend, st
     DisplaceCount count{l.points, l.normals, l.uvs, l.faces, l.corners};
     const std::uint64_t result = result_bytes(count, base_->mesh(), options_->margin);
     std::uint64_t most = std::max(during_displacement(plan, blend, result), sampler_memory(*relief_).most);
-    if (options_->measure_error)
-        most = std::max(most, during_displacement(plan, blend, 0) + during_measurement(plan));
+    if (options_->measure_error) most = std::max(most, during_displacement(plan, blend, 0) + during_measurement(plan));
     for (std::size_t i = 0; i < options_->later.size(); ++i)
         if (i != without) most = std::max(most, result + options_->later[i].bytes(count));
     if (options_->rates.rule == Rates::Rule::error) most = std::max(most, search_bytes(plan.rates.searched));

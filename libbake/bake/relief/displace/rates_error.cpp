@@ -82,7 +82,8 @@ class Planner {
 public:
     Planner(const ReliefSurface& surface, const SeamBlend& blend, const Rates& rates, std::uint32_t split,
             const CheckSearch& check, Progress* progress)
-        : surface_(surface), blend_(blend), check_(check), progress_(progress), error_(rates.error), plan_{PatchCells(surface.base(), split), {}, split},
+        : surface_(surface), blend_(blend), check_(check), progress_(progress),
+          error_(rates.error), plan_{PatchCells(surface.base(), split), {}, split},
           aim_(plan_.cells.count(), first_aim), fitted_(plan_.cells.count(), Vec2f(0)) {
         const auto limit = std::uint32_t(std::clamp(rates.most, 1, 65535));
         most_ = std::clamp(4 * limit / split, 1u, limit);
@@ -92,9 +93,7 @@ public:
         check_(split, expected, expected);
         changed_ = fit(std::vector<bool>(plan_.cells.count(), true), 1);
     }
-    std::uint64_t triangles() const {
-        return triangles_of(plan_);
-    }
+    std::uint64_t triangles() const { return triangles_of(plan_); }
     /// Whether every cell could be finer.
     bool within_limit() const {
         bool within = true;

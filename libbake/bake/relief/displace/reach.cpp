@@ -90,7 +90,8 @@ void refuse_unreachable(const SeamedRelief& scene, const Rates& rates, const Dis
     if (need.triangles > double(no_index) / 2)
         refuse(rates, format("it takes %.2g triangles or more, more than indices can count", need.triangles), smallest);
     if (need.segments > 4.0 * rates.most)
-        refuse(rates, format("it takes %.2g segments along an edge, and %d are the most", need.segments, 4 * rates.most),
+        refuse(rates,
+               format("it takes %.2g segments along an edge, and %d are the most", need.segments, 4 * rates.most),
                smallest);
 }
 
@@ -100,12 +101,11 @@ void refuse_too_small(const RatePlan& plan, const Rates& rates, const DisplaceMe
     const std::uint64_t bytes = memory.least_bytes(triangles);
     const double over = std::max(double(bytes) / double(memory.limit()), 2 * triangles / double(no_index));
     if (over <= 1) return;
-    throw Error(Refusal::unsuitable,
-                format("segments of %g take %.2g triangles, ", rates.size, triangles) + in_binary_units(bytes, true) +
-                    " of memory, more than " +
-                    (bytes <= memory.limit() ? "indices can count" : memory.described_limit()) +
-                    format("; allow more by `max_bytes`, or set `rates.size` to %.2g or more",
-                           1.05 * rates.size * std::sqrt(over)));
+    throw Error(Refusal::unsuitable, format("segments of %g take %.2g triangles, ", rates.size, triangles) +
+                                         in_binary_units(bytes, true) + " of memory, more than " +
+                                         (bytes <= memory.limit() ? "indices can count" : memory.described_limit()) +
+                                         format("; allow more by `max_bytes`, or set `rates.size` to %.2g or more",
+                                                1.05 * rates.size * std::sqrt(over)));
 }
 
 } // namespace

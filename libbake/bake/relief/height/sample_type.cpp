@@ -24,8 +24,6 @@ bool is_cut(const ImageInfo& info) noexcept {
     return read > 0 && info.bits > read;
 }
 
-bool is_lossy(const ImageInfo& info) noexcept {
-    return info.format == "jpeg" || info.format == "webp";
-}
+bool is_lossy(const ImageInfo& info) noexcept { return info.format == "jpeg" || info.format == "webp"; }
 
 } // namespace bake
