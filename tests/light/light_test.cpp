@@ -1,7 +1,10 @@
 #include "bake/light/light.h"
+#include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 using namespace bake;
 
@@ -31,6 +34,49 @@ TEST_SUITE("oracle") {
         const LightSample<float> s = sample(light, Vec3f(1e6f, -3, 7));
         CHECK(s.l == light.from);
         CHECK(s.radiance == light.colour);
+    }
+
+    TEST_CASE("light: a quad's samples add up to the closed form of its irradiance") {
+        // A square of half edge 1.5 at height 2 above the point, parallel to the surface: four corner rectangles
+        // (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3).
+        Light<double> light;
+        light.kind = LightKind::quad;
+        light.position = {1, 4, 7}, light.colour = {1, 2, 4};
+        light.edge_u = {0, 0, 3}, light.edge_v = {3, 0, 0}; // shines towards +y: away from the point
+        const Vec3d p(1, 2, 7), n(0, 1, 0);
+        const auto irradiance = [&] {
+            Vec3d sum(0);
+            const int k = 200;
+            for (int j = 0; j < k; ++j)
+                for (int i = 0; i < k; ++i) {
+                    const LightSample<double> s = sample(light, p, Vec2d((i + 0.5) / k, (j + 0.5) / k));
+                    sum += s.radiance * std::max(0.0, glm::dot(s.l, n));
+                }
+            return sum / double(k * k);
+        };
+        CHECK(irradiance() == Vec3d(0));
+        std::swap(light.edge_u, light.edge_v);
+        const double x = 1.5 / 2, root = std::sqrt(1 + x * x);
+        const double factor = 4 * 2 * x / root * std::atan(x / root) / (2 * pi);
+        CHECK(glm::length(irradiance() - factor * light.colour) < 2e-5);
+    }
+
+    TEST_CASE("light: a spot light shines fully in its inner cone, falls to 0 at the outer one") {
+        Light<double> light;
+        light.kind = LightKind::spot;
+        light.from = {0, 1, 0}; // shines down
+        light.position = {0, 1, 0};
+        light.cos_inner = std::cos(0.2), light.cos_outer = std::cos(0.6);
+        light.falloff = {0, 0, 2};
+        const auto at = [&](double angle) {
+            return sample(light, Vec3d(std::sin(angle), 1 - std::cos(angle), 0)).radiance.x;
+        };
+        CHECK(at(0) == doctest::Approx(0.5));
+        CHECK(at(0.199) == doctest::Approx(0.5));
+        CHECK(at(0.601) == 0);
+        CHECK(at(2) == 0);
+        const double part = (std::cos(0.4) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+        CHECK(at(0.4) == doctest::Approx(0.5 * part * part));
     }
 
 } // TEST_SUITE

@@ -87,8 +87,10 @@ inline Scene one_mesh(Mesh mesh, Material material, bool flat = false) {
 
 /// Radiance at the point (x, y) of an n x n picture of a built scene.
 inline Vec3f seen_at(const Scene& scene, double x, double y, int n = 64) {
-    std::int64_t rays = 0;
-    return radiance(scene, primary_ray(camera_frame(scene.camera), x, y, n, n), scene.settings.bounces, rays);
+    Sampler sampler(int(x), int(y), 0, scene.settings.seed);
+    RenderStats stats;
+    const Ray ray = primary_ray(camera_frame(scene.camera), x, y, n, n);
+    return radiance(scene, ray, scene.settings.bounces, sampler, stats).total();
 }
 
 inline double angle_deg(const Vec3f& a, const Vec3f& b) {

@@ -61,7 +61,11 @@ const char* every_key = R"(
 size = [320, 200]
 spp = 9
 bounces = 2
+diffuse-bounces = 3
 shadows = false
+sky-light = "off"
+terminator = "chiang"
+seed = 12
 exposure = -1.5
 background = [0.1, 0.2, 0.3]
 
@@ -74,6 +78,7 @@ fov-deg = 25
 [sky]
 faces = "sky/%s.png"
 scale = 2
+yaw-deg = 30
 colour-space = "linear"
 
 [[light]]
@@ -86,6 +91,28 @@ intensity = 2
 type = "point"
 position = [5, 6, 7]
 falloff = [1, 0.5, 0.25]
+ambient = 0.5
+diffuse = [1, 0.5, 0]
+specular = 2
+
+[[light]]
+type = "spot"
+position = [1, 2, 3]
+direction = [0, -2, 0]
+inner-deg = 10
+outer-deg = 60
+
+[[light]]
+type = "quad"
+position = [0, 9, 0]
+direction = [0, -1, 0]
+size = 2
+
+[[light]]
+type = "quad"
+position = [0, 9, 0]
+edge-u = [1, 0, 0]
+edge-v = [0, 0, 3]
 
 [[light]]
 type = "ambient"
@@ -148,7 +175,7 @@ TEST_SUITE("unit") {
                 ++numbers;
             }
         }
-        CHECK(numbers == 52);
+        CHECK(numbers == 84);
     }
 
     TEST_CASE("scene_io: every key is read") {
@@ -159,6 +186,10 @@ TEST_SUITE("unit") {
         CHECK(s.settings.spp == 9);
         CHECK(s.settings.bounces == 2);
         CHECK(!s.settings.shadows);
+        CHECK(s.settings.diffuse_bounces == 3);
+        CHECK(s.settings.sky_light == SkyLighting::off);
+        CHECK(s.settings.terminator == Terminator::chiang);
+        CHECK(s.settings.seed == 12);
         CHECK(s.settings.exposure == -1.5f);
         CHECK(s.background == Vec3f(0.1f, 0.2f, 0.3f));
         CHECK(s.camera_position.value() == Vec3f(1, 2, 3));
@@ -168,8 +199,9 @@ TEST_SUITE("unit") {
         CHECK(s.sky.image == folder / "sky/%s.png"); // found when the scene is loaded, by any words for faces
         CHECK(s.sky.scale == 2);
         CHECK(s.sky.space == ColourSpace::linear);
+        CHECK(s.sky.yaw_deg == 30);
 
-        REQUIRE(s.lights.size() == 2);
+        REQUIRE(s.lights.size() == 5);
         CHECK(s.lights[0].kind == LightKind::directional);
         CHECK(glm::length(s.lights[0].from - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
         CHECK(s.lights[0].colour == Vec3f(2, 1, 0.5f));
@@ -178,7 +210,18 @@ TEST_SUITE("unit") {
         CHECK(s.lights[1].falloff.constant == 1);
         CHECK(s.lights[1].falloff.linear == 0.5f);
         CHECK(s.lights[1].falloff.quadratic == 0.25f);
-        CHECK(s.ambient == Vec3f(0.25f));
+        CHECK(s.lights[1].diffuse == Vec3f(1, 0.5f, 0));
+        CHECK(s.lights[1].specular == Vec3f(2));
+        CHECK(s.ambient == Vec3f(0.75f)); // of the point light, and of the ambient one
+        CHECK(s.lights[2].kind == LightKind::spot);
+        CHECK(s.lights[2].from == Vec3f(0, 1, 0));
+        CHECK(s.lights[2].cos_inner == doctest::Approx(std::cos(pi / 18)));
+        CHECK(s.lights[2].cos_outer == doctest::Approx(0.5));
+        for (const int k : {3, 4}) {
+            CHECK(s.lights[k].kind == LightKind::quad);
+            const Vec3f area = glm::cross(s.lights[k].edge_u, s.lights[k].edge_v);
+            CHECK(glm::length(area - Vec3f(0, k == 3 ? -4 : -3, 0)) < 1e-5f);
+        }
 
         REQUIRE(s.materials.size() == 2);
         const MaterialEntry &brick = s.materials[0], &mapped = s.materials[1];
@@ -263,10 +306,17 @@ TEST_SUITE("stability") {
         check_refused_at(2, "\"up\"", "[camera]\nup = [0, 0, 0]\n");
         check_refused_at(2, "\"fov-deg\"", "[camera]\nfov-deg = 180\n");
         check_refused_at(1, "\"target\"", "[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]\n");
-        check_refused_at(2, "\"type\"", "[[light]]\ntype = \"spot\"\n");
+        check_refused_at(2, "\"type\"", "[[light]]\ntype = \"sun\"\n");
         check_refused_at(1, "\"from\"", "[[light]]\ntype = \"directional\"\n");
         check_refused_at(3, "\"from\"", "[[light]]\ntype = \"directional\"\nfrom = [0, 0, 0]\n");
         check_refused_at(4, "\"falloff\"", "[[light]]\ntype = \"point\"\nposition = [0, 0, 0]\nfalloff = [0, 0, 0]\n");
+        const std::string spot = "[[light]]\ntype = \"spot\"\nposition = [0, 0, 0]\n",
+                          quad = "[[light]]\ntype = \"quad\"\n";
+        check_refused_at(1, "\"direction\"", spot);
+        check_refused_at(5, "\"inner-deg\"", spot + "direction = [0, -1, 0]\ninner-deg = 50\n");
+        check_refused_at(1, "\"position\"", quad);
+        check_refused_at(1, "\"edge-v\"", quad + "position = [0, 1, 0]\nedge-u = [1, 0, 0]\n");
+        check_refused_at(1, "no area", quad + "position = [0, 1, 0]\ndirection = [0, -1, 0]\nsize = 0\n");
         check_refused_at(2, "\"file\"", "[[mesh]]\nfile = 3\n");
         check_refused_at(1, "\"file\"", "[[mesh]]\nflat = true\n");
         check_refused_at(3, "\"scale\"", "[[mesh]]\nfile = \"a.obj\"\nscale = [1, 0, 1]\n");

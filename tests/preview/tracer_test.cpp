@@ -5,7 +5,6 @@
 #include <cstring>
 #include <doctest/doctest.h>
 #include <limits>
-#include <set>
 
 using namespace bake;
 using namespace bake::test;
@@ -283,24 +282,6 @@ TEST_SUITE("unit") {
         const Scene plain = ball(Vec3f(1)), turned = ball({-1, 1, 1});
         for (int i = 0; i < 64; i += 3)
             CHECK(near(seen_at(plain, i + 0.5, 31.3), seen_at(turned, i + 0.5, 31.3), 1e-3f));
-    }
-
-    TEST_CASE("tracer: samples are distributed over the rows and columns of a pixel, differently in every pixel") {
-        CHECK(pixel_sample(3, 4, 0, 1) == Vec2d(0.5));
-        std::set<double> offsets;
-        for (int pixel = 0; pixel < 50; ++pixel) {
-            std::set<int> columns, rows;
-            for (int i = 0; i < 16; ++i) {
-                const Vec2d at = pixel_sample(pixel, 7, i, 16);
-                REQUIRE((at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1));
-                columns.insert(int(at.x * 16));
-                rows.insert(int(at.y * 16));
-            }
-            CHECK(columns.size() == 16);
-            CHECK(rows.size() == 16);
-            offsets.insert(pixel_sample(pixel, 7, 0, 16).x);
-        }
-        CHECK(offsets.size() == 50);
     }
 
     TEST_CASE("tracer: the image does not depend on the number of threads") {

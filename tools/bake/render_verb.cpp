@@ -43,6 +43,11 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
         {"spp", settings.spp},       {"triangles", triangles},           {"rays", stats.rays},
         {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
         {"render_seconds", seconds}, {"seconds", watch.total()}};
+    const double hits = double(std::max<std::int64_t>(1, stats.hits));
+    object["relief"] = {{"tilted_away", double(stats.tilted) / hits},
+                        {"mirrored_below", double(stats.mirrored_below) / hits},
+                        {"lit_from_below", double(stats.lit_below) / hits},
+                        {"any", double(stats.repaired) / hits}};
     if (!scene.notes.empty()) object["notes"] = scene.notes;
     print_result(common,
                  format("%s: %d x %d, %d spp, %zu triangles, %.2f M rays/s; ", printable(args.out).c_str(),

@@ -29,13 +29,14 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
                 for (int x = 0; x < size; ++x) {
                     Vec3d sum(0);
                     for (int i = 0; i < spp; ++i) {
-                        const Vec2d at = pixel_sample(x, int(r), i, spp);
+                        Sampler sampler(x, int(r), i, scene.settings.seed);
+                        const Vec2d at = pixel_sample(spp, sampler);
                         const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
                         Ray ray;
                         ray.origin = position;
                         ray.direction =
                             Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
-                        const Vec3f value = radiance(scene, ray, scene.settings.bounces, per_row[r].rays);
+                        const Vec3f value = radiance(scene, ray, scene.settings.bounces, sampler, per_row[r]).total();
                         if (finite(value)) sum += Vec3d(value);
                         else ++per_row[r].bad_samples;
                     }
@@ -46,10 +47,7 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
         },
         progress);
     if (stats)
-        for (const RenderStats& row : per_row) {
-            stats->rays += row.rays;
-            stats->bad_samples += row.bad_samples;
-        }
+        for (const RenderStats& row : per_row) *stats += row;
     return cube;
 }
 

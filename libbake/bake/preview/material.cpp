@@ -1,5 +1,4 @@
 #include "bake/preview/material.h"
-#include "bake/relief/map/displaced_normal.h"
 
 namespace bake {
 namespace {
@@ -9,6 +8,15 @@ Vec3f bumped(const Material& material, const Shape& shape, const ShapePoint& at)
     if (jet.sigma == 0) return Vec3f(0);
     const Vec2f slopes = lookup2(*material.bump_table, uv_at(shape, at));
     return displaced_normal(jet, Height<float>{0, slopes.x, slopes.y}, NormalMethod::surface_gradient);
+}
+
+Vec3f raised(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
+    const Jet<float> jet = jet_at(shape.surface, at.triangle, at.b1, at.b2);
+    if (jet.sigma == 0) return Vec3f(0);
+    const Vec2f uv = uv_at(shape, at);
+    const Height<float> h = material.height->at(uv.x, uv.y);
+    const bool inside_out = material.height_method == NormalMethod::exact && folds(jet, h.b);
+    return displaced_normal(jet, h, inside_out ? NormalMethod::blinn : material.height_method, material.height_scale);
 }
 
 Vec3f mapped(const Material& material, const Shape& shape, const ShapePoint& at, const Vec3f& normal) noexcept {
@@ -24,19 +32,32 @@ Vec3f mapped(const Material& material, const Shape& shape, const ShapePoint& at,
 
 } // namespace
 
-BlinnPhong<float> bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
-    BlinnPhong<float> bsdf = material.bsdf;
-    if (!material.albedo) return bsdf;
-    const Vec3f albedo = lookup3(*material.albedo, uv_at(shape, at));
-    bsdf.ambient *= albedo;
-    bsdf.diffuse *= albedo;
+Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
+    const BlinnPhong<float>& given = material.bsdf;
+    const Vec3f tint = material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1);
+    Bsdf bsdf;
+    bsdf.ambient = given.ambient * tint, bsdf.emission = given.emission;
+    const auto add = [&](const Lobe& lobe) {
+        if (lobe.weight != Vec3f(0)) bsdf.lobes[bsdf.count++] = lobe;
+    };
+    add({.kind = LobeKind::lambert, .weight = given.diffuse * tint});
+    add({.kind = LobeKind::blinn, .weight = given.specular, .exponent = given.shininess});
     return bsdf;
+}
+
+Vec3f albedo(const Bsdf& bsdf) noexcept {
+    Vec3f sum(0);
+    for (int i = 0; i < bsdf.count; ++i)
+        if (bsdf.lobes[i].kind == LobeKind::lambert) sum += bsdf.lobes[i].weight;
+    return sum;
 }
 
 Vec3f shading_normal(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
     const Vec3f normal = normal_at(shape, at);
     Vec3f relief(0);
-    if (material.bump_table) relief = unit_or_zero(bumped(material, shape, at));
+    if (material.height) relief = unit_or_zero(raised(material, shape, at));
+    else if (material.object_normals) relief = unit_or_zero(lookup3(*material.object_normals, uv_at(shape, at)));
+    else if (material.bump_table) relief = unit_or_zero(bumped(material, shape, at));
     else if (material.normal_map && !shape.tangents.empty()) relief = unit_or_zero(mapped(material, shape, at, normal));
     return relief != Vec3f(0) ? relief : unit_or_zero(normal);
 }

@@ -1,26 +1,36 @@
 // Materials and their shading normals: plain, from a bump table, or from a normal map.
 #pragma once
 #include "bake/light/bsdf.h"
+#include "bake/light/lobe.h"
 #include "bake/preview/shape.h"
 #include "bake/preview/texture.h"
+#include "bake/relief/map/displaced_normal.h"
 
 namespace bake {
 
-/// At most one of bump_table and normal_map is set.
+/// At most one of bump_table, normal_map, object_normals and height is set.
 struct Material {
     std::string name;
     BlinnPhong<float> bsdf;
-    Vec3f reflect{0};   ///< factor on the radiance from the mirror direction
-    Texture albedo;     ///< multiplies ambient and diffuse
-    Texture bump_table; ///< slopes b_u, b_v per unit of u and v
-    Texture normal_map; ///< tangent-space vectors, not necessarily unit
+    Vec3f reflect{0};                                   ///< factor on the radiance from the mirror direction
+    Texture albedo;                                     ///< multiplies ambient and diffuse
+    Texture bump_table;                                 ///< slopes b_u, b_v per unit of u and v
+    Texture normal_map;                                 ///< tangent-space vectors, not necessarily unit
+    Texture object_normals;                             ///< the same in object space
+    std::shared_ptr<const HeightSampler<float>> height; ///< from which height_method computes normals at each hit
+    NormalMethod height_method = NormalMethod::exact;
+    ConstantScale<float> height_scale; ///< for NormalMethod::constant_scale
 };
 
 /// The reflection model at a point, including the albedo texture.
-BlinnPhong<float> bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;
+Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;
+
+/// The diffuse reflectance.
+Vec3f albedo(const Bsdf& bsdf) noexcept;
 
 /// The outward unit shading normal in object space; zero where the mesh has no normal.
 /// Bump table: the surface-gradient normal for the slopes (b_u, b_v) and height 0 on the jet of the smooth surface.
+/// Height: as NormalMethod says; where the displaced surface is inside out, blinn stands in for exact.
 /// Normal map: normalize(t.x T + t.y B + t.z N), B = sign (N x T), with T and N interpolated without normalising.
 /// Where the chart has no area or the texture yields a zero vector, it is the plain normal.
 Vec3f shading_normal(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;

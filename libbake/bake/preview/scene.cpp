@@ -62,6 +62,7 @@ void build(Scene& scene) {
         meshes[i] = {positions[i], triangles[i]};
     }
     scene.bvh.emplace(meshes);
+    scene.sky_light = SkyLight(scene.sky);
 }
 
 Bounds bounds(const Scene& scene) noexcept {
@@ -100,10 +101,6 @@ Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept {
     }
     camera.position = Vec3f(Vec3d(camera.target) + from * (1.05 * distance));
     return camera;
-}
-
-Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept {
-    return sky.cube.empty() ? sky.background : sky.scale * lookup(sky.cube, world_to_cube(direction));
 }
 
 } // namespace bake

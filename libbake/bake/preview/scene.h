@@ -1,8 +1,9 @@
 // A scene: mesh instances with materials, lights, a camera, a sky.
 #pragma once
-#include "bake/environment/sky/cube.h"
 #include "bake/light/light.h"
 #include "bake/preview/material.h"
+#include "bake/preview/sky.h"
+#include "bake/preview/terminator.h"
 #include "bake/ray/bvh.h"
 #include "bake/ray/camera.h"
 #include <glm/mat3x3.hpp>
@@ -24,19 +25,19 @@ struct Instance {
     Vec3f translate{0};
 };
 
-/// Radiance of rays that hit nothing.
-struct Sky {
-    Cube cube;           ///< if empty, the background is used
-    float scale = 1;     ///< factor on the radiance of the cube
-    Vec3f background{0}; ///< radiance, linear RGB
-};
+/// Whether the sky lights meshes, or is only seen and mirrored.
+enum class SkyLighting { off, sampled };
 
 struct RenderSettings {
     int width = 512, height = 512;
-    int spp = 4;         ///< samples per pixel; 1 is the pixel's centre
-    int bounces = 1;     ///< number of mirror reflections that can hit meshes; later ones see only the sky
-    bool shadows = true; ///< whether directional and point lights cast shadows
-    float exposure = 0;  ///< in stops; only for pictures written in 8 or 16 bits
+    int spp = 4;             ///< samples per pixel; 1 is the pixel's centre
+    int bounces = 1;         ///< number of mirror reflections that can hit meshes; later ones see only the sky
+    int diffuse_bounces = 0; ///< number of diffuse reflections that can hit meshes; needs a sky that lights
+    bool shadows = true;     ///< whether meshes shadow lights and sky
+    SkyLighting sky_light = SkyLighting::sampled;
+    Terminator terminator = Terminator::off;
+    std::uint32_t seed = 0; ///< pictures of different seeds have independent noise
+    float exposure = 0;     ///< in stops; only for pictures written in 8 or 16 bits
 };
 
 /// Owns its parts. Instances point to shapes and materials, whose addresses do not change.
@@ -50,13 +51,14 @@ struct Scene {
     Sky sky;
     RenderSettings settings;
     std::vector<std::string> notes; ///< of reading the files, with their names
+    SkyLight sky_light;             ///< set by build()
     std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
 /// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
 /// axis.
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement = {});
-/// Builds the Bvh. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world
+/// Builds the Bvh and the light of the sky. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world
 /// position is not finite or beyond 1e18.
 void build(Scene& scene);
 
@@ -65,8 +67,5 @@ Bounds bounds(const Scene& scene) noexcept;
 /// A camera that sees the whole box from the front, slightly from above and from the right. If the box is empty, the camera
 /// looks along +Z.
 Camera framing_camera(const Bounds& box, float fov_deg, float aspect) noexcept;
-
-/// Radiance of the sky along a world-space direction.
-Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept;
 
 } // namespace bake

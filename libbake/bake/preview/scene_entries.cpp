@@ -5,6 +5,7 @@
 #include "bake/environment/resample/resample.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/origin.h"
+#include "bake/preview/scene_relief.h"
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -56,7 +57,29 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
 /// Shapes by their file and all options of reading.
 using ShapeCache = std::map<std::tuple<std::string, bool, bool, int>, Shape*>;
 
-void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
+/// Heights by their file.
+using HeightCache = std::map<std::string, std::shared_ptr<const HeightTexture>>;
+
+/// Places the mesh with the relief of its material, which is baked for this shape.
+void add_relief(const ReliefEntry& relief, const Placement& placement, const Material& material, Shape& shape,
+                HeightCache& heights, Scene& scene) {
+    auto& height = heights[relief.file];
+    if (!height) {
+        height = std::make_shared<const HeightTexture>(read_height(relief.file));
+        for (const std::string& note : height->info.notes) scene.notes.push_back(relief.file + ": " + note);
+    }
+    const ReliefOptions options = relief_options(relief, height->info, diagonal(bounds(shape.mesh)));
+    ReliefModel model = with_relief(material, shape, *height, options);
+    if (options.method.levels < 0 && model.segments > 0)
+        scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
+                              " segments per edge, the most that memory allows");
+    scene.materials.push_back(std::make_unique<Material>(std::move(model.material)));
+    if (model.shape) scene.shapes.push_back(std::move(model.shape));
+    add_instance(scene, model.segments > 0 ? *scene.shapes.back() : shape, *scene.materials.back(), placement);
+}
+
+void load_mesh(const SceneEntries& entries, const MeshEntry& entry, ShapeCache& loaded, HeightCache& heights,
+               Scene& scene) {
     throw_if_interrupted();
     Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v, entry.uv_set}];
     if (!shape) {
@@ -67,10 +90,13 @@ void load_mesh(const MeshEntry& entry, ShapeCache& loaded, Scene& scene) {
         shape = scene.shapes.back().get();
     }
     const Material& material = *scene.materials[entry.material + 1];
-    if ((material.albedo || material.bump_table || material.normal_map) && shape->mesh.corner_uv.empty())
+    const ReliefEntry relief = entry.material < 0 ? ReliefEntry{} : entries.materials[entry.material].relief;
+    if ((!relief.file.empty() || material.albedo || material.bump_table || material.normal_map) &&
+        shape->mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
                                              material.name + "\" need; unwrap the mesh or remove the textures");
-    add_instance(scene, *shape, material, entry.placement);
+    if (relief.file.empty()) add_instance(scene, *shape, material, entry.placement);
+    else add_relief(relief, entry.placement, material, *shape, heights, scene);
 }
 
 Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
@@ -117,7 +143,7 @@ Scene load(const SceneEntries& entries) {
     scene.lights = entries.lights;
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
-    scene.sky.scale = entries.sky.scale;
+    scene.sky.scale = entries.sky.scale, scene.sky.yaw_deg = entries.sky.yaw_deg;
     if (has_sky)
         scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
 
@@ -127,8 +153,9 @@ Scene load(const SceneEntries& entries) {
         scene.materials.push_back(
             at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
     ShapeCache shapes;
+    HeightCache heights;
     for (const MeshEntry& entry : entries.meshes)
-        at_line(entries, entry.line, [&] { load_mesh(entry, shapes, scene); });
+        at_line(entries, entry.line, [&] { load_mesh(entries, entry, shapes, heights, scene); });
 
     place_camera(entries, scene);
     if (!entries.any_light && !has_sky) add_default_light(scene);

@@ -1,8 +1,20 @@
 // The checked content of a scene file, and the function that loads its files.
 #pragma once
+#include "bake/preview/relief_method.h"
 #include "bake/preview/scene.h"
 
 namespace bake {
+
+/// A height and how it is shown; the numbers mean what they mean to `bake displace`.
+struct ReliefEntry {
+    std::string file;
+    std::optional<float> amplitude; ///< object units, or a part of the diagonal; none: as default_amplitude() says
+    bool relative = false;          ///< the amplitude is a part of the diagonal of the mesh
+    std::optional<float> midlevel;
+    Filter filter = Filter::automatic;
+    Wrap wrap = Wrap::repeat;
+    std::optional<ShadeMethod> shade; ///< none: exact
+};
 
 struct MaterialEntry {
     std::string name;
@@ -13,6 +25,7 @@ struct MaterialEntry {
     float bump_scale = 1;
     NormalEncoding encoding = NormalEncoding::automatic;
     bool directx = false;
+    ReliefEntry relief;
     int line = 0; ///< line in the scene file, for messages
 };
 
@@ -31,7 +44,7 @@ struct SkyEntry {
     std::string image;                ///< one input of read_environment(): a picture, or a pattern of six faces
     ColourSpace space = ColourSpace::automatic;
     BadPolicy bad = BadPolicy::refuse;
-    float scale = 1;
+    float scale = 1, yaw_deg = 0;
     int line = 0;
 };
 

@@ -2,6 +2,8 @@
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
 #include "bake/environment/file/face_files.h"
+#include "bake/preview/scene_lights.h"
+#include "bake/preview/scene_relief.h"
 #include "bake/preview/scene_section.h"
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +12,8 @@ namespace bake {
 namespace {
 
 void read_render(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"size", "spp", "bounces", "shadows", "exposure", "background"});
+    allow_only(in, {"size", "spp", "bounces", "diffuse-bounces", "shadows", "sky-light", "terminator", "seed",
+                    "exposure", "background"});
     RenderSettings& s = scene.settings;
     if (const toml::node* size = in.table.get("size")) {
         if (size->is_number()) {
@@ -23,7 +26,19 @@ void read_render(const Section& in, SceneEntries& scene) {
     }
     read(in, "spp", s.spp, 1, 65536);
     read(in, "bounces", s.bounces, 0, 64);
+    read(in, "diffuse-bounces", s.diffuse_bounces, 0, 64);
     read(in, "shadows", s.shadows);
+    read_choice<SkyLighting>(in, "sky-light", s.sky_light,
+                             {{"off", SkyLighting::off}, {"sampled", SkyLighting::sampled}});
+    read_choice<Terminator>(in, "terminator", s.terminator,
+                            {{"off", Terminator::off},
+                             {"flip", Terminator::flip},
+                             {"rotate", Terminator::rotate},
+                             {"estevez", Terminator::estevez},
+                             {"chiang", Terminator::chiang}});
+    int seed = 0;
+    read(in, "seed", seed, 0, 1'000'000'000);
+    s.seed = std::uint32_t(seed);
     read(in, "exposure", s.exposure, -64, 64);
     read_colour(in, "background", scene.background);
 }
@@ -41,7 +56,7 @@ void read_camera(const Section& in, SceneEntries& scene) {
 }
 
 void read_sky(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"faces", "image", "scale", "colour-space", "bad"});
+    allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -69,51 +84,15 @@ void read_sky(const Section& in, SceneEntries& scene) {
         }
     }
     read(in, "scale", scene.sky.scale, 0);
+    read(in, "yaw-deg", scene.sky.yaw_deg, -360, 360);
     read_colour_space(in, "colour-space", scene.sky.space);
     read_choice<BadPolicy>(in, "bad", scene.sky.bad,
                            {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
 }
 
-void read_light(const Section& in, SceneEntries& scene) {
-    scene.any_light = true;
-    enum class Type { directional, point, ambient } type = Type::directional;
-    if (!in.table.get("type"))
-        refuse(in, in.table, "\"type\" is missing; give \"directional\", \"point\" or \"ambient\"");
-    read_choice<Type>(in, "type", type,
-                      {{"directional", Type::directional}, {"point", Type::point}, {"ambient", Type::ambient}});
-    Light<float> light;
-    float intensity = 1;
-    read_colour(in, "colour", light.colour);
-    read(in, "intensity", intensity, 0);
-    light.colour *= intensity;
-    if (type == Type::ambient) {
-        allow_only(in, {"type", "colour", "intensity"});
-        scene.ambient += light.colour;
-        return;
-    }
-    if (type == Type::directional) {
-        allow_only(in, {"type", "from", "colour", "intensity"});
-        if (!read(in, "from", light.from))
-            refuse(in, in.table, "\"from\" is missing; give the direction the light comes from");
-        light.from = unit_or_zero(light.from);
-        if (light.from == Vec3f(0)) refuse(in, *in.table.get("from"), "\"from\" is zero; give a direction");
-    } else {
-        allow_only(in, {"type", "position", "falloff", "colour", "intensity"});
-        light.kind = LightKind::point;
-        if (!read(in, "position", light.position))
-            refuse(in, in.table, "\"position\" is missing; give the position of the light");
-        Vec3f falloff(1, 0, 0);
-        if (read(in, "falloff", falloff, 0) && falloff == Vec3f(0))
-            refuse(in, *in.table.get("falloff"),
-                   "\"falloff\" is all zero; give constant, linear, quadratic, such as [1, 0, 0]");
-        light.falloff = {falloff.x, falloff.y, falloff.z};
-    }
-    scene.lights.push_back(light);
-}
-
 void read_material(const Section& in, SceneEntries& scene) {
     allow_only(in, {"name", "ambient", "diffuse", "specular", "shininess", "emission", "reflect", "albedo",
-                    "albedo-space", "bump", "bump-scale", "normal", "encoding", "directx"});
+                    "albedo-space", "bump", "bump-scale", "normal", "encoding", "directx", "height", "shade"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -137,6 +116,9 @@ void read_material(const Section& in, SceneEntries& scene) {
     read_choice<NormalEncoding>(in, "encoding", m.encoding,
                                 {{"auto", automatic}, {"unorm", unorm}, {"signed", signed_}});
     read(in, "directx", m.directx);
+    read_relief(in, m.relief);
+    if (!m.relief.file.empty() && !(m.bump_table.empty() && m.normal_map.empty()))
+        refuse(in, *in.table.get("height"), "\"height\" changes the normal, as \"bump\" and \"normal\" do; keep one");
     scene.materials.push_back(std::move(m));
 }
 

@@ -1,6 +1,7 @@
 #include "bake/preview/tracer.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/preview/surfel.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,101 +9,144 @@
 namespace bake {
 namespace {
 
-/// A hit prepared for shading, in world space. facet and n are on the side of the viewer.
-struct Surfel {
-    HitPoint at;          ///< origin of mirror rays
-    HitPoint light_at;    ///< origin of shadow rays, on the smooth surface
-    Vec3f facet{0}, n{0}; ///< unit
-    Vec3f v{0};           ///< unit, towards the viewer
-    BlinnPhong<float> bsdf;
-};
-
-Surfel surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexcept {
-    const Instance& instance = scene.instances[hit.mesh];
-    const Shape& shape = *instance.shape;
-    const ShapePoint where{hit.triangle, hit.b1, hit.b2};
-    Surfel s;
-    s.at = scene.bvh->point(hit);
-    s.v = -unit_or_zero(direction);
-    s.facet = s.at.normal;
-    // Normals define the outside. The winding of faces is less reliable, and mirroring reverses it.
-    const Vec3f outside = instance.normals * normal_at(shape, where);
-    if (glm::dot(s.facet, outside) < 0) s.facet = -s.facet;
-    s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
-    if (s.n == Vec3f(0)) s.n = s.facet;
-    float outward = 1;
-    if (glm::dot(s.facet, s.v) < 0) {
-        s.facet = -s.facet;
-        s.n = -s.n;
-        outward = -1;
-    }
-    s.light_at = s.at;
-    s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
-    s.bsdf = bsdf_at(*instance.material, shape, where);
-    return s;
-}
-
-bool is_visible(const Scene& scene, const Light<float>& light, const Surfel& s) noexcept {
-    Ray ray;
-    ray.origin = offset_origin(s.light_at, s.facet);
-    ray.direction = light.from;
-    if (light.kind == LightKind::point) {
-        ray.direction = light.position - ray.origin;
-        ray.t_max = 0.9999f; // ends before the light, which may be on a surface
-    }
-    return !scene.bvh->occluded(ray);
-}
-
-std::uint64_t hash(std::uint64_t z) noexcept { // the finaliser of splitmix64 (Steele, Lea, Flood 2014)
-    z += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-double reversed_bits(std::uint32_t i) noexcept {
-    double value = 0, digit = 0.5;
-    for (; i; i >>= 1, digit *= 0.5)
-        if (i & 1) value += digit;
-    return value;
-}
-
 bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-} // namespace
+/// Weight of a direction that was drawn with density `own`, and could have been drawn with density `other`: the balance
+/// heuristic (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2).
+float weight(float own, float other) noexcept { return own > 0 ? own / (own + other) : 0; }
 
-Vec3f radiance(const Scene& scene, const Ray& ray, int bounces, std::int64_t& rays) noexcept {
-    ++rays;
-    const Hit hit = scene.bvh->intersect(ray);
-    if (!hit) return sky_radiance(scene.sky, ray.direction);
-    const Surfel s = surfel(scene, hit, ray.direction);
-    Vec3f sum = s.bsdf.emission + s.bsdf.ambient * scene.ambient;
+/// One path from the camera, with what it counts.
+struct Path {
+    const Scene& scene;
+    Sampler& sampler;
+    RenderStats& stats;
+
+    Radiance along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
+
+private:
+    bool is_visible(const Surfel& s, const LightSample<float>& to) noexcept;
+    void add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
+    void add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
+    void add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Radiance& sum) noexcept;
+    Vec3f mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
+};
+
+/// Counts light on the wrong side of a surface without relief.
+float gated(const Scene& scene, const Surfel& s, const Vec3f& l, FirstHit* first) noexcept {
+    const float factor = light_factor(scene.settings.terminator, s.n, s.surface, l);
+    if (first && factor == 0 && glm::dot(s.n, l) > 0 && s.n != s.surface) first->repaired = true;
+    return factor;
+}
+
+bool Path::is_visible(const Surfel& s, const LightSample<float>& to) noexcept {
+    if (!scene.settings.shadows) return true;
+    ++stats.rays;
+    const Vec3f origin = offset_origin(s.light_at, s.facet);
+    if (std::isinf(to.distance)) return !scene.bvh->occluded({origin, to.l});
+    // Ends before the light, which may lie on a surface. The direction starts at the offset origin.
+    return !scene.bvh->occluded({origin, s.at.p + to.distance * to.l - origin, 0, 0.9999f});
+}
+
+void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept {
+    int visible = 0;
     for (const Light<float>& light : scene.lights) {
-        const LightSample<float> from_light = sample(light, s.at.p);
-        const Vec3f part = reflected(s.bsdf, s.n, from_light.l, s.v) * from_light.radiance;
-        if (part == Vec3f(0)) continue;
-        if (scene.settings.shadows) {
-            ++rays;
-            if (!is_visible(scene, light, s)) continue;
-        }
-        sum += part;
+        const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
+        const LightSample<float> to = sample(light, s.at.p, u);
+        const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
+        if (f.diffuse + f.specular == Vec3f(0) || to.radiance == Vec3f(0)) continue;
+        const float factor = gated(scene, s, to.l, first);
+        if (factor == 0 || !is_visible(s, to)) continue;
+        ++visible;
+        const Vec3f irradiance = float(pi) * factor * to.radiance;
+        sum.diffuse += f.diffuse * irradiance * light.diffuse;
+        sum.specular += f.specular * irradiance * light.specular;
     }
-    const Vec3f& reflect = scene.instances[hit.mesh].material->reflect;
-    if (reflect != Vec3f(0)) {
-        const Ray mirrored{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
-        sum += reflect * (bounces > 0 ? radiance(scene, mirrored, bounces - 1, rays)
-                                      : sky_radiance(scene.sky, mirrored.direction));
+    if (first && !scene.lights.empty()) first->lit = float(visible) / float(scene.lights.size());
+}
+
+void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept {
+    const SkySample from = scene.sky_light.sample(sampler.next2());
+    if (!(from.pdf > 0)) return;
+    const BsdfValue f = evaluate(s.bsdf, s.n, from.l, s.v);
+    if (f.diffuse + f.specular == Vec3f(0)) return;
+    const float factor = gated(scene, s, from.l, first);
+    if (factor == 0 || !is_visible(s, {from.l})) return;
+    const float share = factor * weight(from.pdf, pdf(s.bsdf, s.n, from.l, s.v)) / from.pdf;
+    const Vec3f light = share * sky_radiance(scene.sky, from.l);
+    sum.diffuse += f.diffuse * light;
+    sum.specular += f.specular * light;
+}
+
+void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Radiance& sum) noexcept {
+    const float choice = sampler.next();
+    const BsdfSample drawn = sample(s.bsdf, s.n, s.v, choice, sampler.next2());
+    if (drawn.singular || !(drawn.pdf > 0)) return;
+    const float factor = light_factor(scene.settings.terminator, s.n, s.surface, drawn.l);
+    if (factor == 0) return;
+    const Ray ray{offset_origin(s.light_at, s.facet), drawn.l};
+    const BsdfValue f = evaluate(s.bsdf, s.n, drawn.l, s.v);
+    ++stats.rays;
+    const Hit hit = scene.settings.shadows ? scene.bvh->intersect(ray) : Hit{};
+    if (!hit) {
+        const Vec3f light =
+            factor * weight(drawn.pdf, scene.sky_light.pdf(drawn.l)) / drawn.pdf * sky_radiance(scene.sky, drawn.l);
+        sum.diffuse += f.diffuse * light;
+        sum.specular += f.specular * light;
+        return;
     }
+    const bool glossy = bounces > 0 && f.specular != Vec3f(0);
+    const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
+    if (!glossy && !diffuse) return;
+    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    if (diffuse) sum.diffuse += f.diffuse * light;
+    if (glossy) sum.specular += f.specular * light;
+}
+
+Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
+    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
+    if (bounces <= 0) return sky_radiance(scene.sky, ray.direction);
+    return along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+}
+
+Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
+    ++stats.rays;
+    const Hit hit = scene.bvh->intersect(ray);
+    if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction)};
+    const Surfel s = make_surfel(scene, hit, ray.direction);
+    Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
+    add_lights(s, sum, first);
+    if (!scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled) {
+        add_sky_sample(s, sum, first);
+        add_bsdf_sample(s, bounces, diffuse_bounces, sum);
+    }
+    if (s.reflect != Vec3f(0)) sum.reflected += s.reflect * mirrored(s, bounces, diffuse_bounces);
+    if (!first) return sum;
+
+    first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
+    first->position = s.at.p, first->facet = s.facet, first->normal = s.n;
+    const Instance& instance = scene.instances[hit.mesh];
+    first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
+    first->albedo = albedo(s.bsdf);
+    ++stats.hits;
+    stats.tilted += s.tilted, stats.mirrored_below += s.mirrored_below, stats.lit_below += first->repaired;
+    first->repaired |= s.tilted || s.mirrored_below;
+    stats.repaired += first->repaired;
     return sum;
 }
 
-// Hammersley points with a random shift per pixel (Cranley, Patterson 1976).
-Vec2d pixel_sample(int x, int y, int i, int spp) noexcept {
-    if (spp <= 1) return Vec2d(0.5);
-    const std::uint64_t bits = hash((std::uint64_t(std::uint32_t(y)) << 32) | std::uint32_t(x));
-    const double u = (i + 0.5) / spp + double(bits >> 32) * 0x1p-32;
-    const double v = reversed_bits(std::uint32_t(i)) + double(bits & 0xffffffffu) * 0x1p-32;
-    return {u - std::floor(u), v - std::floor(v)};
+} // namespace
+
+RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
+    rays += more.rays, bad_samples += more.bad_samples, hits += more.hits;
+    tilted += more.tilted, mirrored_below += more.mirrored_below, lit_below += more.lit_below;
+    repaired += more.repaired;
+    return *this;
+}
+
+Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
+                  FirstHit* first) noexcept {
+    FirstHit unused;
+    return Path{scene, sampler, stats}.along(ray, bounces, scene.settings.diffuse_bounces, first ? first : &unused);
 }
 
 Image<float> render(const Scene& scene, const RenderSettings& settings, RenderStats* stats, Progress* progress) {
@@ -115,9 +159,10 @@ Image<float> render(const Scene& scene, const RenderSettings& settings, RenderSt
             for (int x = 0; x < settings.width; ++x) {
                 Vec3d sum(0);
                 for (int i = 0; i < settings.spp; ++i) {
-                    const Vec2d at = pixel_sample(x, y, i, settings.spp);
+                    Sampler sampler(x, y, i, settings.seed);
+                    const Vec2d at = pixel_sample(settings.spp, sampler);
                     const Ray ray = primary_ray(frame, x + at.x, y + at.y, settings.width, settings.height);
-                    const Vec3f value = radiance(scene, ray, settings.bounces, per_row[y].rays);
+                    const Vec3f value = radiance(scene, ray, settings.bounces, sampler, per_row[y]).total();
                     if (finite(value)) sum += Vec3d(value);
                     else ++per_row[y].bad_samples;
                 }
@@ -127,10 +172,7 @@ Image<float> render(const Scene& scene, const RenderSettings& settings, RenderSt
     };
     for_rows(settings.height, 2, render_rows, progress);
     if (stats)
-        for (const RenderStats& row : per_row) {
-            stats->rays += row.rays;
-            stats->bad_samples += row.bad_samples;
-        }
+        for (const RenderStats& row : per_row) *stats += row;
     return image;
 }
 

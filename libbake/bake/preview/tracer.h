@@ -1,5 +1,6 @@
-// The preview tracer: directional and point lights with shadows, mirror reflections, the sky.
+// The preview tracer: lights with shadows, a sky that is seen, mirrored and that lights, mirror reflections.
 #pragma once
+#include "bake/preview/sampler.h"
 #include "bake/preview/scene.h"
 
 namespace bake {
@@ -7,20 +8,43 @@ namespace bake {
 class Progress;
 
 struct RenderStats {
-    std::int64_t rays = 0;        ///< primary, shadow and mirror rays
+    std::int64_t rays = 0;        ///< primary, shadow, sky and mirror rays
     std::int64_t bad_samples = 0; ///< samples whose radiance is not finite; they are black
+    std::int64_t hits = 0;        ///< primary rays that hit a mesh
+    /// Of those: where the shading normal faces away from the viewer, where its mirror direction is below the surface,
+    /// and where a light or the sky's sample lies above the shading normal's horizon but below the surface.
+    std::int64_t tilted = 0, mirrored_below = 0, lit_below = 0;
+    std::int64_t repaired = 0; ///< primary hits with any of the three
+
+    RenderStats& operator+=(const RenderStats& more) noexcept;
 };
 
-/// Radiance along a ray in a built scene, linear RGB:
-///   emission + ambient A + sum over visible lights (see reflected()) + reflect * radiance of the mirror ray.
-/// Surfaces are two-sided: seen from behind, normals are flipped towards the viewer. A normal that relief tilts away from
-/// the viewer is not changed; light terms are clamped at 0, and mirror rays stay above the facet (mirror_above()).
-/// Adds the number of traced rays to `rays`.
-Vec3f radiance(const Scene& scene, const Ray& ray, int bounces, std::int64_t& rays) noexcept;
+/// Radiance in linear RGB by where it comes from.
+struct Radiance {
+    Vec3f emitted{0};   ///< emission, ambient light, and the sky where nothing is hit
+    Vec3f diffuse{0};   ///< of lights and sky, by diffuse terms
+    Vec3f specular{0};  ///< of lights and sky, by specular terms, and of meshes by glossy reflection
+    Vec3f reflected{0}; ///< by mirrors
+    Vec3f total() const noexcept { return emitted + diffuse + specular + reflected; }
+};
 
-/// Sample i of spp in the unit square of pixel (x, y): a low-discrepancy point, shifted by a hash of the pixel. For spp = 1
-/// it is the centre.
-Vec2d pixel_sample(int x, int y, int i, int spp) noexcept;
+/// What a primary ray hits.
+struct FirstHit {
+    Hit hit;
+    float depth = 0; ///< distance from the origin of the ray
+    Vec3f position{0}, facet{0}, normal{0}, albedo{0};
+    Vec2f uv{0};
+    float lit = 0; ///< share of the lights that are not shadowed there
+    bool repaired = false;
+};
+
+/// Radiance along a ray in a built scene:
+///   emission + ambient A + sum over visible lights (see evaluate()) + light of the sky + reflect * radiance of the mirror ray.
+/// Surfaces are two-sided: seen from behind, normals are flipped towards the viewer. What happens to normals that relief
+/// tilts away, settings.terminator says; mirror rays stay above the facet (mirror_above()). Adds to `stats`; describes
+/// the hit in `first` when given.
+Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
+                  FirstHit* first = nullptr) noexcept;
 
 /// Renders a built scene: an image of mean radiance per pixel with three channels. All values are finite. The result does
 /// not depend on the number of threads.

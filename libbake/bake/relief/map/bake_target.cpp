@@ -4,9 +4,6 @@
 
 namespace bake {
 
-namespace {
-
-/// Mean length of p_u and p_v over the charts, weighted by the triangles' areas in uv: the lengths that constant_scale works with.
 ConstantScale<float> mean_scale(const MeshSurface& s) {
     double area_sum = 0, u_sum = 0, v_sum = 0;
     for (std::size_t i = 0; i < s.triangles.size(); ++i) {
@@ -23,8 +20,6 @@ ConstantScale<float> mean_scale(const MeshSurface& s) {
     if (!(u_sum > 0) || !(v_sum > 0)) return {};
     return {float(u_sum / area_sum), float(v_sum / area_sum)};
 }
-
-} // namespace
 
 BakeTarget make_bake_target(const Mesh& mesh, const std::string& path, int width, int height, int tile) {
     if (mesh.corner_uv.empty()) throw Error(Refusal::unsuitable, path + ": has no uvs; unwrap the mesh first");

@@ -23,6 +23,9 @@ struct NormalMapOptions {
     int tile = 0;         ///< UDIM number of the tile whose charts are baked; 0: all charts, modulo 1
 };
 
+/// Mean length of p_u and p_v over the charts, weighted by the triangles' areas in uv: what constant_scale works with.
+ConstantScale<float> mean_scale(const MeshSurface& surface);
+
 /// What a bake needs of its mesh, computed once: jets, tangent space, and the triangle under each texel.
 struct BakeTarget {
     MeshSurface surface;

@@ -1,0 +1,166 @@
+#include "bake/preview/relief_method.h"
+#include "bake/base/error.h"
+#include "bake/base/memory.h"
+#include "bake/relief/displace/displace.h"
+#include "bake/relief/map/normal_map.h"
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace bake {
+namespace {
+
+constexpr int most_levels = 10;
+constexpr std::pair<std::string_view, Shade> words[] = {
+    {"plain", Shade::plain},   {"roughness", Shade::roughness}, {"constant-scale", Shade::constant_scale},
+    {"blinn", Shade::blinn},   {"exact", Shade::exact},         {"bump", Shade::bump},
+    {"normal", Shade::normal}, {"displace", Shade::displace},   {"displace+normal", Shade::displace_normal},
+};
+
+bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
+
+/// Tables and maps of slopes per unit of u and v.
+BumpTableOptions table_options(const ReliefOptions& options) {
+    BumpTableOptions table;
+    table.filter = options.filter;
+    table.wrap_u = options.height.wrap_u, table.wrap_v = options.height.wrap_v;
+    table.amplitude = options.height.amplitude;
+    return table;
+}
+
+/// Variance of the slope along u and v, in object units, averaged over the two axes and all texels.
+double slope_variance(const HeightTexture& height, const ReliefOptions& options, const ConstantScale<float>& scale) {
+    const Image<float> slopes = bump_table(height, table_options(options));
+    double sum = 0;
+    for (std::size_t i = 0; i < slopes.size(); i += 2) {
+        const double u = slopes.data()[i] / scale.u, v = slopes.data()[i + 1] / scale.v;
+        sum += 0.5 * (u * u + v * v);
+    }
+    return sum / (double(slopes.size()) / 2);
+}
+
+/// The highlight of a surface whose normals vary, in Beckmann's terms: alpha^2 = 2 / (n + 2) is twice the variance of a
+/// slope, and variances add (Olano and Baker, LEAN Mapping, I3D 2010). The flux of the highlight stays.
+void widen(Material& material, double variance) {
+    const double n = material.bsdf.shininess, alpha2 = 2 / (n + 2) + 2 * variance;
+    const double wider = std::max(0.0, 2 / alpha2 - 2);
+    material.bsdf.specular *= float((wider + 2) / (n + 2));
+    material.bsdf.shininess = float(wider);
+}
+
+NormalMapOptions map_options(const ReliefOptions& options, const HeightTexture& height, Space space) {
+    NormalMapOptions map;
+    map.width = height.values.width(), map.height = height.values.height();
+    map.height_options = options.height;
+    map.filter = options.filter;
+    map.space = space;
+    return map;
+}
+
+Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const ReliefOptions& options, Space space) {
+    const NormalMapOptions map = map_options(options, height, space);
+    const BakeTarget target = make_bake_target(mesh, "the mesh", map.width, map.height);
+    const HeightField field(height, map.height_options, map.filter, map.width, map.height);
+    NormalMapReport report;
+    Image<float> normals = normal_map(field, target, map, report);
+    for (std::size_t i = 0; i < normals.size(); ++i) normals.data()[i] = 2 * normals.data()[i] - 1;
+    return std::make_shared<const Image<float>>(std::move(normals));
+}
+
+/// Memory for a displaced mesh in a scene, beside the mesh: normals and derivatives of its corners, two triangles per face,
+/// their copy in world space and Embree's tree, measured 86 bytes per triangle.
+std::uint64_t scene_bytes(const DisplaceCount& count) noexcept {
+    const std::uint64_t per_corner = 3 * sizeof(Vec3f), per_triangle = 12 + 16 + 4 + 86 + 12;
+    return count.corners * per_corner + (count.corners - 2 * count.faces) * per_triangle + count.points * 12;
+}
+
+std::unique_ptr<Shape> displaced_shape(const Shape& shape, const HeightTexture& height, const ReliefOptions& options,
+                                       int levels) {
+    const BaseSurface base{Mesh(shape.mesh)};
+    Relief relief{.values = Image<float>(height.values.width(), height.values.height(), 1), .vector = {}};
+    std::copy_n(height.values.data(), height.values.size(), relief.values.data());
+    relief.height = options.height;
+    DisplaceOptions displacement;
+    displacement.rates.levels = levels;
+    displacement.taken = process_memory().resident;
+    displacement.later.push_back({"", scene_bytes});
+    return make_shape(displace(base, relief, displacement).mesh, {.flat = shape.surface.flat});
+}
+
+/// By levels, or by as many as memory allows.
+void displace_shape(ReliefModel& model, const Shape& shape, const HeightTexture& height, const ReliefOptions& options) {
+    int levels = options.method.levels;
+    for (const bool most = levels < 0; !model.shape; --levels) {
+        if (most && levels < 0) levels = most_levels;
+        try {
+            model.shape = displaced_shape(shape, height, options, levels);
+            model.segments = 1 << levels;
+        } catch (const Error& error) {
+            if (!most || levels == 0 || error.refusal != Refusal::unsuitable) throw;
+        }
+    }
+}
+
+} // namespace
+
+std::optional<ShadeMethod> parse_shade(const std::string& word) {
+    const std::size_t colon = word.find(':');
+    const std::string_view name = word == "lecture" ? "constant-scale" : std::string_view(word).substr(0, colon);
+    for (const auto& [known, shade] : words) {
+        if (known != name) continue;
+        ShadeMethod method{shade};
+        if (displaces(shade) != (colon != std::string::npos)) return {};
+        if (colon == std::string::npos) return method;
+        const std::string_view rate = std::string_view(word).substr(colon + 1);
+        if (rate == "max") return ShadeMethod{shade, -1};
+        unsigned segments = 0;
+        const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), segments);
+        if (error != std::errc() || end != rate.data() + rate.size()) return {};
+        if (!std::has_single_bit(segments) || segments > 1u << most_levels) return {};
+        method.levels = std::countr_zero(segments);
+        return method;
+    }
+    return {};
+}
+
+std::string name(const ShadeMethod& method) {
+    for (const auto& [known, shade] : words)
+        if (shade == method.shade)
+            return std::string(known) + (!displaces(shade)   ? ""
+                                         : method.levels < 0 ? ":max"
+                                                             : ":" + std::to_string(1 << method.levels));
+    return {};
+}
+
+ReliefModel with_relief(const Material& material, const Shape& shape, const HeightTexture& height,
+                        const ReliefOptions& options) {
+    ReliefModel model{material, nullptr};
+    Material& m = model.material;
+    const auto by_height = [&](NormalMethod method) {
+        m.height = std::make_shared<const HeightSampler<float>>(height.values, Interpolation::c2, options.height);
+        m.height_method = method;
+    };
+    switch (options.method.shade) {
+    case Shade::plain: break;
+    case Shade::roughness: widen(m, slope_variance(height, options, mean_scale(shape.surface))); break;
+    case Shade::constant_scale:
+        by_height(NormalMethod::constant_scale);
+        m.height_scale = mean_scale(shape.surface);
+        break;
+    case Shade::blinn: by_height(NormalMethod::blinn); break;
+    case Shade::exact: by_height(NormalMethod::exact); break;
+    case Shade::bump:
+        m.bump_table = std::make_shared<const Image<float>>(bump_table(height, table_options(options)));
+        break;
+    case Shade::normal: m.normal_map = baked_normals(shape.mesh, height, options, Space::tangent); break;
+    case Shade::displace: displace_shape(model, shape, height, options); break;
+    case Shade::displace_normal:
+        m.object_normals = baked_normals(shape.mesh, height, options, Space::object);
+        displace_shape(model, shape, height, options);
+    }
+    return model;
+}
+
+} // namespace bake

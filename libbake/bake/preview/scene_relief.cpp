@@ -1,0 +1,72 @@
+#include "bake/preview/scene_relief.h"
+#include "bake/base/parse_double.h"
+#include "bake/relief/height/sample_type.h"
+
+namespace bake {
+namespace {
+
+/// A number in object units, or "2%" of the diagonal of the mesh.
+void read_amplitude(const Section& in, ReliefEntry& relief) {
+    const toml::node* node = in.table.get("amplitude");
+    if (!node) return;
+    float value = 0;
+    if (const auto* text = node->as_string()) {
+        const std::string& word = text->get();
+        const auto percent =
+            word.ends_with('%') ? parse_finite(std::string_view(word).substr(0, word.size() - 1)) : std::nullopt;
+        if (!percent || std::abs(*percent) > 1e6)
+            refuse(in, *node, "\"amplitude\" is " + in_quotes(word) + "; give a number, or a per cent such as \"2%\"");
+        value = float(*percent / 100);
+        relief.relative = true;
+    } else {
+        read(in, "amplitude", value);
+    }
+    relief.amplitude = value;
+}
+
+} // namespace
+
+void read_relief(const Section& in, ReliefEntry& relief) {
+    if (const toml::node* node = in.table.get("height")) {
+        const toml::table* table = node->as_table();
+        if (!table)
+            refuse(in, *node, "\"height\" is not a table; give such as {file = \"bricks.png\", amplitude = 0.05}");
+        const Section height{*table, in.name + " height", in.file};
+        allow_only(height, {"file", "amplitude", "midlevel", "filter", "wrap"});
+        if (!read_path(height, "file", relief.file))
+            refuse(height, *node, "\"file\" is missing; give a height picture");
+        read_amplitude(height, relief);
+        if (float midlevel = 0; table->get("midlevel")) read(height, "midlevel", midlevel), relief.midlevel = midlevel;
+        read_choice<Filter>(height, "filter", relief.filter,
+                            {{"auto", Filter::automatic},
+                             {"central", Filter::central},
+                             {"sobel", Filter::sobel},
+                             {"scharr", Filter::scharr},
+                             {"order4", Filter::order4},
+                             {"order6", Filter::order6},
+                             {"c2", Filter::c2}});
+        read_choice<Wrap>(height, "wrap", relief.wrap,
+                          {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}});
+    }
+    std::string shade;
+    if (!read(in, "shade", shade)) return;
+    relief.shade = parse_shade(shade);
+    if (!relief.shade)
+        refuse(in, *in.table.get("shade"), "\"shade\" is " + in_quotes(shade) + "; give one of " + shade_names);
+    if (relief.file.empty() && relief.shade->shade != Shade::plain)
+        refuse(in, *in.table.get("shade"), "\"shade\" shows a height, and there is none; add height = {file = ...}");
+}
+
+ReliefOptions relief_options(const ReliefEntry& entry, const ImageInfo& file, double diagonal) {
+    const bool lengths = is_float(file);
+    ReliefOptions options;
+    if (entry.shade) options.method = *entry.shade;
+    options.filter = entry.filter;
+    const double whole = entry.relative || (!entry.amplitude && !lengths) ? diagonal : 1;
+    options.height.amplitude = whole * double(entry.amplitude.value_or(lengths ? 1.0f : 0.01f));
+    options.height.midlevel = entry.midlevel ? double(*entry.midlevel) : default_midlevel(file);
+    options.height.wrap_u = options.height.wrap_v = entry.wrap;
+    return options;
+}
+
+} // namespace bake

@@ -1,0 +1,60 @@
+// The sky of a scene: what rays see that hit nothing, and a light whose directions are drawn where it is bright.
+//
+// Directions are drawn from a table of texels whose weights are radiance times solid angle (Pharr, Jakob, Humphreys,
+// Physically Based Rendering, section 12.5): a row in proportion to its sum, a texel in proportion to its weight, a point
+// uniformly in the texel. A weight is the mean over 3 x 3 texels, because the interpolated radiance of a dark texel beside a
+// bright one is not 0, less twice the mean of the sky: what is darker is left to the directions that are drawn for the surface
+// (Karlik, Sik, Vevoda, Skrivan, Krivanek, MIS Compensation, SIGGRAPH Asia 2019).
+#pragma once
+#include "bake/environment/sky/cube.h"
+#include <vector>
+
+namespace bake {
+
+/// Radiance of rays that hit nothing.
+struct Sky {
+    Cube cube;           ///< if empty, the background is used
+    float scale = 1;     ///< factor on the radiance of the cube
+    float yaw_deg = 0;   ///< moves the sky ahead to the right, as `bake cubemap --yaw` does
+    Vec3f background{0}; ///< radiance, linear RGB; the background is seen and mirrored, but it does not light
+};
+
+/// A direction of the cube in world space. `yaw_deg` is that of the sky.
+Vec3d sky_to_cube(const Vec3d& world, double yaw_deg) noexcept;
+Vec3d cube_to_sky(const Vec3d& cube, double yaw_deg) noexcept;
+
+/// Radiance of the sky along a world-space direction.
+Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept;
+
+struct SkySample {
+    Vec3f l{0};    ///< unit, world space
+    float pdf = 0; ///< per solid angle; 0: no direction
+};
+
+/// Draws directions of a sky in proportion to its radiance above twice the mean. To be combined, by multiple importance sampling,
+/// with directions that are drawn for the surface.
+class SkyLight {
+public:
+    /// A sky that is black.
+    SkyLight() = default;
+    /// Faces of more than 512 texels are drawn from their means over blocks of texels.
+    explicit SkyLight(const Sky& sky);
+
+    bool is_black() const noexcept { return black_; }
+    /// The direction for a point of the unit square. None (pdf 0) if no part of the sky is brighter than that.
+    SkySample sample(const Vec2f& u) const noexcept;
+    /// The probability per solid angle with which sample() draws a world-space direction. 0 where the sky is
+    /// darker.
+    float pdf(const Vec3f& direction) const noexcept;
+
+private:
+    float density(int row, int column, double s, double t) const noexcept;
+
+    bool black_ = true;
+    int size_ = 0; ///< texels along an edge of a face of the table; 0: no directions
+    double yaw_deg_ = 0;
+    std::vector<float> rows_;  ///< sums of weights up to and with each row, of all faces in their order; the last is 1
+    std::vector<float> cells_; ///< in each row: the same up to each texel
+};
+
+} // namespace bake

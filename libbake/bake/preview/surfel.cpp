@@ -1,0 +1,39 @@
+#include "bake/preview/surfel.h"
+
+namespace bake {
+
+Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexcept {
+    const Instance& instance = scene.instances[hit.mesh];
+    const Shape& shape = *instance.shape;
+    const ShapePoint where{hit.triangle, hit.b1, hit.b2};
+    Surfel s;
+    s.at = scene.bvh->point(hit);
+    s.v = -unit_or_zero(direction);
+    s.facet = s.at.normal;
+    // Normals define the outside. The winding of faces is less reliable, and mirroring reverses it.
+    const Vec3f outside = instance.normals * normal_at(shape, where);
+    if (glm::dot(s.facet, outside) < 0) s.facet = -s.facet;
+    s.surface = unit_or_zero(outside);
+    if (s.surface == Vec3f(0)) s.surface = s.facet;
+    s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
+    if (s.n == Vec3f(0)) s.n = s.surface;
+    float outward = 1;
+    if (glm::dot(s.facet, s.v) < 0) {
+        s.facet = -s.facet, s.surface = -s.surface, s.n = -s.n;
+        outward = -1;
+    }
+    s.light_at = s.at;
+    s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
+    s.bsdf = bsdf_at(*instance.material, shape, where);
+    s.reflect = instance.material->reflect;
+    if (s.n == s.surface) return s;
+    // At the contour of a coarse mesh the interpolated normal may face away itself.
+    const Vec3f& base = glm::dot(s.surface, s.v) > 0 ? s.surface : s.facet;
+    const float towards = glm::dot(s.n, s.v);
+    s.tilted = towards <= 0;
+    s.mirrored_below = !s.tilted && 2 * towards * glm::dot(s.n, base) < glm::dot(s.v, base);
+    s.n = mended_normal(scene.settings.terminator, s.n, base, s.v);
+    return s;
+}
+
+} // namespace bake

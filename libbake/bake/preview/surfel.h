@@ -1,0 +1,24 @@
+// A hit prepared for shading.
+#pragma once
+#include "bake/preview/scene.h"
+
+namespace bake {
+
+/// In world space; facet, surface and n are unit vectors on the side of the viewer.
+struct Surfel {
+    HitPoint at;       ///< origin of mirror rays
+    HitPoint light_at; ///< origin of shadow rays, on the smooth surface
+    Vec3f facet{0};    ///< of the triangle
+    Vec3f surface{0};  ///< interpolated, without relief
+    Vec3f n{0};        ///< with relief
+    Vec3f v{0};        ///< unit, towards the viewer
+    Bsdf bsdf;
+    Vec3f reflect{0};            ///< factor on the radiance from the mirror direction
+    bool tilted = false;         ///< relief tilts n away from the viewer, before it is mended
+    bool mirrored_below = false; ///< the same for the mirror direction and the surface
+};
+
+/// `direction`: of the ray that hit.
+Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexcept;
+
+} // namespace bake
