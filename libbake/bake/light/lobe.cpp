@@ -1,0 +1,290 @@
+#include "bake/light/lobe.h"
+#include "bake/light/cosine_power.h"
+#include "bake/light/fresnel.h"
+#include "bake/light/ggx.h"
+#include "bake/light/ggx_albedo.h"
+
+namespace bake {
+namespace {
+
+constexpr float one_over_pi = float(1 / pi);
+constexpr float least_n_v = 1e-4f;   ///< ggx, mirror: a viewer farther down is moved up to this cosine
+constexpr float least_cover = 1e-4f; ///< mean light left to a covered lobe, below which it gets none
+
+float mean(const Vec3f& c) noexcept { return (c.x + c.y + c.z) / 3; }
+
+/// What the lobes need of n, l and v.
+struct Angles {
+    float n_l, n_v;
+    float v_h;    ///< also l.h
+    float sin2_h; ///< squared sine of the angle from n to h
+    float r_v;    ///< 1 - r.v, r being the mirror direction of l
+    Angles(const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept : n_l(glm::dot(n, l)), n_v(glm::dot(n, v)) {
+        // The same for l and v exchanged, to the last bit: reciprocity is not a matter of rounding.
+        const Vec3f s = l + v, across = s - (n_l + n_v) * n;
+        const float length2 = glm::dot(s, s), across2 = glm::dot(across, across), up = n_l - n_v;
+        v_h = std::sqrt(length2) / 2;
+        sin2_h = n_l + n_v > 0 && across2 < length2 ? across2 / length2 : 1;
+        r_v = (across2 + up * up) / 2; // r - v = -across + (n_l - n_v) n, and |r - v|^2 = 2 - 2 r.v
+    }
+};
+
+/// (n.h)^exponent; with exponent 0 it is 1 above the surface.
+float blinn_power(float sin2_h, float exponent) noexcept { return cosine_power(sin2_h, exponent / 2); }
+
+/// A lobe as seen by the viewer.
+struct Seen {
+    float choice = 0;          ///< probability that sample() picks the lobe
+    float multiple_choice = 0; ///< ggx: and its light of several bounces
+    float exponent = 0;
+    float alpha = 1;
+    Vec3f f0{0}, multiple{0}; ///< ggx: reflectance at normal incidence, and that of light of several bounces
+    GgxAlbedo at_v, average;
+
+    /// Directional albedo of ggx.
+    Vec3f reflected(const GgxAlbedo& a) const noexcept {
+        return f0 * (1 - a.loss - a.schlick) + Vec3f(a.schlick) + multiple * a.loss;
+    }
+};
+
+struct View {
+    Vec3f n, v;
+    Vec3f raised; ///< v, moved up to the horizon if it is below
+    float n_raised;
+    std::array<Seen, Bsdf::most_lobes> seen;
+    int count;
+    Vec3f cover{1},
+        cover_mean{1}; ///< what the ggx lobes leave to covered lobes: for v, and as mean over all directions
+};
+
+void see_ggx(const Lobe& lobe, View& view, Seen& seen) noexcept {
+    const float roughness = std::clamp(lobe.roughness, 0.f, 1.f);
+    seen.alpha = std::max(roughness * roughness, least_ggx_alpha);
+    seen.f0 = glm::clamp(lobe.weight, Vec3f(0), Vec3f(1));
+    seen.at_v = ggx_albedo(seen.alpha, view.n_raised);
+    seen.average = ggx_mean_albedo(seen.alpha);
+    // Hill, A Multi-Faceted Exploration, 2018: the geometric series of what is lost and reflected again.
+    const Vec3f f_mean = seen.f0 + (Vec3f(1) - seen.f0) / 21.f;
+    seen.multiple = f_mean * f_mean * (1 - seen.average.loss) / (Vec3f(1) - f_mean * seen.average.loss);
+    view.cover -= seen.reflected(seen.at_v);
+    view.cover_mean -= seen.reflected(seen.average);
+}
+
+View view_of(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v) noexcept {
+    View view{n, v, v, glm::dot(n, v), {}, std::clamp(bsdf.count, 0, Bsdf::most_lobes)};
+    if (!(view.n_raised >= least_n_v)) {
+        view.raised = unit_or_zero(v + (least_n_v - view.n_raised) * n);
+        view.n_raised = std::clamp(glm::dot(n, view.raised), least_n_v, 1.f);
+    }
+    for (int i = 0; i < view.count; ++i) {
+        const Lobe& lobe = bsdf.lobes[std::size_t(i)];
+        Seen& seen = view.seen[std::size_t(i)];
+        seen.exponent = std::max(0.f, lobe.exponent);
+        if (lobe.kind == LobeKind::ggx) see_ggx(lobe, view, seen);
+    }
+    view.cover = glm::max(view.cover, Vec3f(0));
+    for (int c = 0; c < 3; ++c)
+        if (!(view.cover_mean[c] > least_cover)) view.cover_mean[c] = 1, view.cover[c] = 0;
+    return view;
+}
+
+/// Albedo for choosing lobes, per unit of weight where the lobe has one: of phong and blinn at normal incidence.
+Vec3f estimated_albedo(const Lobe& lobe, const Seen& seen, const View& view) noexcept {
+    switch (lobe.kind) {
+    case LobeKind::lambert: return lobe.covered ? lobe.weight * view.cover : lobe.weight;
+    case LobeKind::phong: return lobe.weight * float(phong_albedo(seen.exponent) / pi);
+    case LobeKind::blinn: return lobe.weight * float(blinn_albedo(seen.exponent) / pi);
+    case LobeKind::ggx: return seen.reflected(seen.at_v) - seen.multiple * seen.at_v.loss;
+    case LobeKind::mirror: return schlick(glm::clamp(lobe.weight, Vec3f(0), Vec3f(1)), view.n_raised);
+    case LobeKind::normalised_phong:
+    case LobeKind::normalised_blinn:
+    case LobeKind::dielectric: break;
+    }
+    return lobe.weight;
+}
+
+void add_choices(const Bsdf& bsdf, View& view) noexcept {
+    float sum = 0;
+    for (int i = 0; i < view.count; ++i) {
+        Seen& seen = view.seen[std::size_t(i)];
+        seen.choice = std::max(0.f, mean(estimated_albedo(bsdf.lobes[std::size_t(i)], seen, view)));
+        seen.multiple_choice = mean(seen.multiple) * seen.at_v.loss;
+        sum += seen.choice + seen.multiple_choice;
+    }
+    const float scale = sum > 0 ? 1 / sum : 0;
+    for (Seen& seen : view.seen) seen.choice *= scale, seen.multiple_choice *= scale;
+}
+
+/// A lobe, or of ggx its light of several bounces.
+struct Pick {
+    int lobe = -1;
+    bool multiple = false;
+};
+Pick pick(const View& view, float choice) noexcept {
+    Pick last; // rounding may leave `choice` beyond the sum
+    for (int i = 0; i < view.count; ++i)
+        for (const bool multiple : {false, true}) {
+            const Seen& seen = view.seen[std::size_t(i)];
+            const float share = multiple ? seen.multiple_choice : seen.choice;
+            if (!(share > 0)) continue;
+            last = {i, multiple};
+            if (choice < share) return last;
+            choice -= share;
+        }
+    return last;
+}
+
+/// Value of the sum for light from l, and its density with the choices of the view.
+struct Term {
+    BsdfValue value;
+    float pdf = 0;
+};
+
+void add_ggx(const Seen& seen, const View& view, const Vec3f& l, Term& out) noexcept {
+    const Angles a(view.n, l, view.raised);
+    const float n_v = view.n_raised, d = ggx_distribution(seen.alpha, a.sin2_h);
+    const float lost = ggx_albedo(seen.alpha, a.n_l).loss * seen.at_v.loss / std::max(seen.average.loss, 1e-12f);
+    out.value.specular += schlick(seen.f0, a.v_h) * (d * ggx_visibility(seen.alpha, a.n_l, n_v) * a.n_l) +
+                          seen.multiple * (lost * a.n_l * one_over_pi);
+    out.pdf += seen.choice * d * ggx_visible_share(seen.alpha, n_v) +
+               seen.multiple_choice * ggx_loss_density(seen.alpha, a.n_l);
+}
+
+/// Share of a covered lobe for light from a direction with this cosine, besides `cover` of the view.
+Vec3f cover_at(const Bsdf& bsdf, const View& view, float n_l) noexcept {
+    Vec3f left(1);
+    for (int i = 0; i < view.count; ++i)
+        if (bsdf.lobes[std::size_t(i)].kind == LobeKind::ggx) {
+            const Seen& seen = view.seen[std::size_t(i)];
+            left -= seen.reflected(ggx_albedo(seen.alpha, n_l));
+        }
+    return glm::max(left, Vec3f(0)) / view.cover_mean;
+}
+
+Term term(const Bsdf& bsdf, const View& view, const Vec3f& l) noexcept {
+    Term out;
+    const Angles a(view.n, l, view.v);
+    if (!(a.n_l > 0)) return out;
+    for (int i = 0; i < view.count; ++i) {
+        const Lobe& lobe = bsdf.lobes[std::size_t(i)];
+        const Seen& seen = view.seen[std::size_t(i)];
+        const float density = cosine_power_density(seen.exponent);
+        switch (lobe.kind) {
+        case LobeKind::lambert:
+            out.value.diffuse += lobe.weight * (a.n_l * one_over_pi) *
+                                 (lobe.covered ? view.cover * cover_at(bsdf, view, a.n_l) : Vec3f(1));
+            out.pdf += seen.choice * a.n_l * one_over_pi;
+            break;
+        case LobeKind::phong:
+        case LobeKind::normalised_phong: {
+            const float power = cosine_power(a.r_v, seen.exponent);
+            const bool plain = lobe.kind == LobeKind::phong;
+            out.value.specular +=
+                lobe.weight * (power * (plain ? one_over_pi : a.n_l / float(phong_cosine_albedo(seen.exponent))));
+            out.pdf += seen.choice * density * power;
+            break;
+        }
+        case LobeKind::blinn:
+        case LobeKind::normalised_blinn: {
+            const float power = blinn_power(a.sin2_h, seen.exponent);
+            const bool plain = lobe.kind == LobeKind::blinn;
+            out.value.specular +=
+                lobe.weight * (power * (plain ? one_over_pi : a.n_l / float(blinn_cosine_albedo(seen.exponent))));
+            out.pdf += power > 0 ? seen.choice * density * power / (4 * a.v_h) : 0;
+            break;
+        }
+        case LobeKind::ggx: add_ggx(seen, view, l, out); break;
+        case LobeKind::mirror:
+        case LobeKind::dielectric: break;
+        }
+    }
+    return out;
+}
+
+/// The right-handed frame with z = n. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017.
+struct Frame {
+    Vec3f x, y, z;
+    explicit Frame(const Vec3f& n) noexcept : z(n) {
+        const float sign = std::copysign(1.f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+        x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+        y = {b, sign + n.y * n.y * a, -n.y};
+    }
+    Vec3f local(const Vec3f& v) const noexcept { return {glm::dot(x, v), glm::dot(y, v), glm::dot(z, v)}; }
+    Vec3f world(const Vec3f& v) const noexcept { return x * v.x + y * v.y + z * v.z; }
+};
+
+Vec3f mirrored(const Vec3f& v, const Vec3f& n) noexcept { return 2 * glm::dot(n, v) * n - v; }
+
+Vec3f sample_direction(const Lobe& lobe, const Seen& seen, bool multiple, const View& view, const Vec2f& u) noexcept {
+    const Frame frame(view.n);
+    if (multiple) return frame.world(sample_ggx_loss(seen.alpha, u));
+    if (lobe.kind == LobeKind::lambert) return frame.world(sample_cosine_power(1, u));
+    if (lobe.kind == LobeKind::ggx) {
+        Vec3f v = frame.local(view.raised);
+        v.z = std::max(v.z, least_n_v);
+        return mirrored(view.raised, frame.world(sample_visible_normal(seen.alpha, v, u)));
+    }
+    const Vec3f about = sample_cosine_power(seen.exponent, u);
+    if (lobe.kind == LobeKind::phong || lobe.kind == LobeKind::normalised_phong)
+        return Frame(unit_or_zero(mirrored(view.v, view.n))).world(about);
+    return mirrored(view.v, frame.world(about));
+}
+
+BsdfSample sample_mirror(const Lobe& lobe, const View& view, float probability) noexcept {
+    const Vec3f f = schlick(glm::clamp(lobe.weight, Vec3f(0), Vec3f(1)), view.n_raised);
+    return {unit_or_zero(mirrored(view.raised, view.n)), f / probability, probability, true, true};
+}
+
+BsdfSample sample_dielectric(const Lobe& lobe, const View& view, float probability, float u) noexcept {
+    const float n_v = std::clamp(glm::dot(view.n, view.v), -1.f, 1.f), ior = std::clamp(lobe.ior, 1e-3f, 1e3f);
+    const Vec3f n = n_v < 0 ? -view.n : view.n;
+    const float cosine = std::abs(n_v), eta = n_v < 0 ? ior : 1 / ior;
+    float cos_t = 0;
+    const float f = fresnel(cosine, eta, cos_t);
+    const bool reflects = u < f;
+    const Vec3f l = reflects ? mirrored(view.v, n) : (eta * cosine - cos_t) * n - eta * view.v;
+    // Reflection is chosen with the probability f, which cancels.
+    return {unit_or_zero(l), lobe.weight / probability, probability * (reflects ? f : 1 - f), true, true};
+}
+
+} // namespace
+
+BsdfValue evaluate(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
+    if (!(glm::dot(n, l) > 0)) return {};
+    return term(bsdf, view_of(bsdf, n, v), l).value;
+}
+
+float pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
+    if (!(glm::dot(n, l) > 0)) return 0;
+    View view = view_of(bsdf, n, v);
+    add_choices(bsdf, view);
+    return term(bsdf, view, l).pdf;
+}
+
+BsdfSample sample(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v, float choice, const Vec2f& u) noexcept {
+    View view = view_of(bsdf, n, v);
+    add_choices(bsdf, view);
+    const auto [picked, multiple] = pick(view, choice);
+    if (picked < 0) return {};
+    const Lobe& lobe = bsdf.lobes[std::size_t(picked)];
+    const Seen& seen = view.seen[std::size_t(picked)];
+    if (lobe.kind == LobeKind::mirror) return sample_mirror(lobe, view, seen.choice);
+    if (lobe.kind == LobeKind::dielectric) return sample_dielectric(lobe, view, seen.choice, u.x);
+    const Vec3f l = unit_or_zero(sample_direction(lobe, seen, multiple, view, u));
+    const Term all = term(bsdf, view, l);
+    if (!(all.pdf > 1e-30f)) return {};
+    return {l, (all.value.diffuse + all.value.specular) / all.pdf, all.pdf, false, lobe.kind != LobeKind::lambert};
+}
+
+Bsdf metallic_roughness(const Vec3f& base, float metallic, float roughness) noexcept {
+    Bsdf out;
+    out.count = 2;
+    out.lobes[0].kind = LobeKind::ggx;
+    out.lobes[0].weight = glm::mix(Vec3f(0.04f), base, metallic);
+    out.lobes[0].roughness = roughness;
+    out.lobes[1].weight = base * (1 - metallic);
+    out.lobes[1].covered = true;
+    return out;
+}
+
+} // namespace bake
