@@ -97,6 +97,7 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
         quick.as = args.as;
         quick.material = args.material;
         entries = quick_scene(quick, notes);
+        for (std::string& line : notes) line = with_flags(line);
     }
     if (!args.sky.empty()) set_sky(entries, args.sky);
     if (!args.camera.empty()) entries.camera = find_camera(entries.cameras, args.camera, args.input);

@@ -24,9 +24,9 @@ Texture table_of_height(const std::string& file, double across, std::vector<std:
     const bool lengths = is_float(height.info);
     BumpTableOptions options;
     options.amplitude = lengths ? 1 : share * across;
-    if (lengths) notes.push_back(file + ": the values are taken as lengths; --material bump-scale=FACTOR scales them");
+    if (lengths) notes.push_back(file + ": the values are taken as lengths; `material` bump-scale=FACTOR scales them");
     else
-        notes.push_back(file + format(": the amplitude is %.3g, 2 %% of the shape's diagonal; --material "
+        notes.push_back(file + format(": the amplitude is %.3g, 2 %% of the shape's diagonal; `material` "
                                       "bump-scale=FACTOR scales it",
                                       options.amplitude));
     return std::make_shared<const Image<float>>(bump_table(height, options));
@@ -45,7 +45,7 @@ MapKind kind_of(const std::string& file, MapKind asked, std::vector<std::string>
     ImageInfo info;
     const Image<float> image = read_image(file, &info);
     const MapKind kind = guess_map_kind(image, info);
-    notes.push_back(file + ": is taken for " + name(kind) + "; --as says otherwise");
+    notes.push_back(file + ": is taken for " + name(kind) + "; `as` says otherwise");
     return kind;
 }
 
@@ -78,7 +78,9 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
     if (shown) {
         mesh.shape = quick.shape;
         const Bounds box = bounds(shape_mesh(quick.shape)); // refuses an unknown shape before the map is read
-        if (quick.shape.starts_with("plane")) mesh.placement.rotate_deg = Vec3f(90, 0, 0);
+        // Turned towards the camera: the plane faces it, and the hole of the torus is seen.
+        if (quick.shape.starts_with("plane")) mesh.placement.rotate_deg.x = 90;
+        if (quick.shape.starts_with("torus")) mesh.placement.rotate_deg.x = 40;
         set_map(material, quick, diagonal(box), notes);
     } else {
         mesh.file = quick.mesh;

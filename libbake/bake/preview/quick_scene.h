@@ -23,7 +23,7 @@ struct QuickScene {
 
 /// A mesh, or a shape with a map, that its camera frames and three lights light. A plane faces the camera. A map is repeated
 /// over the shapes sphere and torus so that it is less stretched, unless the material gives `repeat`. `notes` receives what
-/// was found or assumed. Throws Error as the readers and material_of().
+/// was found or assumed, with fields of QuickScene in backquotes. Throws Error as the readers and material_of().
 SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& notes);
 
 /// By the text: "diffuse=.8,reflect=.2:.3:.4,albedo=wood.png": keys of [[material]] of a scene file; colours are grey, r:g:b

@@ -1,6 +1,7 @@
 #include "bake/preview/shape_mesh.h"
 #include "bake/base/error.h"
 #include "bake/base/parse_double.h"
+#include "bake/preview/nearest_key.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/surface/analytic/parametric_shapes.h"
 #include <array>
@@ -16,6 +17,21 @@ double cube_edge(const std::string& shape) {
     if (!edge || !(*edge >= 1e-9 && *edge <= 1e9))
         throw Error(Refusal::usage, shape + ": is no cube; write cube:a=1, with an edge between 1e-09 and 1e+09");
     return *edge;
+}
+
+/// ParametricSurface does not know the cube, so that its own refusal would not name it.
+void refuse_unknown(const std::string& shape) {
+    const std::string name = shape.substr(0, shape.find(':'));
+    std::vector<std::string> names = {"cube"};
+    std::string known = "cube";
+    for (const ShapeKind& kind : shape_kinds()) {
+        if (name == kind.name) return;
+        names.emplace_back(kind.name);
+        known += std::string(", ") + kind.name;
+    }
+    const std::string meant = did_you_mean(name, names);
+    throw Error(Refusal::usage,
+                "shape \"" + name + "\" does not exist; " + (meant.empty() ? "give one of " + known : meant));
 }
 
 Mesh cube_mesh(double edge, int columns, int rows) {
@@ -57,6 +73,7 @@ Mesh cube_mesh(double edge, int columns, int rows) {
 Mesh shape_mesh(const std::string& shape, int columns, int rows) {
     if (shape == "cube" || shape.starts_with("cube:"))
         return cube_mesh(cube_edge(shape), columns > 0 ? columns : 1, rows > 0 ? rows : 1);
+    refuse_unknown(shape);
     const ParametricSurface surface(shape);
     const auto resolution = surface.default_resolution();
     return without_repeats(
