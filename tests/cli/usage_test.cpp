@@ -251,7 +251,7 @@ TEST_SUITE("cli") {
         refused({"bump-table", torus, "-o", "a.exr"}, for_mesh);
         refused({"explain", dots, "--height", dots, "--uv", "0,0"}, for_picture);
         refused({"cubemap", torus, "-o", "a.exr"}, for_mesh);
-        refused({"render", torus, "-o", "a.png"}, "is a mesh, where a scene is expected");
+        check_refused(folder, {"render", dots, "-o", "a.png"}, 2, "is a picture; name the shape to show it on");
         refused({"cubemap", "--capture", dots, "--at", "0,1,0", "-o", "a.exr"}, "where a scene is expected");
         check_refused(folder, {"displace", scene, "--height", dots, "-o", "a.ply"}, 3, "is a scene");
     }

@@ -192,10 +192,10 @@ TEST_SUITE("unit") {
         CHECK(s.settings.seed == 12);
         CHECK(s.settings.exposure == -1.5f);
         CHECK(s.background == Vec3f(0.1f, 0.2f, 0.3f));
-        CHECK(s.camera_position.value() == Vec3f(1, 2, 3));
-        CHECK(s.camera_target.value() == Vec3f(0, 1, 0));
-        CHECK(s.camera_up == Vec3f(0, 0, 1));
-        CHECK(s.fov_deg == 25);
+        CHECK(s.cameras.at(0).position.value() == Vec3f(1, 2, 3));
+        CHECK(s.cameras.at(0).target.value() == Vec3f(0, 1, 0));
+        CHECK(s.cameras.at(0).up == Vec3f(0, 0, 1));
+        CHECK(s.cameras.at(0).fov_deg == 25);
         CHECK(s.sky.image == folder / "sky/%s.png"); // found when the scene is loaded, by any words for faces
         CHECK(s.sky.scale == 2);
         CHECK(s.sky.space == ColourSpace::linear);

@@ -3,8 +3,8 @@
 #include "bake/base/parallel.h"
 #include "bake/base/text.h"
 #include "bake/base/version.h"
+#include "bake/preview/nearest_key.h"
 #include "inputs/number_option.h"
-#include "nearest.h"
 #include "verb.h"
 #include <algorithm>
 #include <cstdio>
@@ -83,7 +83,7 @@ std::string without_end(std::string text) {
 
 /// " (did you mean --amplitude?)", or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-    const std::string meant = nearest(word, names);
+    const std::string meant = nearest_key(word, names);
     return meant.empty() ? "" : " (did you mean " + meant + "?)";
 }
 

@@ -1,26 +1,14 @@
-// bake render: a picture of a scene.
+// bake render: a picture of a scene, a mesh or a map.
 #include "bake/base/output_file.h"
 #include "bake/base/text.h"
-#include "bake/preview/scene_io.h"
 #include "bake/preview/tracer.h"
-#include "inputs/depth_option.h"
-#include "inputs/file_kind.h"
-#include "inputs/number_option.h"
-#include "inputs/output_name.h"
-#include "inputs/size_option.h"
 #include "inputs/stopwatch.h"
+#include "render_options.h"
 #include <algorithm>
 #include <cmath>
 
 namespace bake {
 namespace {
-
-struct RenderArgs {
-    std::string scene, out;
-    std::optional<std::pair<int, int>> size;
-    Depth depth = Depth::automatic;
-    int spp = 0; ///< 0: the scene's
-};
 
 /// Radiance as the file stores it: exposed and sRGB-encoded for integer samples, else clamped to the range of the type.
 void encode(Image<float>& image, Depth depth, float exposure) {
@@ -56,16 +44,16 @@ void report(const RenderArgs& args, const Scene& scene, const RenderStats& stats
 }
 
 int run(const RenderArgs& args, const CommonArgs& common) {
-    expect_scene(args.scene);
+    check_usage(args);
     Stopwatch watch;
     const Depth depth = resolve_display_depth(args.out, args.depth);
     Progress progress(common.quiet || common.json);
     progress.start("read", 0);
-    SceneEntries entries = read_scene(args.scene);
-    RenderSettings& settings = entries.settings;
-    if (args.size) std::tie(settings.width, settings.height) = *args.size;
-    if (args.spp > 0) settings.spp = args.spp;
-    const Scene scene = load(entries);
+    std::vector<std::string> notes;
+    const SceneEntries entries = read_entries(args, notes);
+    Scene scene = load(entries);
+    scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
+    crop(args, scene);
     OutputFile(args.out); // a file that cannot be written is refused before the work
     watch.lap("load");
     for (const std::string& line : scene.notes) note(common, line);
@@ -73,7 +61,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
     Image<float> image = render(scene, scene.settings, &stats, &progress);
     progress.finish();
     watch.lap("render");
-    encode(image, depth, settings.exposure);
+    encode(image, depth, scene.settings.exposure);
     const bool shown = depth == Depth::u8 || depth == Depth::u16;
     write_image(args.out, image, {.depth = depth, .colour = shown ? ColourSpace::srgb : ColourSpace::automatic});
     watch.lap("write");
@@ -87,18 +75,7 @@ int run(const RenderArgs& args, const CommonArgs& common) {
 
 std::function<int()> render_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<RenderArgs>();
-    sub.add_option("scene", args->scene, "Scene file (TOML): meshes, materials, lights, camera, sky")->required();
-    add_output_option(
-        sub, args->out,
-        "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance");
-    add_size_option(sub, args->size, "Pixels, instead of the scene's", 32768);
-    add_integer_option(sub, "--spp", args->spp, 1, 65536, "Samples per pixel, instead of the scene's");
-    add_depth_option(sub, args->depth, "auto: 8 for .png, half for .exr, float for .tif");
-    add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
-                      "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
-                      "A scene of one line is enough; it is lit and framed automatically:\n"
-                      "  echo 'mesh = [{file = \"meshes/torus.obj\"}]' > torus.toml\n"
-                      "  bake render torus.toml -o torus.png\n");
+    add_render_options(sub, *args);
     return [args, &common] { return run(*args, common); };
 }
 

@@ -6,10 +6,11 @@ namespace bake {
 
 SceneCamera read_camera(const std::string& scene_file) {
     const SceneEntries entries = read_scene(scene_file);
-    if (!entries.camera_position || !entries.camera_target)
+    const CameraEntry& entry = chosen_camera(entries);
+    if (!entry.position || !entry.target || (entry.orthographic && !entry.height))
         return {camera_frame(load(entries).camera), entries.settings.height};
-    const Camera camera{*entries.camera_position, *entries.camera_target, entries.camera_up, entries.fov_deg};
-    return {camera_frame(camera), entries.settings.height};
+    const float aspect = float(entries.settings.width) / float(entries.settings.height);
+    return {camera_frame(place_camera(entry, {}, aspect)), entries.settings.height};
 }
 
 } // namespace bake

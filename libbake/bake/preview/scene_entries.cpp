@@ -3,9 +3,12 @@
 #include "bake/base/progress.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
+#include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/origin.h"
+#include "bake/preview/default_lights.h"
 #include "bake/preview/scene_relief.h"
+#include "bake/preview/shape_mesh.h"
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -18,9 +21,11 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
     try {
         return work();
     } catch (const Error& error) {
+        if (line == 0) throw; // made in code
         std::string message = error.what();
         std::replace(message.begin(), message.end(), '`', '"'); // fields of options are keys of the scene
-        throw Error(error.refusal, entries.file + ":" + std::to_string(line) + ": " + message);
+        const Refusal why = error.refusal == Refusal::usage ? Refusal::unreadable : error.refusal; // of a shape's keys
+        throw Error(why, entries.file + ":" + std::to_string(line) + ": " + message);
     }
 }
 
@@ -46,6 +51,7 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     if (!entry.bump_table.empty())
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
                                       [&] { return read_bump_table(entry.bump_table, entry.bump_scale, &notes); });
+    if (entry.bump_texture) material->bump_table = entry.bump_texture;
     if (!entry.normal_map.empty())
         material->normal_map = cached(
             cache,
@@ -54,11 +60,17 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     return material;
 }
 
-/// Shapes by their file and all options of reading.
-using ShapeCache = std::map<std::tuple<std::string, bool, bool, int>, Shape*>;
+/// Shapes by their file or name and all options of reading.
+using ShapeCache = std::map<std::tuple<std::string, std::string, int, int, bool, bool, int, float, float>, Shape*>;
 
 /// Heights by their file.
 using HeightCache = std::map<std::string, std::shared_ptr<const HeightTexture>>;
+
+/// What meshes share.
+struct Loaded {
+    ShapeCache shapes;
+    HeightCache heights;
+};
 
 /// Places the mesh with the relief of its material, which is baked for this shape.
 void add_relief(const ReliefEntry& relief, const Placement& placement, const Material& material, Shape& shape,
@@ -78,25 +90,35 @@ void add_relief(const ReliefEntry& relief, const Placement& placement, const Mat
     add_instance(scene, model.segments > 0 ? *scene.shapes.back() : shape, *scene.materials.back(), placement);
 }
 
-void load_mesh(const SceneEntries& entries, const MeshEntry& entry, ShapeCache& loaded, HeightCache& heights,
-               Scene& scene) {
+Mesh read_entry(const MeshEntry& entry, Scene& scene) {
+    if (!entry.shape.empty()) return shape_mesh(entry.shape, entry.columns, entry.rows);
+    Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
+    for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
+    move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+    return mesh;
+}
+
+void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& loaded, Scene& scene) {
     throw_if_interrupted();
-    Shape*& shape = loaded[{entry.file, entry.flat, entry.flip_v, entry.uv_set}];
+    const Material& material = *scene.materials[entry.material + 1];
+    const ReliefEntry relief = entry.material < 0 ? ReliefEntry{} : entries.materials[entry.material].relief;
+    const bool textured = !relief.file.empty() || material.albedo || material.bump_table || material.normal_map;
+    Vec2f repeat = entry.repeat;
+    if (entry.material >= 0) repeat *= entries.materials[entry.material].repeat;
+    if (!textured) repeat = Vec2f(1); // so that meshes with and without textures share their shape
+    Shape*& shape = loaded.shapes[{entry.file, entry.shape, entry.columns, entry.rows, entry.flat, entry.flip_v,
+                                   entry.uv_set, repeat.x, repeat.y}];
     if (!shape) {
-        Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
-        for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
-        move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+        Mesh mesh = read_entry(entry, scene);
+        for (Vec2f& uv : mesh.uvs) uv *= repeat;
         scene.shapes.push_back(make_shape(std::move(mesh), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
     }
-    const Material& material = *scene.materials[entry.material + 1];
-    const ReliefEntry relief = entry.material < 0 ? ReliefEntry{} : entries.materials[entry.material].relief;
-    if ((!relief.file.empty() || material.albedo || material.bump_table || material.normal_map) &&
-        shape->mesh.corner_uv.empty())
+    if (textured && shape->mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
                                              material.name + "\" need; unwrap the mesh or remove the textures");
     if (relief.file.empty()) add_instance(scene, *shape, material, entry.placement);
-    else add_relief(relief, entry.placement, material, *shape, heights, scene);
+    else add_relief(relief, entry.placement, material, *shape, loaded.heights, scene);
 }
 
 Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
@@ -115,28 +137,28 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     return std::move(sky.cube);
 }
 
-void place_camera(const SceneEntries& entries, Scene& scene) {
-    const Bounds box = bounds(scene);
-    const float aspect = float(entries.settings.width) / float(entries.settings.height);
-    scene.camera = framing_camera(box, entries.fov_deg, aspect);
-    if (entries.camera_position) scene.camera.position = *entries.camera_position;
-    if (entries.camera_target) scene.camera.target = *entries.camera_target;
-    scene.camera.up = entries.camera_up;
-    if (scene.camera.position == scene.camera.target) scene.camera.target.z += 1;
-}
-
-void add_default_light(Scene& scene) {
-    const CameraFrame frame = camera_frame(scene.camera);
-    Light<float> light;
-    light.from = unit_or_zero(frame.up - 0.7f * frame.right - 0.9f * frame.forward);
-    scene.lights.push_back(light);
+void add_ground(const SceneEntries& entries, const Bounds& box, Loaded& loaded, Scene& scene) {
+    const GroundEntry& ground = *entries.ground;
+    const double across = diagonal(box) > 0 ? diagonal(box) : 1;
+    const double size = ground.size ? *ground.size : 20 * across;
+    MeshEntry square{.shape = "plane", .repeat = ground.repeat, .material = ground.material};
+    square.placement.scale = Vec3f(float(size), 1, float(size));
+    square.placement.translate = 0.5f * (box.min + box.max);
+    // A little lower than the meshes, so that a flat bottom does not lie in the ground.
+    square.placement.translate.y = ground.height ? *ground.height : float(box.min.y - 1e-4 * across);
+    load_mesh(entries, square, loaded, scene);
 }
 
 } // namespace
 
+const CameraEntry& chosen_camera(const SceneEntries& entries) noexcept {
+    static const CameraEntry automatic;
+    return entries.camera < entries.cameras.size() ? entries.cameras[entries.camera] : automatic;
+}
+
 Scene load(const SceneEntries& entries) {
-    const bool has_sky = !entries.sky.faces[0].empty() || !entries.sky.image.empty();
-    if (entries.meshes.empty() && !has_sky)
+    const bool has_sky = entries.labels || !entries.sky.faces[0].empty() || !entries.sky.image.empty();
+    if (entries.meshes.empty() && !entries.ground && !has_sky)
         throw Error(Refusal::unsuitable, entries.file + ": has neither mesh nor sky; add a [[mesh]] with a file");
     Scene scene;
     scene.settings = entries.settings;
@@ -144,7 +166,8 @@ Scene load(const SceneEntries& entries) {
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
     scene.sky.scale = entries.sky.scale, scene.sky.yaw_deg = entries.sky.yaw_deg;
-    if (has_sky)
+    if (entries.labels) scene.sky.cube = label_sky(512);
+    else if (has_sky)
         scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
 
     TextureCache textures;
@@ -152,13 +175,16 @@ Scene load(const SceneEntries& entries) {
     for (const MaterialEntry& entry : entries.materials)
         scene.materials.push_back(
             at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
-    ShapeCache shapes;
-    HeightCache heights;
+    Loaded loaded;
     for (const MeshEntry& entry : entries.meshes)
-        at_line(entries, entry.line, [&] { load_mesh(entries, entry, shapes, heights, scene); });
+        at_line(entries, entry.line, [&] { load_mesh(entries, entry, loaded, scene); });
 
-    place_camera(entries, scene);
-    if (!entries.any_light && !has_sky) add_default_light(scene);
+    const Bounds box = bounds(scene); // without the ground, which is not to be in the picture as a whole
+    const float aspect = float(entries.settings.width) / float(entries.settings.height);
+    scene.camera = place_camera(chosen_camera(entries), box, aspect);
+    if (entries.ground) at_line(entries, entries.ground->line, [&] { add_ground(entries, box, loaded, scene); });
+    if (!entries.any_light && entries.studio) add_studio_lights(scene);
+    else if (!entries.any_light && !has_sky) add_default_light(scene);
     build(scene);
     return scene;
 }

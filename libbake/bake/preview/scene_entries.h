@@ -1,5 +1,6 @@
 // The checked content of a scene file, and the function that loads its files.
 #pragma once
+#include "bake/preview/camera_entry.h"
 #include "bake/preview/relief_method.h"
 #include "bake/preview/scene.h"
 
@@ -26,12 +27,18 @@ struct MaterialEntry {
     NormalEncoding encoding = NormalEncoding::automatic;
     bool directx = false;
     ReliefEntry relief;
-    int line = 0; ///< line in the scene file, for messages
+    Vec2f repeat{1};      ///< how often the textures repeat over the unit square of uvs
+    Texture bump_texture; ///< a table in memory, instead of the file bump_table
+    int line = 0;         ///< line in the scene file, for messages
 };
 
 struct MeshEntry {
-    std::string file;
-    int material = -1; ///< index in materials; -1 is plain grey
+    std::string file;          ///< empty if `shape` is given
+    std::string name;          ///< for instances; may be empty
+    std::string shape;         ///< see shape_mesh()
+    int columns = 0, rows = 0; ///< of a shape, see shape_mesh()
+    Vec2f repeat{1};           ///< factor on the uvs
+    int material = -1;         ///< index in materials; -1 is plain grey
     Placement placement;
     bool flat = false;
     bool flip_v = false; ///< see MeshOptions
@@ -48,21 +55,35 @@ struct SkyEntry {
     int line = 0;
 };
 
+/// A square that faces up.
+struct GroundEntry {
+    std::optional<float> height; ///< y; if not given, just below the meshes
+    std::optional<float> size;   ///< edge; if not given, 20 times the diagonal of the meshes
+    int material = -1;
+    Vec2f repeat{1}; ///< how often textures repeat over the square
+    int line = 0;
+};
+
 /// The content of a scene file. Paths include the folder of the scene file.
 struct SceneEntries {
     std::string file; ///< name of the scene file, for messages
     RenderSettings settings;
     Vec3f background{0};
-    std::optional<Vec3f> camera_position, camera_target; ///< if not given, the camera shows the whole scene
-    Vec3f camera_up{0, 1, 0};
-    float fov_deg = 40.0f;
+    std::vector<CameraEntry> cameras; ///< if empty, the camera shows the whole scene
+    std::size_t camera = 0;           ///< the one that is taken
     SkyEntry sky;
     std::vector<Light<float>> lights;
     Vec3f ambient{0};
     bool any_light = false; ///< true if the file has a [[light]]
     std::vector<MaterialEntry> materials;
     std::vector<MeshEntry> meshes;
+    std::optional<GroundEntry> ground;
+    bool labels = false; ///< the built-in test sky (label_sky()), instead of `sky`
+    bool studio = false; ///< without lights: three lights placed relative to the camera, with or without a sky
 };
+
+/// The camera that is taken; an entry that shows the whole scene if there is none.
+const CameraEntry& chosen_camera(const SceneEntries& entries) noexcept;
 
 /// Reads all meshes, textures and faces (each file once) and builds the scene. Without lights and sky, adds a directional
 /// light from the upper left of the camera. Without a camera position, the camera shows the whole scene. Throws the errors

@@ -3,6 +3,7 @@
 #include "bake/base/file_bytes.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/preview/scene_lights.h"
+#include "bake/preview/scene_objects.h"
 #include "bake/preview/scene_relief.h"
 #include "bake/preview/scene_section.h"
 #include <algorithm>
@@ -43,18 +44,6 @@ void read_render(const Section& in, SceneEntries& scene) {
     read_colour(in, "background", scene.background);
 }
 
-void read_camera(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"position", "target", "up", "fov-deg"});
-    Vec3f value;
-    if (read(in, "position", value)) scene.camera_position = value;
-    if (read(in, "target", value)) scene.camera_target = value;
-    if (scene.camera_position && scene.camera_target && *scene.camera_position == *scene.camera_target)
-        refuse(in, in.table, "\"position\" and \"target\" are the same; move one of them");
-    if (read(in, "up", scene.camera_up) && scene.camera_up == Vec3f(0))
-        refuse(in, *in.table.get("up"), "\"up\" is zero; give a direction");
-    read(in, "fov-deg", scene.fov_deg, 0.001, 179);
-}
-
 void read_sky(const Section& in, SceneEntries& scene) {
     allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad"});
     scene.sky.line = line_of(in.table);
@@ -90,9 +79,12 @@ void read_sky(const Section& in, SceneEntries& scene) {
                            {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
 }
 
+} // namespace
+
 void read_material(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"name", "ambient", "diffuse", "specular", "shininess", "emission", "reflect", "albedo",
-                    "albedo-space", "bump", "bump-scale", "normal", "encoding", "directx", "height", "shade"});
+    allow_only(in,
+               {"name", "ambient", "diffuse", "specular", "shininess", "emission", "reflect", "albedo", "albedo-space",
+                "bump", "bump-scale", "normal", "encoding", "directx", "height", "shade", "repeat"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -119,31 +111,21 @@ void read_material(const Section& in, SceneEntries& scene) {
     read_relief(in, m.relief);
     if (!m.relief.file.empty() && !(m.bump_table.empty() && m.normal_map.empty()))
         refuse(in, *in.table.get("height"), "\"height\" changes the normal, as \"bump\" and \"normal\" do; keep one");
+    read_repeat(in, m.repeat);
     scene.materials.push_back(std::move(m));
 }
 
+namespace {
+
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"file", "material", "translate", "rotate-deg", "scale", "flat", "flip-v", "uv-set"});
+    allow_only(in, {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat",
+                    "flip-v", "uv-set", "repeat"});
     MeshEntry m;
-    m.line = line_of(in.table);
-    if (!read_path(in, "file", m.file))
-        refuse(in, in.table, "\"file\" is missing; give an .obj, .ply, .gltf or .glb file");
-    m.line = line_of(*in.table.get("file"));
-    if (std::string name; read(in, "material", name)) {
-        const auto same = [&](const MaterialEntry& material) { return material.name == name; };
-        const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), same);
-        if (found == scene.materials.end())
-            refuse(in, *in.table.get("material"),
-                   "\"material\" names " + in_quotes(name) +
-                       ", which does not exist; add a [[material]] with that name");
-        m.material = int(found - scene.materials.begin());
-    }
-    read(in, "translate", m.placement.translate);
-    read(in, "rotate-deg", m.placement.rotate_deg);
-    read_triple(in, "scale", m.placement.scale, -largest_number);
-    for (int i = 0; i < 3; ++i)
-        if (m.placement.scale[i] == 0)
-            refuse(in, *in.table.get("scale"), "\"scale\" is 0, so the mesh has no surface; give a scale other than 0");
+    read_mesh_source(in, m);
+    read_mesh_name(in, scene, m);
+    read_material_name(in, scene, m.material);
+    read_placement(in, m.placement);
+    read_repeat(in, m.repeat);
     read(in, "flat", m.flat);
     read(in, "flip-v", m.flip_v);
     read(in, "uv-set", m.uv_set, 0, 99);
@@ -195,13 +177,16 @@ SceneEntries read_scene(const std::string& path) {
     }
     SceneEntries scene;
     scene.file = path;
-    allow_only({root, "the scene", scene.file}, {"render", "camera", "sky", "light", "material", "mesh"});
+    allow_only({root, "the scene", scene.file},
+               {"render", "camera", "sky", "light", "material", "mesh", "instance", "ground"});
     read_one(root, "render", read_render, scene);
-    read_one(root, "camera", read_camera, scene);
+    read_cameras(root, scene);
     read_one(root, "sky", read_sky, scene);
     read_each(root, "light", read_light, scene);
     read_each(root, "material", read_material, scene); // before meshes, which refer to materials
     read_each(root, "mesh", read_mesh_entry, scene);
+    read_each(root, "instance", read_instance, scene);
+    read_one(root, "ground", read_ground, scene);
     return scene;
 }
 

@@ -1,5 +1,6 @@
 #include "bake/preview/scene_section.h"
 #include "bake/base/error.h"
+#include "bake/preview/nearest_key.h"
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -40,8 +41,11 @@ void allow_only(const Section& in, std::initializer_list<std::string_view> keys)
         if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
         std::string known;
         for (const std::string_view k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
+        const std::string meant = did_you_mean(std::string(key.str()), {keys.begin(), keys.end()});
         const int line = int(key.source().begin.line);
-        refuse(in.file, line, "unknown key \"" + std::string(key.str()) + "\" in " + in.name + "; known are " + known);
+        refuse(in.file, line,
+               "unknown key \"" + std::string(key.str()) + "\" in " + in.name + "; " +
+                   (meant.empty() ? "known are " + known : meant));
     }
 }
 

@@ -5,6 +5,11 @@
 
 namespace bake {
 
+enum class FileKind { mesh, picture, scene, unknown };
+
+/// By the ending of the name.
+FileKind file_kind(const std::string& path);
+
 /// Throw Error{Refusal::unreadable} for a file that is named like one of another kind: mesh, picture or scene. Every other name
 /// is left to the reader, which looks at the content.
 void expect_picture(const std::string& path);

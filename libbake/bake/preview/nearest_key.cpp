@@ -1,4 +1,4 @@
-#include "nearest.h"
+#include "bake/preview/nearest_key.h"
 #include <algorithm>
 #include <cctype>
 
@@ -30,7 +30,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 } // namespace
 
-std::string nearest(const std::string& word, const std::vector<std::string>& names) {
+std::string nearest_key(const std::string& word, const std::vector<std::string>& names) {
     const std::string wanted = simplified(word);
     std::string best;
     std::size_t least = (wanted.size() + 1) / 3 + 1; // a distance below this is near
@@ -40,6 +40,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& nam
         if (const std::string other = simplified(name); best.empty() && std::min(wanted.size(), other.size()) > 1)
             if (other.starts_with(wanted) || wanted.starts_with(other)) best = name;
     return best;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+    const std::string meant = nearest_key(word, names);
+    return meant.empty() ? "" : "did you mean \"" + meant + "\"?";
 }
 
 } // namespace bake

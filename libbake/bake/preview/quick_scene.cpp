@@ -1,0 +1,99 @@
+#include "bake/preview/quick_scene.h"
+#include "bake/base/error.h"
+#include "bake/base/text.h"
+#include "bake/preview/map_kind.h"
+#include "bake/preview/shape_mesh.h"
+#include "bake/relief/map/bump_table.h"
+
+namespace bake {
+namespace {
+
+/// Values of a [[material]] that show relief, before those of the user.
+constexpr const char* glossy = "specular=0.25,shininess=40";
+
+/// How often a square picture is repeated along u and v so that it is not much stretched; on shapes without an entry once.
+std::string repeat_on(const std::string& shape) {
+    const std::string kind = shape.substr(0, shape.find(':'));
+    return kind == "sphere" ? ",repeat=2:1" : kind == "torus" ? ",repeat=3:1" : "";
+}
+
+/// The bump table of a height in memory, as relief on a shape of this diagonal.
+Texture table_of_height(const std::string& file, double across, std::vector<std::string>& notes) {
+    constexpr double share = 0.02; // of the diagonal
+    const HeightTexture height = read_height(file);
+    const bool lengths = is_float(height.info);
+    BumpTableOptions options;
+    options.amplitude = lengths ? 1 : share * across;
+    if (lengths) notes.push_back(file + ": the values are taken as lengths; `material` bump-scale=FACTOR scales them");
+    else
+        notes.push_back(file + format(": the amplitude is %.3g, 2 %% of the shape's diagonal; `material` "
+                                      "bump-scale=FACTOR scales it",
+                                      options.amplitude));
+    return std::make_shared<const Image<float>>(bump_table(height, options));
+}
+
+/// The texture with all values multiplied.
+Texture scaled(const Texture& texture, float factor) {
+    if (factor == 1) return texture;
+    Image<float> copy(texture->width(), texture->height(), texture->channels());
+    for (std::size_t i = 0; i < copy.size(); ++i) copy.data()[i] = factor * texture->data()[i];
+    return std::make_shared<const Image<float>>(std::move(copy));
+}
+
+MapKind kind_of(const std::string& file, MapKind asked, std::vector<std::string>& notes) {
+    if (asked != MapKind::automatic) return asked;
+    ImageInfo info;
+    const Image<float> image = read_image(file, &info);
+    const MapKind kind = guess_map_kind(image, info);
+    notes.push_back(file + ": is taken for " + name(kind) + "; `as` says otherwise");
+    return kind;
+}
+
+void set_map(MaterialEntry& material, const QuickScene& quick, double across, std::vector<std::string>& notes) {
+    const MapKind kind = kind_of(quick.map, quick.as, notes);
+    const bool relief = kind != MapKind::colour;
+    const bool twice = relief ? !material.bump_table.empty() || !material.normal_map.empty() : !material.albedo.empty();
+    if (twice)
+        throw Error(Refusal::usage, "`material` " + quick.material + ": names a texture in the place of " + quick.map +
+                                        "; give one of the two");
+    switch (kind) {
+    case MapKind::normal: material.normal_map = quick.map; break;
+    case MapKind::bump: material.bump_table = quick.map; break;
+    case MapKind::colour: material.albedo = quick.map; break;
+    default: material.bump_texture = scaled(table_of_height(quick.map, across, notes), material.bump_scale);
+    }
+}
+
+} // namespace
+
+SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& notes) {
+    SceneEntries entries;
+    entries.file = quick.mesh.empty() ? quick.map : quick.mesh;
+    entries.background = Vec3f(0.1f, 0.11f, 0.12f);
+    entries.studio = true;
+    MeshEntry mesh;
+    mesh.material = 0;
+    const bool shown = quick.mesh.empty();
+    MaterialEntry material = material_of(quick.material, glossy + (shown ? repeat_on(quick.shape) : ""));
+    if (shown) {
+        mesh.shape = quick.shape;
+        const Bounds box = bounds(shape_mesh(quick.shape)); // refuses an unknown shape before the map is read
+        // Turned towards the camera: the plane faces it, and the hole of the torus is seen.
+        if (quick.shape.starts_with("plane")) mesh.placement.rotate_deg.x = 90;
+        if (quick.shape.starts_with("torus")) mesh.placement.rotate_deg.x = 40;
+        set_map(material, quick, diagonal(box), notes);
+    } else {
+        mesh.file = quick.mesh;
+    }
+    entries.materials.push_back(std::move(material));
+    entries.meshes.push_back(std::move(mesh));
+    return entries;
+}
+
+void set_sky(SceneEntries& entries, const std::string& name) {
+    entries.sky = {};
+    entries.labels = name == "labels";
+    if (!entries.labels) entries.sky.image = name;
+}
+
+} // namespace bake

@@ -1,0 +1,121 @@
+#include "render_options.h"
+#include "bake/preview/scene_io.h"
+#include "inputs/file_kind.h"
+#include <sstream>
+
+namespace bake {
+namespace {
+
+Error usage(const std::string& message) { return Error(Refusal::usage, message); }
+
+/// A name with the ending of no kind is a scene, or a picture if it is shown on a shape.
+FileKind kind_of(const RenderArgs& args) {
+    const FileKind kind = file_kind(args.input);
+    return kind != FileKind::unknown ? kind : args.on.empty() ? FileKind::scene : FileKind::picture;
+}
+
+std::array<int, 4> parse_crop(const std::string& text) {
+    const Error wrong =
+        usage("--crop " + text + ": is not a part of a picture; write X,Y,WIDTH,HEIGHT in pixels, such as 0,0,64,64");
+    std::array<int, 4> crop{};
+    std::istringstream parts(text + ",");
+    int count = 0;
+    for (std::string part; std::getline(parts, part, ','); ++count) {
+        const auto value = parse_whole_number(part);
+        if (count == 4 || !value || *value < (count < 2 ? 0 : 1) || *value > 32768) throw wrong;
+        crop[std::size_t(count)] = int(*value);
+    }
+    if (count != 4) throw wrong;
+    return crop;
+}
+
+} // namespace
+
+void add_render_options(CLI::App& sub, RenderArgs& args) {
+    sub.add_option("input", args.input,
+                   "Scene file (.toml), mesh (.obj, .ply, .glb, .gltf), or a normal map, bump table or height for --on")
+        ->required();
+    add_output_option(
+        sub, args.out,
+        "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance");
+    sub.add_option("--on", args.on, "Show the picture on a shape of bake surface, or on a cube")
+        ->type_name("sphere|plane|cube|torus|NAME:KEY=VALUE,...");
+    add_choice<MapKind>(sub, "--as", args.as,
+                        {{"auto", MapKind::automatic},
+                         {"normal", MapKind::normal},
+                         {"bump", MapKind::bump},
+                         {"height", MapKind::height},
+                         {"colour", MapKind::colour}},
+                        "With --on, what the picture holds; auto: by its values");
+    sub.add_option("--material", args.material,
+                   "Of a mesh or of --on: keys of a [[material]]; colours are grey, r:g:b or #rrggbb")
+        ->type_name("KEY=VALUE,...");
+    sub.add_option("--sky", args.sky,
+                   "Sky, instead of the scene's: a picture, faces with %s, or labels: the built-in test sky");
+    sub.add_option("--camera", args.camera, "Camera of the scene or of the glTF file, by its name [the first]")
+        ->type_name("NAME");
+    add_size_option(sub, args.size, "Pixels, instead of the scene's", 32768);
+    sub.add_option_function<std::string>(
+           "--crop", [&args](const std::string& text) { args.crop = parse_crop(text); },
+           "Render this part of the picture alone: pixels from the upper left corner")
+        ->type_name("X,Y,W,H");
+    add_integer_option(sub, "--spp", args.spp, 1, 65536, "Samples per pixel, instead of the scene's");
+    add_depth_option(sub, args.depth, "auto: 8 for .png, half for .exr, float for .tif");
+    add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
+                      "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
+                      "A mesh or a map needs no scene file; it is lit and framed automatically:\n"
+                      "  bake render meshes/torus.obj -o torus.png --material diffuse=#c08050,specular=.4\n"
+                      "  bake render meshes/bricks.png --on sphere -o bricks.png\n");
+}
+
+void check_usage(const RenderArgs& args) {
+    const FileKind kind = kind_of(args);
+    const auto refuse_for = [&](const char* flag, const char* why) { return usage(flag + (": " + args.input) + why); };
+    if (kind == FileKind::picture && args.on.empty())
+        throw refuse_for("--on", " is a picture; name the shape to show it on, such as --on sphere");
+    if (kind != FileKind::picture && !args.on.empty())
+        throw refuse_for("--on", kind == FileKind::mesh
+                                     ? " is a mesh, not a picture to show on a shape; give one of the two"
+                                     : " is a scene, not a picture to show on a shape; remove the option");
+    if (kind != FileKind::picture && args.as != MapKind::automatic)
+        throw refuse_for("--as", " is not a picture to show with --on; remove the option");
+    if (kind == FileKind::scene && !args.material.empty())
+        throw refuse_for("--material", " is a scene, which has its own materials; change them there");
+    if (kind == FileKind::picture && !args.camera.empty())
+        throw refuse_for("--camera", " is a picture, without cameras; remove the option");
+}
+
+SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& notes) {
+    const FileKind kind = kind_of(args);
+    SceneEntries entries;
+    if (kind == FileKind::scene) {
+        entries = read_scene(args.input);
+    } else {
+        QuickScene quick;
+        (kind == FileKind::mesh ? quick.mesh : quick.map) = args.input;
+        quick.shape = args.on;
+        quick.as = args.as;
+        quick.material = args.material;
+        entries = quick_scene(quick, notes);
+        for (std::string& line : notes) line = with_flags(line);
+    }
+    if (!args.sky.empty()) set_sky(entries, args.sky);
+    if (!args.camera.empty()) entries.camera = find_camera(entries.cameras, args.camera, args.input);
+    if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
+    if (args.spp > 0) entries.settings.spp = args.spp;
+    return entries;
+}
+
+void crop(const RenderArgs& args, Scene& scene) {
+    if (!args.crop) return;
+    const auto [x, y, width, height] = *args.crop;
+    RenderSettings& settings = scene.settings;
+    if (x + width > settings.width || y + height > settings.height)
+        throw usage("--crop: reaches beyond the picture of " + std::to_string(settings.width) + " x " +
+                    std::to_string(settings.height) + " pixels; give a part of it");
+    scene.camera.window = window_of(x, y, width, height, settings.width, settings.height);
+    settings.width = width;
+    settings.height = height;
+}
+
+} // namespace bake
