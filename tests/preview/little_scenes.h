@@ -1,7 +1,7 @@
 // Small meshes and scenes for the preview's tests.
 #pragma once
 #include "bake/base/vec.h"
-#include "bake/preview/tracer.h"
+#include "bake/preview/render.h"
 #include <cmath>
 #include <functional>
 

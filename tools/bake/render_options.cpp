@@ -1,6 +1,8 @@
 #include "render_options.h"
+#include "bake/base/text.h"
 #include "bake/preview/scene_io.h"
 #include "inputs/file_kind.h"
+#include <array>
 #include <sstream>
 
 namespace bake {
@@ -14,7 +16,7 @@ FileKind kind_of(const RenderArgs& args) {
     return kind != FileKind::unknown ? kind : args.on.empty() ? FileKind::scene : FileKind::picture;
 }
 
-std::array<int, 4> parse_crop(const std::string& text) {
+PixelRect parse_crop(const std::string& text) {
     const Error wrong =
         usage("--crop " + text + ": is not a part of a picture; write X,Y,WIDTH,HEIGHT in pixels, such as 0,0,64,64");
     std::array<int, 4> crop{};
@@ -26,7 +28,7 @@ std::array<int, 4> parse_crop(const std::string& text) {
         crop[std::size_t(count)] = int(*value);
     }
     if (count != 4) throw wrong;
-    return crop;
+    return {crop[0], crop[1], crop[2], crop[3]};
 }
 
 } // namespace
@@ -54,15 +56,22 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
                    "Sky, instead of the scene's: a picture, faces with %s, or labels: the built-in test sky");
     sub.add_option("--camera", args.camera, "Camera of the scene or of the glTF file, by its name [the first]")
         ->type_name("NAME");
+    add_number_option(sub, "--yaw", args.yaw, -360, 360,
+                      "Turns the sky: what is ahead moves to the right by as many degrees");
     add_size_option(sub, args.size, "Pixels, instead of the scene's", 32768);
     sub.add_option_function<std::string>(
            "--crop", [&args](const std::string& text) { args.crop = parse_crop(text); },
            "Render this part of the picture alone: pixels from the upper left corner")
         ->type_name("X,Y,W,H");
     add_integer_option(sub, "--spp", args.spp, 1, 65536, "Samples per pixel, instead of the scene's");
+    add_number_option(sub, "--exposure", args.exposure, -64, 64, "Stops, instead of the scene's [automatic, printed]");
+    sub.add_flag(
+        "--layers", args.layers,
+        "Write an .exr with depth, position, normals, uv, albedo, the parts of the light and more beside RGBA");
     add_depth_option(sub, args.depth, "auto: 8 for .png, half for .exr, float for .tif");
     add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
+                      "  bake render meshes/scene.toml -o layers.exr --layers\n"
                       "A mesh or a map needs no scene file; it is lit and framed automatically:\n"
                       "  bake render meshes/torus.obj -o torus.png --material diffuse=#c08050,specular=.4\n"
                       "  bake render meshes/bricks.png --on sphere -o bricks.png\n");
@@ -79,6 +88,8 @@ void check_usage(const RenderArgs& args) {
                                      : " is a scene, not a picture to show on a shape; remove the option");
     if (kind != FileKind::picture && args.as != MapKind::automatic)
         throw refuse_for("--as", " is not a picture to show with --on; remove the option");
+    if (args.layers && ending(args.out) != ".exr")
+        throw usage("--layers: " + args.out + " is no .exr, which alone holds layers; write to one");
     if (kind == FileKind::scene && !args.material.empty())
         throw refuse_for("--material", " is a scene, which has its own materials; change them there");
     if (kind == FileKind::picture && !args.camera.empty())
@@ -103,19 +114,17 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
     if (!args.camera.empty()) entries.camera = find_camera(entries.cameras, args.camera, args.input);
     if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
     if (args.spp > 0) entries.settings.spp = args.spp;
+    if (args.yaw) entries.sky.yaw_deg = float(*args.yaw);
+    if (args.exposure) entries.settings.exposure = float(*args.exposure);
     return entries;
 }
 
-void crop(const RenderArgs& args, Scene& scene) {
+void crop(const RenderArgs& args, RenderSettings& settings) {
     if (!args.crop) return;
-    const auto [x, y, width, height] = *args.crop;
-    RenderSettings& settings = scene.settings;
-    if (x + width > settings.width || y + height > settings.height)
+    if (args.crop->x + args.crop->width > settings.width || args.crop->y + args.crop->height > settings.height)
         throw usage("--crop: reaches beyond the picture of " + std::to_string(settings.width) + " x " +
                     std::to_string(settings.height) + " pixels; give a part of it");
-    scene.camera.window = window_of(x, y, width, height, settings.width, settings.height);
-    settings.width = width;
-    settings.height = height;
+    settings.part = args.crop;
 }
 
 } // namespace bake

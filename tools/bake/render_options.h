@@ -2,7 +2,6 @@
 #pragma once
 #include "bake/preview/quick_scene.h"
 #include "options.h"
-#include <array>
 
 namespace bake {
 
@@ -13,7 +12,9 @@ struct RenderArgs {
     int spp = 0; ///< 0: the scene's
     std::string on, sky, material, camera;
     MapKind as = MapKind::automatic;
-    std::optional<std::array<int, 4>> crop; ///< x, y, width, height in pixels
+    std::optional<PixelRect> crop;
+    std::optional<double> yaw, exposure; ///< none: the scene's
+    bool layers = false;                 ///< .exr with the channels of layer_channels()
 };
 
 void add_render_options(CLI::App& sub, RenderArgs& args);
@@ -22,7 +23,7 @@ void check_usage(const RenderArgs& args);
 /// The entries of the scene file, or of the scene made for a mesh or a map, with the options applied. `notes` receives what
 /// was found or assumed.
 SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& notes);
-/// Narrows the camera's window and the size to --crop. Throws Error{Refusal::usage} if the crop is not in the picture.
-void crop(const RenderArgs& args, Scene& scene);
+/// Keeps the pixels of --crop. Throws Error{Refusal::usage} if the crop is not in the picture.
+void crop(const RenderArgs& args, RenderSettings& settings);
 
 } // namespace bake

@@ -5,6 +5,8 @@
 
 namespace bake {
 
+class Progress;
+
 /// Radiance of a built scene seen from `position` (world space), with `settings.spp` samples per texel and
 /// `settings.bounces` mirror reflections: three channels, texel-centred, in cube space (world_to_cube). The scene's
 /// camera is not used. Every value is finite. The result does not depend on the number of threads. Throws

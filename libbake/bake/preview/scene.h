@@ -4,6 +4,7 @@
 #include "bake/preview/material.h"
 #include "bake/preview/sky.h"
 #include "bake/preview/terminator.h"
+#include "bake/preview/tone.h"
 #include "bake/ray/bvh.h"
 #include "bake/ray/camera.h"
 #include <glm/mat3x3.hpp>
@@ -28,16 +29,23 @@ struct Instance {
 /// Whether the sky lights meshes, or is only seen and mirrored.
 enum class SkyLighting { off, sampled };
 
+/// Pixels x to x + width, y to y + height of a picture.
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 struct RenderSettings {
     int width = 512, height = 512;
-    int spp = 4;             ///< samples per pixel; 1 is the pixel's centre
-    int bounces = 1;         ///< number of mirror reflections that can hit meshes; later ones see only the sky
-    int diffuse_bounces = 0; ///< number of diffuse reflections that can hit meshes; needs a sky that lights
-    bool shadows = true;     ///< whether meshes shadow lights and sky
+    std::optional<PixelRect> part; ///< the only pixels that are rendered; none: all
+    int spp = 4;                   ///< samples per pixel; 1 is the pixel's centre
+    int bounces = 1;               ///< number of mirror reflections that can hit meshes; later ones see only the sky
+    int diffuse_bounces = 0;       ///< number of diffuse reflections that can hit meshes; needs a sky that lights
+    bool shadows = true;           ///< whether meshes shadow lights and sky
     SkyLighting sky_light = SkyLighting::sampled;
     Terminator terminator = Terminator::off;
-    std::uint32_t seed = 0; ///< pictures of different seeds have independent noise
-    float exposure = 0;     ///< in stops; only for pictures written in 8 or 16 bits
+    std::uint32_t seed = 0;        ///< pictures of different seeds have independent noise
+    std::optional<float> exposure; ///< in stops, for pictures written in 8 or 16 bits; none: automatic_exposure()
+    Tone tone = Tone::srgb;
 };
 
 /// Owns its parts. Instances point to shapes and materials, whose addresses do not change.

@@ -14,7 +14,7 @@ namespace {
 
 void read_render(const Section& in, SceneEntries& scene) {
     allow_only(in, {"size", "spp", "bounces", "diffuse-bounces", "shadows", "sky-light", "terminator", "seed",
-                    "exposure", "background"});
+                    "exposure", "tone", "background"});
     RenderSettings& s = scene.settings;
     if (const toml::node* size = in.table.get("size")) {
         if (size->is_number()) {
@@ -40,7 +40,8 @@ void read_render(const Section& in, SceneEntries& scene) {
     int seed = 0;
     read(in, "seed", seed, 0, 1'000'000'000);
     s.seed = std::uint32_t(seed);
-    read(in, "exposure", s.exposure, -64, 64);
+    if (float exposure = 0; in.table.get("exposure")) read(in, "exposure", exposure, -64, 64), s.exposure = exposure;
+    read_choice<Tone>(in, "tone", s.tone, {{"srgb", Tone::srgb}, {"aces", Tone::aces}});
     read_colour(in, "background", scene.background);
 }
 

@@ -1,15 +1,9 @@
 #include "bake/preview/tracer.h"
-#include "bake/base/parallel.h"
-#include "bake/base/progress.h"
 #include "bake/preview/surfel.h"
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace bake {
 namespace {
-
-bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Weight of a direction that was drawn with density `own`, and could have been drawn with density `other`: the balance
 /// heuristic (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2).
@@ -147,33 +141,6 @@ Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& samp
                   FirstHit* first) noexcept {
     FirstHit unused;
     return Path{scene, sampler, stats}.along(ray, bounces, scene.settings.diffuse_bounces, first ? first : &unused);
-}
-
-Image<float> render(const Scene& scene, const RenderSettings& settings, RenderStats* stats, Progress* progress) {
-    Image<float> image(settings.width, settings.height, 3);
-    const CameraFrame frame = camera_frame(scene.camera);
-    std::vector<RenderStats> per_row(settings.height);
-    if (progress) progress->start("render", settings.height);
-    const auto render_rows = [&](std::int64_t begin, std::int64_t end) {
-        for (int y = int(begin); y < int(end); ++y)
-            for (int x = 0; x < settings.width; ++x) {
-                Vec3d sum(0);
-                for (int i = 0; i < settings.spp; ++i) {
-                    Sampler sampler(x, y, i, settings.seed);
-                    const Vec2d at = pixel_sample(settings.spp, sampler);
-                    const Ray ray = primary_ray(frame, x + at.x, y + at.y, settings.width, settings.height);
-                    const Vec3f value = radiance(scene, ray, settings.bounces, sampler, per_row[y]).total();
-                    if (finite(value)) sum += Vec3d(value);
-                    else ++per_row[y].bad_samples;
-                }
-                const Vec3f mean(sum / double(settings.spp));
-                for (int c = 0; c < 3; ++c) image.at(x, y, c) = mean[c];
-            }
-    };
-    for_rows(settings.height, 2, render_rows, progress);
-    if (stats)
-        for (const RenderStats& row : per_row) *stats += row;
-    return image;
 }
 
 } // namespace bake

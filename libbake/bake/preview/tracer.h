@@ -5,8 +5,6 @@
 
 namespace bake {
 
-class Progress;
-
 struct RenderStats {
     std::int64_t rays = 0;        ///< primary, shadow, sky and mirror rays
     std::int64_t bad_samples = 0; ///< samples whose radiance is not finite; they are black
@@ -45,10 +43,5 @@ struct FirstHit {
 /// the hit in `first` when given.
 Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
                   FirstHit* first = nullptr) noexcept;
-
-/// Renders a built scene: an image of mean radiance per pixel with three channels. All values are finite. The result does
-/// not depend on the number of threads.
-Image<float> render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
-                    Progress* progress = nullptr);
 
 } // namespace bake

@@ -4,11 +4,6 @@
 
 namespace bake {
 
-PictureWindow window_of(int x, int y, int width, int height, int whole_width, int whole_height) noexcept {
-    const double whole = whole_height;
-    return {(x + 0.5 * width - 0.5 * whole_width) / whole, (0.5 * whole - y - 0.5 * height) / whole, height / whole};
-}
-
 CameraFrame camera_frame(const Camera& camera) noexcept {
     // In double, so that the axes are accurate for a small target far from the origin.
     const Vec3d forward = unit_or_zero(Vec3d(camera.target) - Vec3d(camera.position));
@@ -25,16 +20,15 @@ CameraFrame camera_frame(const Camera& camera) noexcept {
     frame.right = Vec3f(right);
     frame.up = Vec3f(glm::cross(right, forward));
     const double half = camera.orthographic ? 0.5 * camera.view_height : std::tan(0.5 * camera.fov_deg * (pi / 180.0));
-    frame.half_height = float(half * camera.window.height);
-    frame.centre = 2.0 * half * Vec2d(camera.window.right, camera.window.up);
+    frame.half_height = float(half);
     frame.orthographic = camera.orthographic;
     return frame;
 }
 
 Ray primary_ray(const CameraFrame& frame, double x, double y, int width, int height) noexcept {
     const double step = 2.0 * frame.half_height / height; // one pixel at distance 1
-    const double right = frame.centre.x + (x - 0.5 * width) * step;
-    const double up = frame.centre.y + (0.5 * height - y) * step; // row 0 is the top
+    const double right = (x - 0.5 * width) * step;
+    const double up = (0.5 * height - y) * step; // row 0 is the top
     const Vec3d across = right * Vec3d(frame.right) + up * Vec3d(frame.up);
     if (frame.orthographic) return {Vec3f(Vec3d(frame.position) + across), frame.forward};
     return {frame.position, Vec3f(unit_or_zero(Vec3d(frame.forward) + across))};

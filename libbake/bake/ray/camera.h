@@ -5,14 +5,6 @@
 
 namespace bake {
 
-/// The part of the whole picture that is rendered.
-struct PictureWindow {
-    double right = 0, up = 0; ///< of its centre from the centre of the whole picture, in heights of the whole
-    double height = 1;        ///< in heights of the whole
-};
-/// The window of the pixels x to x + width, y to y + height of a picture of whole_width x whole_height pixels.
-PictureWindow window_of(int x, int y, int width, int height, int whole_width, int whole_height) noexcept;
-
 /// Position and orientation of the camera in world space.
 struct Camera {
     Vec3f position{0, 0, 5};
@@ -21,7 +13,6 @@ struct Camera {
     float fov_deg = 40.0f; ///< vertical field of view, from the lower to the upper edge of the picture
     bool orthographic = false;
     float view_height = 2; ///< orthographic: height of the picture in world units
-    PictureWindow window;
 };
 
 /// Unit axes of the picture: right along its x, up against its y, forward along the view direction. The axes are zero if
@@ -29,7 +20,6 @@ struct Camera {
 struct CameraFrame {
     Vec3f position, right, up, forward;
     float half_height = 0; ///< half the height of the picture at distance 1; orthographic: at every distance
-    Vec2d centre{0};       ///< of the picture, along right and up, in the unit of half_height
     bool orthographic = false;
 };
 CameraFrame camera_frame(const Camera& camera) noexcept;
