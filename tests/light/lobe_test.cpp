@@ -79,6 +79,7 @@ TEST_SUITE("oracle") {
             CHECK(normal(LobeKind::normalised_blinn) == doctest::Approx(1).epsilon(1e-3));
             CHECK(phong_cosine_albedo(n) == doctest::Approx(2 * pi / (n + 2)));
         }
+        CHECK((8 + 8) / (8 * pi) * blinn_cosine_albedo(8) == doctest::Approx(1.075).epsilon(1e-3)); // the usual factor
         // The lecture's Phong conserves energy from n = 2 pi - 1 on; with the cosine from 2 pi - 2 on.
         CHECK(phong_albedo(2 * pi - 1) == doctest::Approx(1));
         CHECK(phong_cosine_albedo(2 * pi - 2) == doctest::Approx(1));
