@@ -1,4 +1,5 @@
 #include "bake/light/cosine_power.h"
+#include "bake/light/ggx_albedo.h"
 #include "bake/light/lobe.h"
 #include "light/lobes.h"
 #include <doctest/doctest.h>
@@ -62,6 +63,20 @@ TEST_SUITE("oracle") {
     TEST_CASE("lobe: ggx of reflectance f0 at normal incidence reflects f0 where it is smooth") {
         for (const float f0 : {0.04f, 0.3f, 0.9f})
             CHECK(sampled_albedo(sum_of({ggx_lobe(0.05f, f0)}), up, up) == doctest::Approx(double(f0)).epsilon(1e-3));
+    }
+
+    TEST_CASE("lobe: light of several bounces is the sum of the bounces' reflectances") {
+        for (const float f0 : {0.04f, 0.3f, 0.8f}) {
+            const GgxRow row = ggx_row(1);
+            const GgxAlbedo once = ggx_albedo(row, 0.5f), mean = ggx_mean_albedo(row);
+            const double f = double(f0) + (1 - double(f0)) / 21, lost = double(mean.loss);
+            double sum = double(f0 * (1 - once.loss - once.schlick) + once.schlick);
+            // Two bounces, of which the second leaves the surface; three; ...
+            for (int bounces = 2; bounces < 60; ++bounces)
+                sum += double(once.loss) * std::pow(f, bounces) * std::pow(lost, bounces - 2) * (1 - lost);
+            CHECK(sampled_albedo(sum_of({ggx_lobe(1, f0)}), up, Vec3f(direction(60))) ==
+                  doctest::Approx(sum).epsilon(3e-3));
+        }
     }
 
     TEST_CASE("lobe: the lecture's lobes have the albedo of their closed forms") {
