@@ -1,4 +1,5 @@
 #include "bake/light/cosine_power.h"
+#include "bake/light/ggx_albedo.h"
 #include "bake/light/lobe.h"
 #include "light/lobes.h"
 #include <doctest/doctest.h>
@@ -64,6 +65,20 @@ TEST_SUITE("oracle") {
             CHECK(sampled_albedo(sum_of({ggx_lobe(0.05f, f0)}), up, up) == doctest::Approx(double(f0)).epsilon(1e-3));
     }
 
+    TEST_CASE("lobe: light of several bounces is the sum of the bounces' reflectances") {
+        for (const float f0 : {0.04f, 0.3f, 0.8f}) {
+            const GgxRow row = ggx_row(1);
+            const GgxAlbedo once = ggx_albedo(row, 0.5f), mean = ggx_mean_albedo(row);
+            const double f = double(f0) + (1 - double(f0)) / 21, lost = double(mean.loss);
+            double sum = double(f0 * (1 - once.loss - once.schlick) + once.schlick);
+            // Two bounces, of which the second leaves the surface; three; ...
+            for (int bounces = 2; bounces < 60; ++bounces)
+                sum += double(once.loss) * std::pow(f, bounces) * std::pow(lost, bounces - 2) * (1 - lost);
+            CHECK(sampled_albedo(sum_of({ggx_lobe(1, f0)}), up, Vec3f(direction(60))) ==
+                  doctest::Approx(sum).epsilon(3e-3));
+        }
+    }
+
     TEST_CASE("lobe: the lecture's lobes have the albedo of their closed forms") {
         for (const double n : {0., 1., 5., 20., 300.}) {
             CAPTURE(n);
@@ -79,6 +94,7 @@ TEST_SUITE("oracle") {
             CHECK(normal(LobeKind::normalised_blinn) == doctest::Approx(1).epsilon(1e-3));
             CHECK(phong_cosine_albedo(n) == doctest::Approx(2 * pi / (n + 2)));
         }
+        CHECK((8 + 8) / (8 * pi) * blinn_cosine_albedo(8) == doctest::Approx(1.075).epsilon(1e-3)); // the usual factor
         // The lecture's Phong conserves energy from n = 2 pi - 1 on; with the cosine from 2 pi - 2 on.
         CHECK(phong_albedo(2 * pi - 1) == doctest::Approx(1));
         CHECK(phong_cosine_albedo(2 * pi - 2) == doctest::Approx(1));

@@ -1,5 +1,7 @@
 // bake check: what is in each file, and what is wrong with it.
+#include "bake/verdict/brdf_check.h"
 #include "bake/verdict/inspect.h"
+#include "inputs/brdf_input.h"
 #include "inputs/file_kind.h"
 #include "options.h"
 #include <new>
@@ -10,6 +12,7 @@ namespace {
 struct CheckArgs {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> pairs;
+    std::vector<std::string> brdfs;
     std::string against;
     InspectOptions options;
     bool strict = false;
@@ -77,6 +80,8 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common,
                    [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
+    for (const std::string& spec : args.brdfs)
+        add_result(results, spec, common, [&] { return check_brdf(spec, parse_brdf("--brdf", spec)); });
     if (common.json) print_json({{"files", results.files}}, -1);
     if (results.code != 0) return results.code;
     return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
@@ -96,6 +101,11 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                                     "With --pair: exit with 1 unless the green of the normal map points up (opengl) or "
                                     "down (directx)")
         ->needs(pair);
+    const auto brdf = sub.add_option("--brdf", args->brdfs,
+                                     "A reflection model, or several joined by +: whether it is positive, conserves "
+                                     "energy and is reciprocal; may be given again")
+                          ->allow_extra_args(false)
+                          ->type_name("MODEL:KEY=VALUE,...");
     add_mesh_options(sub, args->options.read);
     add_integer_option(sub, "--overlap-size", args->options.uv.overlap_size, 0, 8192,
                        "Samples along a UV tile for measuring overlaps; 0: not measured")
@@ -118,12 +128,19 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                       "  bake check --audit meshes/torus.obj\n"
                       "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
                       "  bake normal-map --height meshes/bricks.png -o bricks_normal.png\n"
-                      "  bake check --pair meshes/bricks.png bricks_normal.png --expect opengl\n");
-    return [args, &common, files, pair] {
-        if (files->empty() && pair->empty())
-            throw Error(Refusal::usage, "check: no file given; name meshes, images or a --pair; see bake check --help");
-        if (!args->against.empty() && (files->empty() || !pair->empty() || args->options.audit))
-            throw Error(Refusal::usage, "check: --against takes meshes alone; run --audit and --pair separately");
+                      "  bake check --pair meshes/bricks.png bricks_normal.png --expect opengl\n"
+                      "  bake check --brdf phong:n=3\n"
+                      "  bake check --brdf lambert:albedo=.5+normalised-blinn:n=32,specular=.3\n\n"
+                      "Reflection models of --brdf, their keys and defaults:\n" +
+                          brdf_models());
+    return [args, &common, files, pair, brdf] {
+        if (files->empty() && pair->empty() && brdf->empty())
+            throw Error(Refusal::usage,
+                        "check: no file given; name meshes, images, a --pair or a --brdf; see bake check --help");
+        if (!args->against.empty() && (files->empty() || !pair->empty() || !brdf->empty() || args->options.audit))
+            throw Error(Refusal::usage,
+                        "check: --against takes meshes alone; run --audit, --pair and --brdf separately");
+        for (const std::string& spec : args->brdfs) parse_brdf("--brdf", spec); // refused before a file is read
         return run(*args, common);
     };
 }

@@ -23,8 +23,8 @@ double phong_cosine_albedo(double exponent) noexcept;
 /// Integral of (n.h)^n over l: 8 pi (1 - 2^-(n + 2)/2) / (n + 2), because the angle to l is twice that to h.
 double blinn_albedo(double exponent) noexcept;
 /// The same with n.l = 2 (n.h)^2 - 1: 8 pi (n + 2^(-n/2)) / ((n + 2) (n + 4)). One over it makes the lobe reflect 1 at
-/// normal incidence and less elsewhere (Giesen, Phong Normalization Factor derivation, 2009). The usual (n + 8) / (8 pi) is
-/// an approximation for large n, which reflects more than 1 at some n.
+/// normal incidence and less elsewhere (Giesen, Derivation of Phong and Blinn-Phong BRDF normalization factors, 2009). The usual
+/// (n + 8) / (8 pi) is larger: it reflects up to 1.075 (at n = 8).
 double blinn_cosine_albedo(double exponent) noexcept;
 
 } // namespace bake

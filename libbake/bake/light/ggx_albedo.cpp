@@ -84,7 +84,7 @@ template <int N> struct Cubic {
 /// Along alpha: its fourth root, because the mean loss goes as alpha^2 log alpha.
 float node_of_alpha(float alpha) noexcept {
     constexpr float least = 0.1f; // of least_ggx_alpha
-    return (std::sqrt(std::sqrt(std::clamp(alpha, least_ggx_alpha, 1.f))) - least) / (1 - least) * (rows - 1);
+    return (std::sqrt(std::sqrt(alpha)) - least) / (1 - least) * (rows - 1);
 }
 double alpha_of_node(int i) noexcept { return std::pow(0.1 + 0.9 * i / (rows - 1), 4); }
 
@@ -158,30 +158,38 @@ const Table& table() noexcept {
 
 } // namespace
 
-GgxAlbedo ggx_albedo(float alpha, float mu) noexcept {
+GgxRow ggx_row(float alpha) noexcept {
+    alpha = std::clamp(alpha, least_ggx_alpha, 1.f);
+    const Cubic<rows> x(node_of_alpha(alpha));
+    return {alpha, x.first, x.weight};
+}
+
+GgxAlbedo ggx_albedo(const GgxRow& row, float mu) noexcept {
     const Table& t = table();
     mu = std::clamp(mu, 0.f, 1.f);
-    const Cubic<rows> x(node_of_alpha(alpha));
-    const Cubic<loss_nodes> y(node_of_loss(std::clamp(alpha, least_ggx_alpha, 1.f), mu));
-    const Cubic<schlick_nodes> z(node_of_schlick(std::clamp(alpha, least_ggx_alpha, 1.f), mu));
+    const Cubic<loss_nodes> y(node_of_loss(row.alpha, mu));
+    const Cubic<schlick_nodes> z(node_of_schlick(row.alpha, mu));
     float loss = 0, root = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t row = std::size_t(x.first) + i;
+        const std::size_t at = std::size_t(row.first) + i;
+        const float* const losses = &t.loss[at][std::size_t(y.first)];
+        const float* const roots = &t.schlick[at][std::size_t(z.first)];
         float row_loss = 0, row_root = 0;
-        for (std::size_t j = 0; j < 4; ++j) {
-            row_loss += y.weight[j] * t.loss[row][std::size_t(y.first) + j];
-            row_root += z.weight[j] * t.schlick[row][std::size_t(z.first) + j];
-        }
-        loss += x.weight[i] * row_loss, root += x.weight[i] * row_root;
+        for (std::size_t j = 0; j < 4; ++j) row_loss += y.weight[j] * losses[j], row_root += z.weight[j] * roots[j];
+        loss += row.weight[i] * row_loss, root += row.weight[i] * row_root;
     }
     loss = std::min(loss * loss, 1.f), root = std::clamp(root, 0.f, 1.f);
     return {loss, (1 - loss) * root * root * root * root * root};
 }
 
-GgxAlbedo ggx_mean_albedo(float alpha) noexcept {
-    const Cubic<rows> x(node_of_alpha(alpha));
-    alpha = std::clamp(alpha, least_ggx_alpha, 1.f);
-    return {alpha * alpha * float(interpolated(x, table().mean_loss)), float(interpolated(x, table().mean_schlick))};
+GgxAlbedo ggx_mean_albedo(const GgxRow& row) noexcept {
+    const Table& t = table();
+    GgxAlbedo out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.loss += row.weight[i] * t.mean_loss[std::size_t(row.first) + i];
+        out.schlick += row.weight[i] * t.mean_schlick[std::size_t(row.first) + i];
+    }
+    return {row.alpha * row.alpha * out.loss, out.schlick};
 }
 
 Vec3f sample_ggx_loss(float alpha, const Vec2f& u) noexcept {

@@ -10,6 +10,7 @@
 // Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014. The table is computed on first use, by any thread.
 #pragma once
 #include "bake/base/vec.h"
+#include <array>
 
 namespace bake {
 
@@ -21,12 +22,19 @@ struct GgxAlbedo {
     float schlick = 0; ///< E5
 };
 
-/// At the cosine `mu` of the angle to the normal, in [0, 1]. Largest error of E 6e-4, of E5 1.2e-3, for alpha from
-/// least_ggx_alpha to 1.
-GgxAlbedo ggx_albedo(float alpha, float mu) noexcept;
+/// The table at one alpha, which is clamped to [least_ggx_alpha, 1]: to be looked up at several angles.
+struct GgxRow {
+    float alpha = 1;
+    int first = 0; ///< of four rows to interpolate, with their weights
+    std::array<float, 4> weight{};
+};
+GgxRow ggx_row(float alpha) noexcept;
+
+/// At the cosine `mu` of the angle to the normal, in [0, 1]. Largest error of E 6e-4, of E5 1.2e-3.
+GgxAlbedo ggx_albedo(const GgxRow& row, float mu) noexcept;
 
 /// Mean of ggx_albedo() over the hemisphere, weighted by mu: 2 times the integral of it times mu over mu.
-GgxAlbedo ggx_mean_albedo(float alpha) noexcept;
+GgxAlbedo ggx_mean_albedo(const GgxRow& row) noexcept;
 
 /// A direction to the z axis for the light of several bounces, whose value is in proportion to the loss: that is large for mu
 /// near alpha alone. `u` in [0, 1). The density mu / (pi (mu^2 + alpha^2) ln(1 + 1 / alpha^2)) follows it within a small

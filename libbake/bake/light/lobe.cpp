@@ -37,7 +37,7 @@ struct Seen {
     float choice = 0;          ///< probability that sample() picks the lobe
     float multiple_choice = 0; ///< ggx: and its light of several bounces
     float exponent = 0;
-    float alpha = 1;
+    GgxRow row;
     Vec3f f0{0}, multiple{0}; ///< ggx: reflectance at normal incidence, and that of light of several bounces
     GgxAlbedo at_v, average;
 
@@ -59,10 +59,10 @@ struct View {
 
 void see_ggx(const Lobe& lobe, View& view, Seen& seen) noexcept {
     const float roughness = std::clamp(lobe.roughness, 0.f, 1.f);
-    seen.alpha = std::max(roughness * roughness, least_ggx_alpha);
+    seen.row = ggx_row(roughness * roughness);
     seen.f0 = glm::clamp(lobe.weight, Vec3f(0), Vec3f(1));
-    seen.at_v = ggx_albedo(seen.alpha, view.n_raised);
-    seen.average = ggx_mean_albedo(seen.alpha);
+    seen.at_v = ggx_albedo(seen.row, view.n_raised);
+    seen.average = ggx_mean_albedo(seen.row);
     // Hill, A Multi-Faceted Exploration, 2018: the geometric series of what is lost and reflected again.
     const Vec3f f_mean = seen.f0 + (Vec3f(1) - seen.f0) / 21.f;
     seen.multiple = f_mean * f_mean * (1 - seen.average.loss) / (Vec3f(1) - f_mean * seen.average.loss);
@@ -140,39 +140,45 @@ struct Term {
     float pdf = 0;
 };
 
-void add_ggx(const Seen& seen, const View& view, const Vec3f& l, Term& out) noexcept {
+void add_ggx(const Seen& seen, const GgxAlbedo& at_l, const View& view, const Vec3f& l, Term& out) noexcept {
     const Angles a(view.n, l, view.raised);
-    const float n_v = view.n_raised, d = ggx_distribution(seen.alpha, a.sin2_h);
-    const float lost = ggx_albedo(seen.alpha, a.n_l).loss * seen.at_v.loss / std::max(seen.average.loss, 1e-12f);
-    out.value.specular += schlick(seen.f0, a.v_h) * (d * ggx_visibility(seen.alpha, a.n_l, n_v) * a.n_l) +
+    const float n_v = view.n_raised, d = ggx_distribution(seen.row.alpha, a.sin2_h);
+    const float lost = at_l.loss * seen.at_v.loss / std::max(seen.average.loss, 1e-12f);
+    out.value.specular += schlick(seen.f0, a.v_h) * (d * ggx_visibility(seen.row.alpha, a.n_l, n_v) * a.n_l) +
                           seen.multiple * (lost * a.n_l * one_over_pi);
-    out.pdf += seen.choice * d * ggx_visible_share(seen.alpha, n_v) +
-               seen.multiple_choice * ggx_loss_density(seen.alpha, a.n_l);
+    out.pdf += seen.choice * d * ggx_visible_share(seen.row.alpha, n_v) +
+               seen.multiple_choice * ggx_loss_density(seen.row.alpha, a.n_l);
 }
 
-/// Share of a covered lobe for light from a direction with this cosine, besides `cover` of the view.
-Vec3f cover_at(const Bsdf& bsdf, const View& view, float n_l) noexcept {
-    Vec3f left(1);
-    for (int i = 0; i < view.count; ++i)
-        if (bsdf.lobes[std::size_t(i)].kind == LobeKind::ggx) {
-            const Seen& seen = view.seen[std::size_t(i)];
-            left -= seen.reflected(ggx_albedo(seen.alpha, n_l));
-        }
-    return glm::max(left, Vec3f(0)) / view.cover_mean;
+/// What depends on the cosine of l alone.
+struct Lit {
+    std::array<GgxAlbedo, Bsdf::most_lobes> albedo; ///< of the ggx lobes
+    Vec3f cover{1};                                 ///< share of a covered lobe, besides `cover` of the view
+};
+Lit lit_from(const Bsdf& bsdf, const View& view, float n_l) noexcept {
+    Lit out;
+    for (std::size_t i = 0; i < std::size_t(view.count); ++i) {
+        if (bsdf.lobes[i].kind != LobeKind::ggx) continue;
+        out.albedo[i] = ggx_albedo(view.seen[i].row, n_l);
+        out.cover -= view.seen[i].reflected(out.albedo[i]);
+    }
+    out.cover = glm::max(out.cover, Vec3f(0)) / view.cover_mean;
+    return out;
 }
 
 Term term(const Bsdf& bsdf, const View& view, const Vec3f& l) noexcept {
     Term out;
     const Angles a(view.n, l, view.v);
     if (!(a.n_l > 0)) return out;
+    const Lit lit = lit_from(bsdf, view, a.n_l);
     for (int i = 0; i < view.count; ++i) {
         const Lobe& lobe = bsdf.lobes[std::size_t(i)];
         const Seen& seen = view.seen[std::size_t(i)];
         const float density = cosine_power_density(seen.exponent);
         switch (lobe.kind) {
         case LobeKind::lambert:
-            out.value.diffuse += lobe.weight * (a.n_l * one_over_pi) *
-                                 (lobe.covered ? view.cover * cover_at(bsdf, view, a.n_l) : Vec3f(1));
+            out.value.diffuse +=
+                lobe.weight * (a.n_l * one_over_pi) * (lobe.covered ? view.cover * lit.cover : Vec3f(1));
             out.pdf += seen.choice * a.n_l * one_over_pi;
             break;
         case LobeKind::phong:
@@ -193,7 +199,7 @@ Term term(const Bsdf& bsdf, const View& view, const Vec3f& l) noexcept {
             out.pdf += power > 0 ? seen.choice * density * power / (4 * a.v_h) : 0;
             break;
         }
-        case LobeKind::ggx: add_ggx(seen, view, l, out); break;
+        case LobeKind::ggx: add_ggx(seen, lit.albedo[std::size_t(i)], view, l, out); break;
         case LobeKind::mirror:
         case LobeKind::dielectric: break;
         }
@@ -217,12 +223,12 @@ Vec3f mirrored(const Vec3f& v, const Vec3f& n) noexcept { return 2 * glm::dot(n,
 
 Vec3f sample_direction(const Lobe& lobe, const Seen& seen, bool multiple, const View& view, const Vec2f& u) noexcept {
     const Frame frame(view.n);
-    if (multiple) return frame.world(sample_ggx_loss(seen.alpha, u));
+    if (multiple) return frame.world(sample_ggx_loss(seen.row.alpha, u));
     if (lobe.kind == LobeKind::lambert) return frame.world(sample_cosine_power(1, u));
     if (lobe.kind == LobeKind::ggx) {
         Vec3f v = frame.local(view.raised);
         v.z = std::max(v.z, least_n_v);
-        return mirrored(view.raised, frame.world(sample_visible_normal(seen.alpha, v, u)));
+        return mirrored(view.raised, frame.world(sample_visible_normal(seen.row.alpha, v, u)));
     }
     const Vec3f about = sample_cosine_power(seen.exponent, u);
     if (lobe.kind == LobeKind::phong || lobe.kind == LobeKind::normalised_phong)

@@ -12,7 +12,8 @@
 // The 1 / pi of phong and blinn: a light of colour c gives the irradiance pi c at normal incidence, so that weight (n.h)^n c
 // is reflected. They gain energy at low exponents, and phong is not reciprocal; the other lobes conserve energy and are
 // reciprocal. Lewis, Making Shaders More Physically Plausible, CGF 1994. Light of several bounces between microfacets is
-// added as by Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017.
+// added as by Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017; lambert under ggx
+// as by Kelemen and Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001.
 #pragma once
 #include "bake/base/vec.h"
 #include <array>
