@@ -125,6 +125,27 @@ TEST_SUITE("cli") {
         check_refused(folder, {"render", scene, "-o", "b.png", "--camera", "hal"}, 2, "did you mean \"hall\"?");
     }
 
+    TEST_CASE("render: --camera takes a camera of a glTF file") {
+        const Folder folder;
+        write_mesh(folder / "ball.gltf", sphere_mesh(16, 8));
+        std::string text = contents(folder / "ball.gltf");
+        // A node beside that of the mesh, whose camera sees the ball from +Z, 4 high.
+        nlohmann::json file = nlohmann::json::parse(text);
+        file["cameras"] = nlohmann::json::parse(R"([{"type": "orthographic",
+            "orthographic": {"xmag": 2, "ymag": 2, "znear": 0, "zfar": 9}}])");
+        file["nodes"].push_back(nlohmann::json::parse(R"({"name": "front", "camera": 0, "translation": [0, 0, 5]})"));
+        write_file(folder / "ball.gltf", file.dump());
+        const Image<float> seen = render(folder, {"ball.gltf", "--camera", "front", "--size", "64", "--spp", "1"});
+        const float background = seen.at(0, 0, 0);
+        int inside = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) inside += seen.at(x, y, 0) != background;
+        // A 16-gon of radius 16 pixels, seen from the side: between the octagon's and the circle's area.
+        CHECK(inside > 0.9 * pi * 256);
+        CHECK(inside < 1.02 * pi * 256);
+        check_refused(folder, {"render", "ball.gltf", "--camera", "fron", "-o", "b.png"}, 2, "did you mean \"front\"?");
+    }
+
     TEST_CASE("render: options that contradict each other or the input are usage errors that name them") {
         const Folder folder;
         write_file(folder / "s.toml", "mesh = [{shape = \"cube\"}]\n");

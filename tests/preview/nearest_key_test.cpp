@@ -12,6 +12,7 @@ TEST_SUITE("unit") {
         CHECK(nearest_key("fov_deg", keys) == "fov-deg");
         CHECK(nearest_key("fov", keys) == "fov-deg");
         for (const char* word : {"colour", "x", "", "exposure"}) CHECK_MESSAGE(nearest_key(word, keys).empty(), word);
+        CHECK(nearest_key("pu", keys) == "up"); // swapped letters are one mistake
         CHECK(nearest_key("up", {}).empty());
     }
 

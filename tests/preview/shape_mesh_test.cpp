@@ -26,6 +26,7 @@ TEST_SUITE("unit") {
             const Mesh mesh = shape_mesh("cube:a=2", cells, cells);
             CHECK(mesh.faces() == std::size_t(6 * cells * cells));
             double volume = 0, area = 0, uv_area = 0;
+            Vec3d sum(0); // of area vectors: zero for a closed surface
             for (const Triangle& t : triangulate(mesh)) {
                 Vec3d p[3];
                 Vec2d uv[3];
@@ -34,12 +35,13 @@ TEST_SUITE("unit") {
                     uv[k] = Vec2d(mesh.uvs[mesh.corner_uv[t.corner[std::size_t(k)]]]);
                 }
                 const Vec3d n = glm::cross(p[1] - p[0], p[2] - p[0]);
-                area += 0.5 * glm::length(n);
+                area += 0.5 * glm::length(n), sum += n;
                 volume += glm::dot(p[0], n) / 6;
                 const Vec2d a = uv[1] - uv[0], b = uv[2] - uv[0];
                 uv_area += 0.5 * (a.x * b.y - a.y * b.x); // negative where a side is mirrored
                 CHECK(glm::dot(n, Vec3d(mesh.normals[mesh.corner_normal[t.corner[0]]])) > 0);
             }
+            CHECK(glm::length(sum) < 1e-6);
             CHECK(area == doctest::Approx(24));
             CHECK(volume == doctest::Approx(8));
             CHECK(uv_area == doctest::Approx(6));

@@ -54,7 +54,8 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
         ->type_name("KEY=VALUE,...");
     sub.add_option("--sky", args.sky,
                    "Sky, instead of the scene's: a picture, faces with %s, or labels: the built-in test sky");
-    sub.add_option("--camera", args.camera, "Camera of the scene or of the glTF file, by its name [the first]")
+    sub.add_option("--camera", args.camera,
+                   "Camera of the scene [the first] or of the .glb or .gltf [one that shows the mesh]")
         ->type_name("NAME");
     add_number_option(sub, "--yaw", args.yaw, -360, 360,
                       "Turns the sky: what is ahead moves to the right by as many degrees");
@@ -111,6 +112,7 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
         for (std::string& line : notes) line = with_flags(line);
     }
     if (!args.sky.empty()) set_sky(entries, args.sky);
+    if (kind == FileKind::mesh && !args.camera.empty()) entries.cameras = cameras_of(args.input);
     if (!args.camera.empty()) entries.camera = find_camera(entries.cameras, args.camera, args.input);
     if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
     if (args.spp > 0) entries.settings.spp = args.spp;

@@ -1,9 +1,11 @@
 #include "bake/preview/quick_scene.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
-#include "bake/preview/map_kind.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/gltf/cameras.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/relief/map/bump_table.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
@@ -87,6 +89,23 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
     }
     entries.materials.push_back(std::move(material));
     entries.meshes.push_back(std::move(mesh));
+    return entries;
+}
+
+std::vector<CameraEntry> cameras_of(const std::string& mesh) {
+    std::vector<CameraEntry> entries;
+    if (mesh_format(mesh) != MeshFormat::gltf) return entries;
+    for (const GltfCamera& camera : read_gltf_cameras(mesh)) {
+        CameraEntry& entry = entries.emplace_back();
+        entry.name = camera.name;
+        entry.position = Vec3f(camera.position);
+        // As far away as the camera is from zero, so that floats hold the direction.
+        entry.target = Vec3f(camera.position + std::max(1.0, glm::length(camera.position)) * camera.forward);
+        entry.up = Vec3f(camera.up);
+        entry.orthographic = camera.orthographic;
+        if (camera.orthographic) entry.height = float(camera.height);
+        else entry.fov_deg = float(camera.fov * (180 / pi));
+    }
     return entries;
 }
 

@@ -1,17 +1,9 @@
 // A scene made for one mesh, or for one map on a shape, without a scene file.
 #pragma once
+#include "bake/preview/map_kind.h"
 #include "bake/preview/scene_entries.h"
 
 namespace bake {
-
-/// What a picture shown on a shape is taken for.
-enum class MapKind {
-    automatic, ///< as guess_map_kind() finds it
-    normal,    ///< tangent-space normal map
-    bump,      ///< bump table
-    height,    ///< height; float values are lengths, integers have an amplitude of 2 % of the shape's diagonal
-    colour,    ///< albedo
-};
 
 struct QuickScene {
     std::string mesh;  ///< file; empty if a map is shown
@@ -30,6 +22,9 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
 /// (linear) or #rrggbb (sRGB). A later value replaces an earlier one, and all replace those of `defaults`. Files are
 /// relative to the working folder. Throws Error{Refusal::usage} that starts with "`material` TEXT: ".
 MaterialEntry material_of(const std::string& text, const std::string& defaults = {});
+
+/// The cameras of a .gltf or .glb; none for other meshes. Throws as read_gltf_cameras.
+std::vector<CameraEntry> cameras_of(const std::string& mesh);
 
 /// The sky of a scene becomes `name`: "labels", or one input of read_environment().
 void set_sky(SceneEntries& entries, const std::string& name);
