@@ -154,7 +154,7 @@ TEST_SUITE("unit") {
     TEST_CASE("material: the albedo multiplies ambient and diffuse, not specular") {
         const auto shape = make_shape(plane_mesh());
         Material material;
-        material.bsdf.specular = Vec3f(0.5f);
+        material.reflectance.specular = Vec3f(0.5f);
         material.albedo = texture(2, 2, 3, [](float, float, float* c) { c[0] = 0.5f, c[1] = 0.25f, c[2] = 0; });
         const Bsdf bsdf = bsdf_at(material, *shape, {0, 0.2f, 0.2f});
         const Vec3f tinted = 0.8f * Vec3f(0.5f, 0.25f, 0);

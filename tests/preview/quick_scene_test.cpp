@@ -79,9 +79,9 @@ TEST_SUITE("unit") {
     TEST_CASE("material_of: numbers, colours, words and files; a later value replaces an earlier one") {
         const MaterialEntry m = material_of("diffuse=.5,specular=0.1:0.2:0.3,shininess=40,reflect=#ff8000,"
                                             "normal=maps/n.png,directx=true,encoding=unorm,repeat=4:2,diffuse=.25");
-        CHECK(m.bsdf.diffuse == Vec3f(0.25f));
-        CHECK(m.bsdf.specular == Vec3f(0.1f, 0.2f, 0.3f));
-        CHECK(m.bsdf.shininess == 40);
+        CHECK(m.reflectance.diffuse == Vec3f(0.25f));
+        CHECK(m.reflectance.specular == Vec3f(0.1f, 0.2f, 0.3f));
+        CHECK(m.reflectance.shininess == 40);
         CHECK(m.reflect.x == 1);
         CHECK(m.reflect.y == doctest::Approx(0.2158605).epsilon(1e-5)); // 128 / 255 by IEC 61966-2-1
         CHECK(m.reflect.z == 0);
@@ -94,9 +94,9 @@ TEST_SUITE("unit") {
 
     TEST_CASE("material_of: values replace the defaults, and what neither gives is that of a [[material]]") {
         const MaterialEntry m = material_of("specular=0", "specular=.5,shininess=9");
-        CHECK(m.bsdf.specular == Vec3f(0));
-        CHECK(m.bsdf.shininess == 9);
-        CHECK(m.bsdf.diffuse == BlinnPhong<float>{}.diffuse);
+        CHECK(m.reflectance.specular == Vec3f(0));
+        CHECK(m.reflectance.shininess == 9);
+        CHECK(m.reflectance.diffuse == Reflectance{}.diffuse);
     }
 
     TEST_CASE("guess_map_kind: by channels and values") {

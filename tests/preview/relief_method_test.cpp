@@ -114,13 +114,13 @@ TEST_SUITE("oracle") {
             waves(256); // over a plane 2 wide: slopes .1 * 5 * 2 pi / 2 and .1 * 4 * 2 pi / 2 at most
         ReliefOptions options{.method = parse_shade("roughness").value(), .height = {.amplitude = 1, .midlevel = 0}};
         Material shiny;
-        shiny.bsdf.specular = Vec3f(0.5f), shiny.bsdf.shininess = 200;
+        shiny.reflectance.specular = Vec3f(0.5f), shiny.reflectance.shininess = 200;
         const Material wide = with_relief(shiny, *shape, height, options).material;
         const double variance = 0.5 * (0.25 * std::pow(0.5 * pi, 2) + 0.25 * std::pow(0.4 * pi, 2));
         const double expected = std::max(0.0, 2 / (2.0 / 202 + 2 * variance) - 2);
-        CHECK(wide.bsdf.shininess == doctest::Approx(expected).epsilon(0.01));
-        CHECK(wide.bsdf.specular.x == doctest::Approx(0.5 * (expected + 2) / 202).epsilon(0.01));
-        CHECK(wide.bsdf.shininess < 10);
+        CHECK(wide.reflectance.shininess == doctest::Approx(expected).epsilon(0.01));
+        CHECK(wide.reflectance.specular.x == doctest::Approx(0.5 * (expected + 2) / 202).epsilon(0.01));
+        CHECK(wide.reflectance.shininess < 10);
     }
 
 } // TEST_SUITE

@@ -39,7 +39,7 @@ double seen(const Scene& scene, double x, double y, int spp) {
 
 Material lambert(float albedo) {
     Material material;
-    material.bsdf.diffuse = Vec3f(albedo);
+    material.reflectance.diffuse = Vec3f(albedo);
     return material;
 }
 
@@ -88,7 +88,7 @@ TEST_SUITE("oracle") {
         for (const int bounces : {0, 3}) {
             Scene scene = one_mesh(plane_mesh(), lambert(1));
             scene.materials.push_back(std::make_unique<Material>(lambert(0)));
-            scene.materials[1]->bsdf.ambient = Vec3f(0), scene.materials[1]->bsdf.emission = Vec3f(1);
+            scene.materials[1]->reflectance.ambient = Vec3f(0), scene.materials[1]->reflectance.emission = Vec3f(1);
             add_instance(scene, *scene.shapes[0], *scene.materials[1],
                          {.translate = {1e4f, 0, 1}, .scale = {1e4f, 1e4f, 1}});
             scene.camera.position = {-1, 0, 0.5f}, scene.camera.target = {0, 0, 0};

@@ -17,17 +17,17 @@ float mean(const Vec3f& v) { return (v.x + v.y + v.z) / 3; }
 
 Material shiny() {
     Material material;
-    material.bsdf.ambient = {0.2f, 0.1f, 0.05f};
-    material.bsdf.diffuse = {0.5f, 0.6f, 0.7f};
-    material.bsdf.specular = Vec3f(0.4f);
-    material.bsdf.emission = {0.01f, 0.02f, 0.03f};
-    material.bsdf.shininess = 20;
+    material.reflectance.ambient = {0.2f, 0.1f, 0.05f};
+    material.reflectance.diffuse = {0.5f, 0.6f, 0.7f};
+    material.reflectance.specular = Vec3f(0.4f);
+    material.reflectance.emission = {0.01f, 0.02f, 0.03f};
+    material.reflectance.shininess = 20;
     return material;
 }
 
 Material mirror(float k = 1) {
     Material material;
-    material.bsdf.ambient = material.bsdf.diffuse = Vec3f(0);
+    material.reflectance.ambient = material.reflectance.diffuse = Vec3f(0);
     material.reflect = Vec3f(k);
     return material;
 }
@@ -73,7 +73,7 @@ TEST_SUITE("oracle") {
         point.falloff = {0.1f, 0.2f, 0.3f};
         scene.lights.push_back(point);
         build(scene);
-        const BlinnPhong<float>& m = scene.materials[0]->bsdf;
+        const Reflectance& m = scene.materials[0]->reflectance;
         double worst = 0;
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
@@ -162,7 +162,7 @@ TEST_SUITE("unit") {
         for (const int bounces : {0, 1}) {
             Scene scene = one_mesh(plane_mesh(), mirror());
             scene.materials.push_back(std::make_unique<Material>());
-            scene.materials[1]->bsdf.emission = {1, 2, 3};
+            scene.materials[1]->reflectance.emission = {1, 2, 3};
             add_instance(scene, *scene.shapes[0], *scene.materials[1], {.translate = {0, 0, 8}, .scale = Vec3f(50)});
             scene.sky.background = Vec3f(0.5f);
             scene.settings.bounces = bounces;

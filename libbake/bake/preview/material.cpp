@@ -33,23 +33,7 @@ Vec3f mapped(const Material& material, const Shape& shape, const ShapePoint& at,
 } // namespace
 
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
-    const BlinnPhong<float>& given = material.bsdf;
-    const Vec3f tint = material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1);
-    Bsdf bsdf;
-    bsdf.ambient = given.ambient * tint, bsdf.emission = given.emission;
-    const auto add = [&](const Lobe& lobe) {
-        if (lobe.weight != Vec3f(0)) bsdf.lobes[bsdf.count++] = lobe;
-    };
-    add({.kind = LobeKind::lambert, .weight = given.diffuse * tint});
-    add({.kind = LobeKind::blinn, .weight = given.specular, .exponent = given.shininess});
-    return bsdf;
-}
-
-Vec3f albedo(const Bsdf& bsdf) noexcept {
-    Vec3f sum(0);
-    for (int i = 0; i < bsdf.count; ++i)
-        if (bsdf.lobes[i].kind == LobeKind::lambert) sum += bsdf.lobes[i].weight;
-    return sum;
+    return make_bsdf(material.reflectance, material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1));
 }
 
 Vec3f shading_normal(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {

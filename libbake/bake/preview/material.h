@@ -1,7 +1,6 @@
 // Materials and their shading normals: plain, from a bump table, or from a normal map.
 #pragma once
-#include "bake/light/bsdf.h"
-#include "bake/light/lobe.h"
+#include "bake/preview/reflectance.h"
 #include "bake/preview/shape.h"
 #include "bake/preview/texture.h"
 #include "bake/relief/map/displaced_normal.h"
@@ -11,7 +10,7 @@ namespace bake {
 /// At most one of bump_table, normal_map, object_normals and height is set.
 struct Material {
     std::string name;
-    BlinnPhong<float> bsdf;
+    Reflectance reflectance;
     Vec3f reflect{0};                                   ///< factor on the radiance from the mirror direction
     Texture albedo;                                     ///< multiplies ambient and diffuse
     Texture bump_table;                                 ///< slopes b_u, b_v per unit of u and v
@@ -24,9 +23,6 @@ struct Material {
 
 /// The reflection model at a point, including the albedo texture.
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;
-
-/// The diffuse reflectance.
-Vec3f albedo(const Bsdf& bsdf) noexcept;
 
 /// The outward unit shading normal in object space; zero where the mesh has no normal.
 /// Bump table: the surface-gradient normal for the slopes (b_u, b_v) and height 0 on the jet of the smooth surface.

@@ -44,10 +44,16 @@ double slope_variance(const HeightTexture& height, const ReliefOptions& options,
 /// The highlight of a surface whose normals vary, in Beckmann's terms: alpha^2 = 2 / (n + 2) is twice the variance of a
 /// slope, and variances add (Olano and Baker, LEAN Mapping, I3D 2010). The flux of the highlight stays.
 void widen(Material& material, double variance) {
-    const double n = material.bsdf.shininess, alpha2 = 2 / (n + 2) + 2 * variance;
+    Reflectance& r = material.reflectance;
+    if (r.model == Reflectance::Model::ggx) {
+        const double alpha = double(r.roughness) * r.roughness; // alpha is the width of a slope here as well
+        r.roughness = float(std::min(1.0, std::pow(alpha * alpha + 2 * variance, 0.25)));
+        return;
+    }
+    const double n = r.shininess, alpha2 = 2 / (n + 2) + 2 * variance;
     const double wider = std::max(0.0, 2 / alpha2 - 2);
-    material.bsdf.specular *= float((wider + 2) / (n + 2));
-    material.bsdf.shininess = float(wider);
+    r.specular *= float((wider + 2) / (n + 2));
+    r.shininess = float(wider);
 }
 
 NormalMapOptions map_options(const ReliefOptions& options, const HeightTexture& height, Space space) {

@@ -43,7 +43,7 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
                                         std::vector<std::string>& notes) {
     auto material = std::make_unique<Material>();
     material->name = entry.name;
-    material->bsdf = entry.bsdf;
+    material->reflectance = entry.reflectance;
     material->reflect = entry.reflect;
     if (!entry.albedo.empty())
         material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,

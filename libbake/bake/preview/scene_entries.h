@@ -19,7 +19,7 @@ struct ReliefEntry {
 
 struct MaterialEntry {
     std::string name;
-    BlinnPhong<float> bsdf;
+    Reflectance reflectance;
     Vec3f reflect{0};
     std::string albedo, bump_table, normal_map; ///< files; empty if not given
     ColourSpace albedo_space = ColourSpace::automatic;

@@ -83,22 +83,33 @@ void read_sky(const Section& in, SceneEntries& scene) {
 } // namespace
 
 void read_material(const Section& in, SceneEntries& scene) {
-    allow_only(in,
-               {"name", "ambient", "diffuse", "specular", "shininess", "emission", "reflect", "albedo", "albedo-space",
-                "bump", "bump-scale", "normal", "encoding", "directx", "height", "shade", "repeat"});
+    allow_only(in, {"name",       "brdf",   "ambient",  "diffuse", "specular", "shininess",    "metallic",
+                    "roughness",  "ior",    "emission", "reflect", "albedo",   "albedo-space", "bump",
+                    "bump-scale", "normal", "encoding", "directx", "height",   "shade",        "repeat"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
     for (const MaterialEntry& other : scene.materials)
         if (other.name == m.name)
             refuse(in, *in.table.get("name"), "\"name\" " + in_quotes(m.name) + " is used already; choose another");
-    read_colour(in, "diffuse", m.bsdf.diffuse);
-    m.bsdf.ambient = m.bsdf.diffuse;
-    read_colour(in, "ambient", m.bsdf.ambient);
-    read_colour(in, "specular", m.bsdf.specular);
-    read_colour(in, "emission", m.bsdf.emission);
+    read_colour(in, "diffuse", m.reflectance.diffuse);
+    m.reflectance.ambient = m.reflectance.diffuse;
+    read_colour(in, "ambient", m.reflectance.ambient);
+    read_colour(in, "specular", m.reflectance.specular);
+    read_colour(in, "emission", m.reflectance.emission);
     read_colour(in, "reflect", m.reflect);
-    read(in, "shininess", m.bsdf.shininess, 0);
+    read(in, "shininess", m.reflectance.shininess, 0);
+    using Model = Reflectance::Model;
+    read_choice<Model>(in, "brdf", m.reflectance.model,
+                       {{"blinn", Model::blinn},
+                        {"phong", Model::phong},
+                        {"normalised-blinn", Model::normalised_blinn},
+                        {"normalised-phong", Model::normalised_phong},
+                        {"ggx", Model::ggx},
+                        {"dielectric", Model::dielectric}});
+    read(in, "metallic", m.reflectance.metallic, 0, 1);
+    read(in, "roughness", m.reflectance.roughness, 0, 1);
+    read(in, "ior", m.reflectance.ior, 1, 10);
     read_path(in, "albedo", m.albedo);
     read_colour_space(in, "albedo-space", m.albedo_space);
     read_path(in, "bump", m.bump_table);

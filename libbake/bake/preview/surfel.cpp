@@ -21,6 +21,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     if (glm::dot(s.facet, s.v) < 0) {
         s.facet = -s.facet, s.surface = -s.surface, s.n = -s.n;
         outward = -1;
+        s.inside = true;
     }
     s.light_at = s.at;
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);

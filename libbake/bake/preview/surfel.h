@@ -14,6 +14,7 @@ struct Surfel {
     Vec3f v{0};        ///< unit, towards the viewer
     Bsdf bsdf;
     Vec3f reflect{0};            ///< factor on the radiance from the mirror direction
+    bool inside = false;         ///< seen from the side that the normals point away from
     bool tilted = false;         ///< relief tilts n away from the viewer, before it is mended
     bool mirrored_below = false; ///< the same for the mirror direction and the surface
 };

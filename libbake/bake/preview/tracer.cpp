@@ -9,6 +9,8 @@ namespace {
 /// heuristic (Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2).
 float weight(float own, float other) noexcept { return own > 0 ? own / (own + other) : 0; }
 
+bool is_glass(const Bsdf& bsdf) noexcept { return bsdf.count == 1 && bsdf.lobes[0].kind == LobeKind::dielectric; }
+
 /// One path from the camera, with what it counts.
 struct Path {
     const Scene& scene;
@@ -23,6 +25,7 @@ private:
     void add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
     void add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Radiance& sum) noexcept;
     Vec3f mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
+    Vec3f through(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
 };
 
 /// Counts light on the wrong side of a surface without relief.
@@ -102,6 +105,16 @@ Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept
     return along(ray, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
+/// Glass: reflects or refracts, by chance.
+Vec3f Path::through(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
+    const float choice = sampler.next();
+    const BsdfSample drawn = sample(s.bsdf, s.inside ? -s.n : s.n, s.v, choice, sampler.next2());
+    if (drawn.factor == Vec3f(0)) return Vec3f(0);
+    const Ray ray{offset_origin(s.at, glm::dot(drawn.l, s.facet) < 0 ? -s.facet : s.facet), drawn.l};
+    if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction);
+    return drawn.factor * along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+}
+
 Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
     ++stats.rays;
     const Hit hit = scene.bvh->intersect(ray);
@@ -109,7 +122,9 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     const Surfel s = make_surfel(scene, hit, ray.direction);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
-    if (!scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled) {
+    if (is_glass(s.bsdf)) {
+        sum.reflected += through(s, bounces, diffuse_bounces);
+    } else if (!scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled) {
         add_sky_sample(s, sum, first);
         add_bsdf_sample(s, bounces, diffuse_bounces, sum);
     }

@@ -1,8 +1,9 @@
 #include "inputs/brdf_input.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
+#include "bake/preview/nearest_key.h"
 #include "inputs/number_option.h"
-#include "nearest.h"
+
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -31,7 +32,9 @@ const std::vector<Model>& models() {
         {"blinn", {exponent, specular}, "f cos = specular (n.h)^n / pi"},
         {"normalised-phong", {exponent, specular}, "with the cosine and the factor that conserves energy"},
         {"normalised-blinn", {exponent, specular}, "the same with (n.h)^n"},
-        {"ggx", {roughness, {"f0", 0.04, 0, 1}}, "microfacets of alpha = roughness^2, with their light of several bounces"},
+        {"ggx",
+         {roughness, {"f0", 0.04, 0, 1}},
+         "microfacets of alpha = roughness^2, with their light of several bounces"},
         {"covered-lambert", {{"albedo", 0.8, 0, 1}}, "lambert under the ggx of the sum"},
         {"metallic-roughness", {{"base", 0.8, 0, 1}, {"metallic", 0, 0, 1}, roughness}, "the material of glTF"}};
     return all;
@@ -51,15 +54,17 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string unknown(const std::string& word, const std::string& what, const std::vector<std::string>& names) {
     if (word.empty()) return what + " is missing (" + listed(names) + ")";
-    const std::string meant = nearest(word, names);
-    return word + " is not " + what + (meant.empty() ? "" : "; did you mean " + meant + "?") + " (" + listed(names) + ")";
+    const std::string meant = nearest_key(word, names);
+    return word + " is not " + what + (meant.empty() ? "" : "; did you mean " + meant + "?") + " (" + listed(names) +
+           ")";
 }
 
 /// The terms of a sum. A plus before a number, as in 1e+3, is no sum.
 std::vector<std::string> terms_of(const std::string& text) {
     std::vector<std::string> out(1);
     for (std::size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '+' && (i + 1 == text.size() || std::string("0123456789.").find(text[i + 1]) == std::string::npos))
+        if (text[i] == '+' &&
+            (i + 1 == text.size() || std::string("0123456789.").find(text[i + 1]) == std::string::npos))
             out.emplace_back();
         else out.back() += text[i];
     return out;
@@ -74,7 +79,8 @@ std::vector<double> read_values(const std::string& flag, const Model& model, con
     for (std::string entry; std::getline(entries, entry, ',');) {
         const std::size_t equals = entry.find('=');
         const std::string name = entry.substr(0, equals);
-        const auto key = std::find_if(model.keys.begin(), model.keys.end(), [&](const Key& k) { return k.name == name; });
+        const auto key =
+            std::find_if(model.keys.begin(), model.keys.end(), [&](const Key& k) { return k.name == name; });
         if (key == model.keys.end())
             throw Error(Refusal::usage,
                         flag + ": " + unknown(name, std::string("a key of ") + model.name, names_of(model.keys)));
@@ -89,9 +95,11 @@ std::vector<double> read_values(const std::string& flag, const Model& model, con
 
 /// The lobes of the model at `index` of models().
 Bsdf lobes_of(std::size_t index, const std::vector<double>& values) {
-    constexpr LobeKind kinds[] = {LobeKind::lambert,          LobeKind::phong, LobeKind::blinn,  LobeKind::normalised_phong,
-                                  LobeKind::normalised_blinn, LobeKind::ggx,   LobeKind::lambert};
-    if (index == std::size(kinds)) return metallic_roughness(Vec3f(float(values[0])), float(values[1]), float(values[2]));
+    constexpr LobeKind kinds[] = {
+        LobeKind::lambert,          LobeKind::phong, LobeKind::blinn,  LobeKind::normalised_phong,
+        LobeKind::normalised_blinn, LobeKind::ggx,   LobeKind::lambert};
+    if (index == std::size(kinds))
+        return metallic_roughness(Vec3f(float(values[0])), float(values[1]), float(values[2]));
     Bsdf out;
     out.count = 1;
     Lobe& lobe = out.lobes[0];

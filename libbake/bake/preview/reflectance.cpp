@@ -1,0 +1,41 @@
+#include "bake/preview/reflectance.h"
+
+namespace bake {
+namespace {
+
+LobeKind highlight(Reflectance::Model model) noexcept {
+    switch (model) {
+    case Reflectance::Model::phong: return LobeKind::phong;
+    case Reflectance::Model::normalised_blinn: return LobeKind::normalised_blinn;
+    case Reflectance::Model::normalised_phong: return LobeKind::normalised_phong;
+    default: return LobeKind::blinn;
+    }
+}
+
+void add(Bsdf& bsdf, const Lobe& lobe) noexcept {
+    if (lobe.weight != Vec3f(0)) bsdf.lobes[bsdf.count++] = lobe;
+}
+
+} // namespace
+
+Bsdf make_bsdf(const Reflectance& r, const Vec3f& tint) noexcept {
+    Bsdf bsdf;
+    switch (r.model) {
+    case Reflectance::Model::ggx: bsdf = metallic_roughness(r.diffuse * tint, r.metallic, r.roughness); break;
+    case Reflectance::Model::dielectric: add(bsdf, {.kind = LobeKind::dielectric, .weight = tint, .ior = r.ior}); break;
+    default:
+        add(bsdf, {.kind = LobeKind::lambert, .weight = r.diffuse * tint});
+        add(bsdf, {.kind = highlight(r.model), .weight = r.specular, .exponent = r.shininess});
+    }
+    bsdf.ambient = r.ambient * tint, bsdf.emission = r.emission;
+    return bsdf;
+}
+
+Vec3f albedo(const Bsdf& bsdf) noexcept {
+    Vec3f sum(0);
+    for (int i = 0; i < bsdf.count; ++i)
+        if (bsdf.lobes[i].kind == LobeKind::lambert) sum += bsdf.lobes[i].weight;
+    return sum;
+}
+
+} // namespace bake
