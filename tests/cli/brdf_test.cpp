@@ -54,6 +54,8 @@ TEST_SUITE("cli") {
         check_refused(folder, {"check", "--brdf", "lambert+normalized-blinn"}, 2, "did you mean normalised-blinn?");
         check_refused(folder, {"check", "--brdf", "ggx:roughnes=1"}, 2, "did you mean roughness?");
         check_refused(folder, {"check", "--brdf", "ggx:roughness=1.5"}, 2, "from 0 to 1");
+        for (const char* bad : {"nan", "inf", "1e999", "0x10", "", "-1", "2e6"})
+            check_refused(folder, {"check", "--brdf", std::string("phong:n=") + bad}, 2, "--brdf phong:n");
         check_refused(folder, {"check", "--brdf", "phong:n=1,n=2"}, 2, "given twice");
         check_refused(folder, {"check", "--brdf", "phong:n"}, 2, "phong:n");
         check_refused(folder, {"check", "--brdf", "lambert+"}, 2, "is missing");

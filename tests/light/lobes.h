@@ -1,8 +1,10 @@
 // Lobes, directions and integrals over the hemisphere, for the tests of light/lobe.
 #pragma once
 #include "bake/light/lobe.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 
 namespace bake::test {
 

@@ -105,7 +105,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                                      "A reflection model, or several joined by +: whether it is positive, conserves "
                                      "energy and is reciprocal; may be given again")
                           ->allow_extra_args(false)
-                          ->type_name("MODEL:KEY=VALUE,...");
+                          ->type_name("NAME[:KEY=VALUE,...]");
     add_mesh_options(sub, args->options.read);
     add_integer_option(sub, "--overlap-size", args->options.uv.overlap_size, 0, 8192,
                        "Samples along a UV tile for measuring overlaps; 0: not measured")
