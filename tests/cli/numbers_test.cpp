@@ -47,11 +47,12 @@ std::vector<std::string> not_numbers(const std::string& type) {
         for (std::string& value : values) value = before + value + behind;
         values.insert(values.end(), {"nan", ""});
     };
-    if (is_one_of(type,
-                  {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME[:KEY"}))
+    if (is_one_of(type, {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME",
+                         "KEY", "NAME[:KEY"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
+    else if (type == "X,Y,W,H") fill("0,0,4,", "");
     else if (type == "A,B,...") {
         fill("0.5,", "");
         std::erase(values, "0.5,1,5"); // three numbers
@@ -107,7 +108,7 @@ TEST_SUITE("cli") {
         CHECK(with_numbers >= 48);
     }
 
-    TEST_CASE("numbers: those within a camera and a shape too") {
+    TEST_CASE("numbers: those within a camera, a shape and a material too") {
         const Folder folder;
         for (const char* bad : {"nan", "inf", "1e999", "0x10", ""})
             for (const char* key :
@@ -118,6 +119,11 @@ TEST_SUITE("cli") {
                               2, "--camera");
         for (const char* bad : {"nan", "inf", "-inf", "1e999", "0x10", ""})
             check_refused(folder, {"surface", "--shape", std::string("torus:R=") + bad, "-o", "a.ply"}, 2, "R ");
+        for (const char* bad :
+             {"nan", "inf", "-inf", "1e999", "0x10", "", "-1", "1:2", "1:2:nan", "#12345", "#1234567"})
+            for (const char* key : {"diffuse=", "shininess=1,reflect="})
+                check_refused(folder, {"render", torus, "-o", "a.png", "--material", std::string(key) + bad}, 2,
+                              "--material");
     }
 
     TEST_CASE("numbers: an empty argument is a usage error everywhere, wherever it stands") {

@@ -186,7 +186,7 @@ TEST_SUITE("stability") {
         CHECK(has(refused("diffuse="), "KEY=VALUE"));
         CHECK(has(refused("diffuse=1,"), "KEY=VALUE"));
         CHECK(has(refused("diffuse=#12345g"), "\"diffuse\""));
-        CHECK(has(refused("diffuse=1:2"), "\"diffuse\""));
+        CHECK(has(refused("diffuse=1:2"), "\"diffuse\" is not a list of 3 numbers; join them by colons"));
         CHECK(has(refused("diffuse=1:2:x"), "\"diffuse\""));
         CHECK(has(refused("diffuse=nan"), "\"diffuse\""));
         CHECK(has(refused("diffuse=-1"), "\"diffuse\""));

@@ -83,7 +83,10 @@ MaterialEntry material_of(const std::string& text, const std::string& defaults) 
         read_material({table, "[[material]]", scene.file}, scene);
     } catch (const Error& error) {
         // The message starts with the place in a file, ":0: ".
-        const std::string message = error.what();
+        std::string message = error.what();
+        constexpr std::string_view in_toml = "give one in [ ]";
+        if (message.ends_with(in_toml))
+            message.replace(message.size() - in_toml.size(), in_toml.size(), "join them by colons, such as .8:.4:.2");
         throw Error(Refusal::usage, head + message.substr(std::min(message.find(": ") + 2, message.size())));
     }
     MaterialEntry entry = std::move(scene.materials.front());

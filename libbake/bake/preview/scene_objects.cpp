@@ -132,12 +132,12 @@ void read_mesh_source(const Section& in, MeshEntry& mesh) {
     if (!segments) return;
     if (file) refuse(in, *segments, "\"segments\" is of a \"shape\"; a file has its own faces");
     if (segments->is_number()) {
-        mesh.columns = mesh.rows = checked_integer(in, *segments, "segments", 1, 4096);
+        mesh.columns = mesh.rows = checked_integer(in, *segments, "segments", 1, 1024);
         return;
     }
     const toml::array& list = checked_array(in, *segments, "segments", 2, "whole numbers, along u and v");
-    mesh.columns = checked_integer(in, *list.get(0), "segments", 1, 4096);
-    mesh.rows = checked_integer(in, *list.get(1), "segments", 1, 4096);
+    mesh.columns = checked_integer(in, *list.get(0), "segments", 1, 1024);
+    mesh.rows = checked_integer(in, *list.get(1), "segments", 1, 1024);
 }
 
 void read_mesh_name(const Section& in, const SceneEntries& scene, MeshEntry& mesh) {
