@@ -40,6 +40,16 @@ TEST_SUITE("cli") {
         std::vector<std::vector<std::string>> calls = {{"--help"}, {"explain", "-h"}};
         for (const std::string& verb : verbs()) calls.push_back({verb, "--help"});
         REQUIRE(calls.size() >= 10); // eight verbs
+        // A verb that nobody lists does not exist.
+        for (const auto& file : fs::directory_iterator(own_meshes().parent_path() / "tools/bake")) {
+            std::string name = file.path().filename().string();
+            if (!name.ends_with("_verb.cpp")) continue;
+            name.resize(name.size() - std::string("_verb.cpp").size());
+            std::replace(name.begin(), name.end(), '_', '-');
+            CAPTURE(name);
+            const std::vector<std::string> all = verbs();
+            CHECK(std::find(all.begin(), all.end(), name) != all.end());
+        }
         for (const std::vector<std::string>& arguments : calls) {
             const Run help = run_bake(folder, arguments);
             CHECK(help.code == 0);

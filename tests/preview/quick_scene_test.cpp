@@ -2,7 +2,6 @@
 #include "bake/picture/image_io.h"
 #include "bake/preview/map_kind.h"
 #include "bake/preview/quick_scene.h"
-#include "bake/relief/map/bump_table.h"
 #include "cli/command.h"
 #include "preview/little_scenes.h"
 #include <algorithm>
@@ -118,25 +117,30 @@ TEST_SUITE("unit") {
         CHECK(material(colours).albedo == colours);
         CHECK(material(colours, MapKind::normal).normal_map == colours);
         CHECK(material(write_slopes(folder)).bump_table == folder / "slopes.exr");
-        CHECK(material(normals, MapKind::height).bump_texture);
+        CHECK(!material(normals, MapKind::height).relief.file.empty());
         CHECK(notes.size() == 4); // three guesses and an amplitude
     }
 
-    TEST_CASE("quick_scene: a height becomes the bump table of 2 % of the shape's diagonal, times bump-scale") {
+    TEST_CASE("quick_scene: a height becomes a relief of 2 % of the shape's diagonal, times bump-scale") {
         const Folder folder;
         const std::string file = write_height(folder);
         std::vector<std::string> notes;
         const SceneEntries entries = quick_scene({.map = file, .shape = "cube:a=2", .material = "bump-scale=3"}, notes);
-        const HeightTexture height = read_height(file);
-        const Image<float> expected = bump_table(height, {.amplitude = 3 * 0.02 * std::sqrt(12.0)});
-        const Image<float>& table = *entries.materials.at(0).bump_texture;
-        REQUIRE(table.size() == expected.size());
-        double largest = 0;
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            CHECK(table.data()[i] == doctest::Approx(expected.data()[i]).epsilon(1e-5));
-            largest = std::max(largest, double(std::abs(table.data()[i])));
-        }
-        CHECK(largest > 0.1);
+        const ReliefEntry& relief = entries.materials.at(0).relief;
+        CHECK(relief.file == file);
+        CHECK(relief.relative);
+        CHECK(relief.amplitude.value() == doctest::Approx(0.06));
+        CHECK(notes.back().find(": the amplitude is 0.208, 6 %") != std::string::npos); // of sqrt 12
+    }
+
+    TEST_CASE("quick_scene: a height takes the method that --material names, displacement too") {
+        const Folder folder;
+        std::vector<std::string> notes;
+        const SceneEntries entries =
+            quick_scene({.map = write_height(folder), .shape = "plane", .material = "shade=displace:4"}, notes);
+        const Scene scene = load(entries);
+        const Scene plain = load(quick_scene({.map = write_height(folder), .shape = "plane"}, notes));
+        CHECK(scene.bvh->triangle_count() == 16 * plain.bvh->triangle_count());
     }
 
     TEST_CASE("quick_scene: every shape is lit, in the picture, and its plane faces the camera") {

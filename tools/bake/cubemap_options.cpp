@@ -72,7 +72,7 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     add_choice(sub, "--to", args.target.to, format_names(true),
                "Format to write; auto: faces for a %s, openexr-cube for .exr, else a strip");
     add_integer_option(sub, "--size", args.target.size, 0, 32768,
-                       "Texels: the edge of a face, the width of a lat-long or octahedral map; 0: as fine as the input")
+                       "Texels: the edge of a face, or the width of any other picture; 0: as fine as the input")
         ->default_str(std::to_string(args.target.size));
     add_choice<Samples>(
         sub, "--samples", args.resampling.samples,

@@ -4,7 +4,7 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/cameras.h"
 #include "bake/preview/shape_mesh.h"
-#include "bake/relief/map/bump_table.h"
+#include "bake/relief/height/sample_type.h"
 #include <algorithm>
 
 namespace bake {
@@ -19,27 +19,19 @@ std::string repeat_on(const std::string& shape) {
     return kind == "sphere" ? ",repeat=2:1" : kind == "torus" ? ",repeat=3:1" : "";
 }
 
-/// The bump table of a height in memory, as relief on a shape of this diagonal.
-Texture table_of_height(const std::string& file, double across, std::vector<std::string>& notes) {
-    constexpr double share = 0.02; // of the diagonal
-    const HeightTexture height = read_height(file);
-    const bool lengths = is_float(height.info);
-    BumpTableOptions options;
-    options.amplitude = lengths ? 1 : share * across;
+/// Shows a height with an amplitude for a shape of this diagonal.
+void set_height(MaterialEntry& material, const std::string& file, double across, std::vector<std::string>& notes) {
+    constexpr float share = 0.02f; // of the diagonal
+    const bool lengths = is_float(read_height(file).info);
+    ReliefEntry& relief = material.relief;
+    relief.file = file;
+    relief.relative = !lengths;
+    relief.amplitude = material.bump_scale * (lengths ? 1 : share);
     if (lengths) notes.push_back(file + ": the values are taken as lengths; `material` bump-scale=FACTOR scales them");
     else
-        notes.push_back(file + format(": the amplitude is %.3g, 2 %% of the shape's diagonal; `material` "
+        notes.push_back(file + format(": the amplitude is %.3g, %.2g %% of the shape's diagonal; `material` "
                                       "bump-scale=FACTOR scales it",
-                                      options.amplitude));
-    return std::make_shared<const Image<float>>(bump_table(height, options));
-}
-
-/// The texture with all values multiplied.
-Texture scaled(const Texture& texture, float factor) {
-    if (factor == 1) return texture;
-    Image<float> copy(texture->width(), texture->height(), texture->channels());
-    for (std::size_t i = 0; i < copy.size(); ++i) copy.data()[i] = factor * texture->data()[i];
-    return std::make_shared<const Image<float>>(std::move(copy));
+                                      double(*relief.amplitude) * across, 100.0 * double(*relief.amplitude)));
 }
 
 MapKind kind_of(const std::string& file, MapKind asked, std::vector<std::string>& notes) {
@@ -54,7 +46,9 @@ MapKind kind_of(const std::string& file, MapKind asked, std::vector<std::string>
 void set_map(MaterialEntry& material, const QuickScene& quick, double across, std::vector<std::string>& notes) {
     const MapKind kind = kind_of(quick.map, quick.as, notes);
     const bool relief = kind != MapKind::colour;
-    const bool twice = relief ? !material.bump_table.empty() || !material.normal_map.empty() : !material.albedo.empty();
+    const bool twice =
+        relief ? !(material.bump_table.empty() && material.normal_map.empty() && material.relief.file.empty())
+               : !material.albedo.empty();
     if (twice)
         throw Error(Refusal::usage, "`material` " + quick.material + ": names a texture in the place of " + quick.map +
                                         "; give one of the two");
@@ -62,7 +56,7 @@ void set_map(MaterialEntry& material, const QuickScene& quick, double across, st
     case MapKind::normal: material.normal_map = quick.map; break;
     case MapKind::bump: material.bump_table = quick.map; break;
     case MapKind::colour: material.albedo = quick.map; break;
-    default: material.bump_texture = scaled(table_of_height(quick.map, across, notes), material.bump_scale);
+    default: set_height(material, quick.map, across, notes);
     }
 }
 

@@ -41,6 +41,8 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
 
 std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
                                         std::vector<std::string>& notes) {
+    if (entry.relief.file.empty() && entry.relief.shade && entry.relief.shade->shade != Shade::plain)
+        throw Error(Refusal::unreadable, "\"shade\" shows a height, and there is none; add height = {file = ...}");
     auto material = std::make_unique<Material>();
     material->name = entry.name;
     material->reflectance = entry.reflectance;
@@ -51,7 +53,6 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     if (!entry.bump_table.empty())
         material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
                                       [&] { return read_bump_table(entry.bump_table, entry.bump_scale, &notes); });
-    if (entry.bump_texture) material->bump_table = entry.bump_texture;
     if (!entry.normal_map.empty())
         material->normal_map = cached(
             cache,
@@ -183,7 +184,7 @@ Scene load(const SceneEntries& entries) {
     const float aspect = float(entries.settings.width) / float(entries.settings.height);
     scene.camera = place_camera(chosen_camera(entries), box, aspect);
     if (entries.ground) at_line(entries, entries.ground->line, [&] { add_ground(entries, box, loaded, scene); });
-    if (!entries.any_light && entries.studio) add_studio_lights(scene);
+    if (!entries.any_light && entries.studio && !has_sky) add_studio_lights(scene);
     else if (!entries.any_light && !has_sky) add_default_light(scene);
     build(scene);
     return scene;

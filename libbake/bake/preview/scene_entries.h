@@ -27,9 +27,8 @@ struct MaterialEntry {
     NormalEncoding encoding = NormalEncoding::automatic;
     bool directx = false;
     ReliefEntry relief;
-    Vec2f repeat{1};      ///< how often the textures repeat over the unit square of uvs
-    Texture bump_texture; ///< a table in memory, instead of the file bump_table
-    int line = 0;         ///< line in the scene file, for messages
+    Vec2f repeat{1}; ///< how often the textures repeat over the unit square of uvs
+    int line = 0;    ///< line in the scene file, for messages
 };
 
 struct MeshEntry {

@@ -27,10 +27,13 @@ void read_amplitude(const Section& in, ReliefEntry& relief) {
 } // namespace
 
 void read_relief(const Section& in, ReliefEntry& relief) {
-    if (const toml::node* node = in.table.get("height")) {
+    const toml::node* node = in.table.get("height");
+    if (node && node->is_string()) {
+        read_path(in, "height", relief.file);
+    } else if (node) {
         const toml::table* table = node->as_table();
         if (!table)
-            refuse(in, *node, "\"height\" is not a table; give such as {file = \"bricks.png\", amplitude = 0.05}");
+            refuse(in, *node, "\"height\" is neither a file nor such as {file = \"bricks.png\", amplitude = 0.05}");
         const Section height{*table, in.name + " height", in.file};
         allow_only(height, {"file", "amplitude", "midlevel", "filter", "wrap"});
         if (!read_path(height, "file", relief.file))
@@ -53,8 +56,6 @@ void read_relief(const Section& in, ReliefEntry& relief) {
     relief.shade = parse_shade(shade);
     if (!relief.shade)
         refuse(in, *in.table.get("shade"), "\"shade\" is " + in_quotes(shade) + "; give one of " + shade_names);
-    if (relief.file.empty() && relief.shade->shade != Shade::plain)
-        refuse(in, *in.table.get("shade"), "\"shade\" shows a height, and there is none; add height = {file = ...}");
 }
 
 ReliefOptions relief_options(const ReliefEntry& entry, const ImageInfo& file, double diagonal) {

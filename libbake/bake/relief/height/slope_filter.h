@@ -11,6 +11,8 @@
 
 namespace bake {
 
+/// A new filter needs an enumerator before `count`, its name and its taps in slope_filter.cpp, and, if its order is above
+/// largest_degree of border.h, a higher limit there.
 enum class Filter {
     automatic, ///< sobel for sources of 256 levels or fewer, c2 otherwise
     central,   ///< (h[+1] - h[-1]) / 2
