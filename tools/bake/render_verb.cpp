@@ -28,7 +28,7 @@ void note_trouble(const RenderStats& stats, const CommonArgs& common) {
     note(
         common,
         format("relief is in trouble in %.2g %% of the samples on meshes: in %.2g %% it faces away from the viewer, in "
-               "%.2g %% it mirrors into the surface, in %.2g %% light comes from below the surface; `terminator` in "
+               "%.2g %% it mirrors into the surface, in %.2g %% light comes from below the surface; \"terminator\" in "
                "[render] mends the shading, true displacement the cause",
                share(stats.repaired), share(stats.tilted), share(stats.mirrored_below), share(stats.lit_below)));
 }

@@ -36,6 +36,10 @@ Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at)
     return make_bsdf(material.reflectance, material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1));
 }
 
+bool has_relief(const Material& material) noexcept {
+    return material.height || material.object_normals || material.bump_table || material.normal_map;
+}
+
 Vec3f shading_normal(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
     const Vec3f normal = normal_at(shape, at);
     Vec3f relief(0);

@@ -24,6 +24,9 @@ struct Material {
 /// The reflection model at a point, including the albedo texture.
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;
 
+/// Whether shading normals differ from those of the mesh.
+bool has_relief(const Material& material) noexcept;
+
 /// The outward unit shading normal in object space; zero where the mesh has no normal.
 /// Bump table: the surface-gradient normal for the slopes (b_u, b_v) and height 0 on the jet of the smooth surface.
 /// Height: as NormalMethod says; where the displaced surface is inside out, blinn stands in for exact.

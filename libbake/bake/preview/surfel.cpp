@@ -15,7 +15,9 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     if (glm::dot(s.facet, outside) < 0) s.facet = -s.facet;
     s.surface = unit_or_zero(outside);
     if (s.surface == Vec3f(0)) s.surface = s.facet;
-    s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
+    s.n = s.surface;
+    const bool relief = has_relief(*instance.material);
+    if (relief) s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
     if (s.n == Vec3f(0)) s.n = s.surface;
     float outward = 1;
     if (glm::dot(s.facet, s.v) < 0) {
@@ -27,7 +29,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where);
     s.reflect = instance.material->reflect;
-    if (s.n == s.surface) return s;
+    if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.
     const Vec3f& base = glm::dot(s.surface, s.v) > 0 ? s.surface : s.facet;
     const float towards = glm::dot(s.n, s.v);
