@@ -1,6 +1,7 @@
 // bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
 #include "bake/base/input_record.h"
 #include "bake/base/parallel.h"
+#include "bake/base/system_lack.h"
 #include "bake/base/text.h"
 #include "bake/base/version.h"
 #include "inputs/number_option.h"
@@ -182,7 +183,8 @@ int run(int argc, char** argv) {
         const auto used = app.get_subcommands();
         return refuse_arguments(used.empty() ? app : *used.front(), error.what());
     }
-    const ThreadLimit limit(common.threads);
+    // Never destroyed, see ThreadLimit: a command that has one thread needs no others, to its end.
+    [[maybe_unused]] static const auto* const limit = new ThreadLimit(common.threads);
     return chosen();
 }
 
@@ -201,6 +203,9 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return bake::fail("out of memory; use smaller inputs or outputs", bake::Refusal::unsuitable);
     } catch (const std::exception& error) {
+        if (bake::lacks_threads(error))
+            return bake::fail("no thread can be started; use --threads 1, or raise ulimit -u or the limit on memory",
+                              bake::Refusal::unsuitable);
         return bake::fail(std::string("stopped by ") + error.what() + "; please report this",
                           bake::Refusal::unsuitable);
     }
