@@ -121,6 +121,8 @@ std::optional<std::uint64_t> set_data_limit(std::uint64_t bytes) noexcept {
 } // namespace
 
 std::string MemoryLimit::described() const {
+    // Of address space, what is left changes with what is mapped: no number that the user gave.
+    if (reason.starts_with("ulimit")) return "what " + reason + " allows";
     return "the " + in_binary_units(bytes, false) + " it may use (" + reason + ")";
 }
 

@@ -11,7 +11,7 @@ struct MemoryLimit {
     /// "this machine's memory", "memory.max of control group /build", "ulimit -v", or the option that sets it
     std::string reason;
 
-    /// "the 1.2 GiB it may use (ulimit -v)".
+    /// "the 1.2 GiB it may use (this machine's memory)", "what ulimit -v allows".
     std::string described() const;
     /// "raise ulimit -v": how to get more.
     std::string advice() const;
