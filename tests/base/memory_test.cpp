@@ -86,10 +86,42 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("MemoryCap: memory_limit() knows the lowest, and a started process has none") {
+        const MemoryLimit before = memory_limit();
+        const auto started = started_process_limit();
+        const auto same = [&] {
+            const auto now = started_process_limit();
+            return now.has_value() == started.has_value() && (!now || now->bytes == started->bytes);
+        };
+        {
+            const MemoryCap outer({std::uint64_t(300) << 20, "`outer`"}, 0);
+            CHECK(memory_limit().bytes == std::uint64_t(300) << 20);
+            CHECK(memory_limit().described() == "the 300 MiB it may use (`outer`)");
+            CHECK(memory_limit().advice() == "raise `outer`");
+            {
+                const MemoryCap higher({std::uint64_t(400) << 20, "`higher`"}, 0);
+                CHECK(memory_limit().reason == "`outer`");
+                const MemoryCap lower({std::uint64_t(200) << 20, "`lower`"}, 0);
+                CHECK(memory_limit().reason == "`lower`");
+                CHECK(same());
+                const std::size_t much = std::size_t(500) << 20;
+                CHECK_THROWS_AS(std::vector<char>(much, 'a'), std::bad_alloc);
+                {
+                    const MemoryCapPause pause;
+                    CHECK_NOTHROW(std::vector<char>(much, 'a'));
+                }
+                CHECK_THROWS_AS(std::vector<char>(much, 'a'), std::bad_alloc);
+            }
+            CHECK(memory_limit().reason == "`outer`");
+        }
+        CHECK(memory_limit().reason == before.reason);
+        CHECK(same());
+    }
+
     TEST_CASE("MemoryCap: allocations beyond it fail, and no longer once it is gone") {
         const std::size_t much = std::size_t(256) << 20;
         {
-            const MemoryCap cap(process_memory().resident + (std::size_t(64) << 20), 2);
+            const MemoryCap cap({process_memory().resident + (std::size_t(64) << 20), "a test"}, 2);
             CHECK_THROWS_AS(std::vector<char>(much, 'a'), std::bad_alloc);
             CHECK_NOTHROW(std::vector<char>(std::size_t(32) << 20, 'a'));
         }

@@ -3,6 +3,10 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
@@ -13,7 +17,43 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+const char* group_folder() {
+    return access("/sys/fs/cgroup/memory", F_OK) == 0 ? "/sys/fs/cgroup/memory" : "/sys/fs/cgroup";
+}
+
+/// In a mount namespace of its own, this process sees a file memory.max of the outermost control group. No memory is
+/// limited, so that what exceeds the limit is seen to do so.
+bool simulate_group(long long bytes) {
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("none", group_folder(), "tmpfs", 0, nullptr) != 0)
+        return false;
+    const std::string file = std::string(group_folder()) + "/memory.max", text = std::to_string(bytes) + "\n";
+    const int number = open(file.c_str(), O_WRONLY | O_CREAT, 0644);
+    return number >= 0 && write(number, text.data(), text.size()) == ssize_t(text.size()) && close(number) == 0;
+}
+
+/// In the child, before the command.
+bool set_limits(const RunLimits& limits) {
+    if (limits.group_bytes >= 0 && !simulate_group(limits.group_bytes)) return false;
+    std::vector<std::pair<int, long long>> all = limits.resources;
+    if (limits.file_bytes >= 0) all.emplace_back(RLIMIT_FSIZE, limits.file_bytes);
+    for (const auto& [resource, most] : all) {
+        rlimit limit{};
+        getrlimit(resource, &limit);
+        limit.rlim_cur = rlim_t(most);
+        if (!limits.soft) limit.rlim_max = rlim_t(most);
+        setrlimit(resource, &limit);
+    }
+    for (int inherited = 3; inherited < 1024; ++inherited) close(inherited);
+    const int user = limits.as_nobody ? 65534 : limits.user;
+    return user < 0 || (setgid(gid_t(user)) == 0 && setuid(uid_t(user)) == 0);
+}
+
 } // namespace
+
+bool may_simulate_group() {
+    return geteuid() == 0 && prctl(PR_CAPBSET_READ, CAP_SYS_ADMIN) == 1 && access(group_folder(), F_OK) == 0;
+}
 
 Folder::Folder() {
     std::string name = (fs::temp_directory_path() / "bake_test_XXXXXX").string();
@@ -58,11 +98,7 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
     if (child == 0) {
         dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
         dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
-        if (limits.file_bytes >= 0) {
-            const rlimit most{rlim_t(limits.file_bytes), rlim_t(limits.file_bytes)};
-            setrlimit(RLIMIT_FSIZE, &most);
-        }
-        if (chdir(where.c_str()) != 0 || (limits.as_nobody && (setgid(65534) != 0 || setuid(65534) != 0))) _exit(126);
+        if (chdir(where.c_str()) != 0 || !set_limits(limits)) _exit(126);
         execv(bake, argv.data());
         _exit(127);
     }

@@ -36,9 +36,14 @@ struct RunLimits {
     long long file_bytes = -1;   ///< largest file it may write; -1: any
     double interrupt_after = -1; ///< seconds after which the signal is sent; -1: never
     int signal = SIGINT;
-    bool twice = false;      ///< the signal is sent again, 10 ms later
-    bool as_nobody = false;  ///< without root's rights
-    std::string stdout_path; ///< where stdout goes instead
+    bool twice = false;     ///< the signal is sent again, 10 ms later
+    bool as_nobody = false; ///< without root's rights
+    int user = -1;          ///< as this user, who runs nothing else; -1: as the tests
+    /// Further limits: RLIMIT_AS and its number, soft and hard.
+    std::vector<std::pair<int, long long>> resources = {};
+    bool soft = false;          ///< only the soft limit is set
+    long long group_bytes = -1; ///< limit of a simulated control group (may_simulate_group()); -1: none
+    std::string stdout_path;    ///< where stdout goes instead
 };
 
 struct Run {
@@ -47,6 +52,9 @@ struct Run {
     double seconds = 0;
     double peak_mib = 0;
 };
+
+/// Whether RunLimits::group_bytes and RunLimits::user can be had.
+bool may_simulate_group();
 
 /// Runs $BAKE with these arguments in `folder` (its working directory).
 Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, const RunLimits& limits = {});

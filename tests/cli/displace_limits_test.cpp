@@ -65,7 +65,7 @@ TEST_SUITE("cli") {
         write_file(folder / "large.obj", cube_obj + std::string(std::size_t(80) << 20, '\n'));
         check_refused(folder,
                       {"displace", "large.obj", "--height", waves(folder), "--max-memory", "80M", "-o", "b.ply"}, 4,
-                      "large.obj: does not fit in the memory");
+                      "more than the 80 MiB it may use (--max-memory); split the file, or raise --max-memory");
     }
 #endif
 

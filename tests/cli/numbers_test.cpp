@@ -126,6 +126,13 @@ TEST_SUITE("cli") {
                               "--material");
     }
 
+    TEST_CASE("numbers: a pair out of range is said to be that") {
+        const Folder folder;
+        for (const char* pair : {"1,99999999999999999999", "0,1", "-1,2"})
+            check_refused(folder, {"normal-map", dots, "--extent", pair, "-o", "n.png"}, 2, ": is out of range;");
+        check_refused(folder, {"normal-map", dots, "--extent", "1;2", "-o", "n.png"}, 2, ": is not a pair;");
+    }
+
     TEST_CASE("numbers: an empty argument is a usage error everywhere, wherever it stands") {
         const Folder folder;
         for (const char* verb :

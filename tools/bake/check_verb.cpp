@@ -1,4 +1,5 @@
 // bake check: what is in each file, and what is wrong with it.
+#include "bake/base/memory.h"
 #include "bake/verdict/brdf_check.h"
 #include "bake/verdict/inspect.h"
 #include "inputs/brdf_input.h"
@@ -60,7 +61,9 @@ void add_result(Results& results, const std::string& file, const CommonArgs& com
         if (error.refusal == Refusal::interrupted) throw;
         refuse(error.what(), error.refusal);
     } catch (const std::bad_alloc&) {
-        refuse(file + ": needs more memory than there is; give a smaller one", Refusal::unsuitable);
+        const MemoryLimit memory = memory_limit();
+        refuse(file + ": takes more memory than " + memory.described() + "; give a smaller one, or " + memory.advice(),
+               Refusal::unsuitable);
     }
 }
 

@@ -42,7 +42,6 @@ DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec
     options.seam = args.seam;
     options.measure_error = args.measure || args.max_error;
     options.margin = args.margin;
-    options.max_bytes = args.max_memory.value_or(0);
     const bool as_it_is = args.surface.shape.empty() && args.kind == BaseKind::none;
     options.rates.levels = args.levels.value_or(as_it_is ? 0 : default_levels);
     if (args.max_error) {

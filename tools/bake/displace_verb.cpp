@@ -41,14 +41,13 @@ std::string describe_base(const DisplaceArgs& args) {
 }
 
 /// Work that must stay within the memory. Where its need is not known beforehand, MemoryCap stops it.
-template <class Work>
-auto within_memory(const MemoryLimit& limit, const std::string& name, const char* what, const Work& work) {
+template <class Work> auto within_memory(const std::string& name, const char* what, const Work& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, name + ": " + what + " takes more memory than the " +
-                                             describe_bytes(double(limit.bytes)) + " it may use (" + limit.reason +
-                                             "); allow more by --max-memory, or take a smaller one");
+        const MemoryLimit limit = memory_limit();
+        throw Error(Refusal::unsuitable, name + ": " + what + " takes more memory than " + limit.described() +
+                                             "; take a smaller one, or " + limit.advice());
     }
 }
 
@@ -73,11 +72,10 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
     progress.start("read", 0);
-    MemoryLimit limit = memory_limit();
     std::optional<MemoryCap> cap;
-    if (args.max_memory) limit = {*args.max_memory, "--max-memory"}, cap.emplace(*args.max_memory, thread_count());
+    if (args.max_memory) cap.emplace(MemoryLimit{*args.max_memory, "`max_bytes`"}, thread_count());
     const BaseSurface base =
-        within_memory(limit, args.surface.name(), "reading it and finding its edges", [&] { return make_base(args); });
+        within_memory(args.surface.name(), "reading it and finding its edges", [&] { return make_base(args); });
     return_free_memory();
     DisplaceOutcome o;
     o.mesh_notes = base.mesh().notes;
@@ -86,7 +84,7 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.patches = base.complex().patches.size();
     watch.lap("base");
     const ReliefFile file =
-        within_memory(limit, args.height.path, "reading it", [&] { return load_relief(args, o.size, common); });
+        within_memory(args.height.path, "reading it", [&] { return load_relief(args, o.size, common); });
     return_free_memory();
     DisplaceOptions options = resolve_options(args, o.size, base.mesh().origin);
     options.taken = process_memory().resident;
@@ -99,7 +97,7 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     watch.lap("height");
     OutputFile(args.out); // a file that cannot be written is refused before the work
     const std::uint64_t before = peak_memory();
-    Displaced displaced = within_memory(limit, args.surface.name(), "displacing it",
+    Displaced displaced = within_memory(args.surface.name(), "displacing it",
                                         [&] { return displace(base, file.relief, options, &progress); });
     return_free_memory();
     o.report = displaced.report;

@@ -1,6 +1,8 @@
 // bake <verb>: parses the command line, runs one verb, and turns every refusal into one line and its exit code.
 #include "bake/base/input_record.h"
+#include "bake/base/memory.h"
 #include "bake/base/parallel.h"
+#include "bake/base/system_lack.h"
 #include "bake/base/text.h"
 #include "bake/base/version.h"
 #include "bake/preview/nearest_key.h"
@@ -145,7 +147,8 @@ std::vector<std::string> arguments(int argc, char** argv) {
     return {words[1], "--help"};
 }
 
-int run(int argc, char** argv) {
+/// `cap`: to begin where the control group limits the memory, as the kernel ends a process that exceeds that limit.
+int run(int argc, char** argv, std::optional<MemoryCap>& cap) {
     CLI::App app{"bake: normal maps, bump tables, displaced meshes, environment maps, and previews of them", "bake"};
     app.set_version_flag("-V,--version", std::string("bake ") + version(), "Print the version");
     app.require_subcommand(1);
@@ -182,8 +185,22 @@ int run(int argc, char** argv) {
         const auto used = app.get_subcommands();
         return refuse_arguments(used.empty() ? app : *used.front(), error.what());
     }
-    const ThreadLimit limit(common.threads);
+    // Never destroyed, see ThreadLimit: a command that has one thread needs no others, to its end.
+    [[maybe_unused]] static const auto* const limit = new ThreadLimit(common.threads);
+    // The threads of TBB and those of OpenEXR.
+    if (const auto group = control_group_limit()) cap.emplace(*group, 2 * thread_count());
     return chosen();
+}
+
+/// Why memory was not granted. The limit is still in force.
+int fail_without_memory() try {
+    const MemoryLimit memory = memory_limit();
+    return fail("out of memory: this takes more than " + memory.described() + "; use smaller inputs or outputs, or " +
+                    memory.advice(),
+                Refusal::unsuitable);
+} catch (const std::bad_alloc&) { // not even for the line
+    std::fputs("bake: out of memory; use smaller inputs or outputs\n", stderr);
+    return int(Refusal::unsuitable);
 }
 
 } // namespace
@@ -191,16 +208,20 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     bake::catch_interrupts();
+    std::optional<bake::MemoryCap> cap;
     try {
-        const int code = bake::run(argc, argv);
+        const int code = bake::run(argc, argv, cap);
         if (std::fflush(stdout) != 0)
             return bake::fail("standard output: cannot be written; is the disk full?", bake::Refusal::unwritable);
         return code;
     } catch (const bake::Error& error) {
         return bake::fail(error.what(), error.refusal);
     } catch (const std::bad_alloc&) {
-        return bake::fail("out of memory; use smaller inputs or outputs", bake::Refusal::unsuitable);
+        return bake::fail_without_memory();
     } catch (const std::exception& error) {
+        if (bake::lacks_threads(error))
+            return bake::fail("no thread can be started; use --threads 1, or raise ulimit -u or the limit on memory",
+                              bake::Refusal::unsuitable);
         return bake::fail(std::string("stopped by ") + error.what() + "; please report this",
                           bake::Refusal::unsuitable);
     }

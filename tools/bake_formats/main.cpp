@@ -17,7 +17,7 @@ constexpr int picture_descriptor = 3, answer_descriptor = 4;
 /// Reads the picture within the limits that its file justifies.
 void decode_limited(char** arguments, bake::ReplyStream& reply) {
     const bake::PictureFile file(picture_descriptor, arguments[2]);
-    const bake::ReadLimits limits{.max_bytes = std::atoll(arguments[3])};
+    const bake::ReadLimits limits{.max_bytes = std::atoll(arguments[3]), .reason = arguments[7]};
     const bake::DecodeRequest request{.format = arguments[1],
                                       .limits = limits,
                                       .texels = std::string(arguments[4]) == "texels",
@@ -48,13 +48,14 @@ void answer(char** arguments, bake::ReplyStream& reply) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 7) {
+    if (argc != 8) {
         std::fputs("bake_formats is started by bake, which reads pictures by it; run bake check FILE\n", stderr);
         return 2;
     }
     // Without bake there is nobody to read the answer, nor to end this process.
     bake::end_with(pid_t(std::atoll(argv[6])));
     bake::ReplyStream reply(answer_descriptor);
+    reply.send(bake::ReplyFrame::started); // until here, the picture cannot be at fault
     answer(argv, reply);
     _exit(0); // the libraries take longer to end than to decode a small picture
 }

@@ -3,6 +3,7 @@
 #include "bake/base/input_record.h"
 #include "bake/base/memory.h"
 #include "bake/base/parallel.h"
+#include "bake/base/system_lack.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -23,6 +24,8 @@ struct Descriptor {
 [[noreturn]] void refuse(const std::string& path, int reason) {
     if (reason == ENOENT || reason == ENOTDIR)
         throw Error(Refusal::unreadable, path + ": no such file; check the name");
+    if (const std::string mend = mend_of_lack(reason); !mend.empty())
+        throw Error(Refusal::unsuitable, path + ": cannot be opened (" + std::strerror(reason) + "); " + mend);
     throw Error(Refusal::unreadable, path + ": cannot be read (" + std::strerror(reason) +
                                          "); check its permissions and those of its folders");
 }
@@ -44,9 +47,8 @@ FileBytes read_file(const std::string& path) {
     bytes.size = std::size_t(status.st_size);
     const MemoryLimit memory = memory_limit();
     if (bytes.size > memory.bytes)
-        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) + " bytes are more than the " +
-                                             std::to_string(memory.bytes) + " that may be used (" + memory.reason +
-                                             "); split the file");
+        throw Error(Refusal::unsuitable, path + ": " + std::to_string(bytes.size) + " bytes are more than " +
+                                             memory.described() + "; split the file, or " + memory.advice());
     bytes.data.reset(static_cast<char*>(allocate_pages(bytes.size + 1)));
     bytes.data[bytes.size] = '\n';
 

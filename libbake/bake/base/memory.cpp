@@ -1,7 +1,10 @@
 #include "bake/base/memory.h"
+#include "bake/base/text.h"
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -91,7 +94,42 @@ std::optional<std::uint64_t> soft_limit(int resource) {
     return std::uint64_t(limit.rlim_cur);
 }
 
+constexpr const char* machine = "this machine's memory";
+
+std::atomic<const MemoryCap*> innermost = nullptr;
+std::mutex one_pause;
+
+/// RLIMIT_DATA as it was before any MemoryCap lowered it; 0 when none did.
+std::atomic<std::uint64_t> data_before_caps = 0;
+
+/// RLIMIT_DATA of others than MemoryCap.
+std::optional<std::uint64_t> data_limit() {
+    const std::uint64_t before = data_before_caps;
+    if (before == 0) return soft_limit(RLIMIT_DATA);
+    return before == RLIM_INFINITY ? std::nullopt : std::optional(before);
+}
+
+/// Returns the limit that it replaces, or nothing if that fails.
+std::optional<std::uint64_t> set_data_limit(std::uint64_t bytes) noexcept {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_DATA, &limit) != 0) return {};
+    const std::uint64_t before = limit.rlim_cur;
+    limit.rlim_cur = bytes;
+    return setrlimit(RLIMIT_DATA, &limit) == 0 ? std::optional(before) : std::nullopt;
+}
+
 } // namespace
+
+std::string MemoryLimit::described() const {
+    // Of address space, what is left changes with what is mapped: no number that the user gave.
+    if (reason.starts_with("ulimit")) return "what " + reason + " allows";
+    return "the " + in_binary_units(bytes, false) + " it may use (" + reason + ")";
+}
+
+std::string MemoryLimit::advice() const {
+    if (reason == machine) return "use a machine with more memory";
+    return "raise " + (reason.find(" of control group ") == std::string::npos ? reason : "that limit");
+}
 
 ProcessMemory process_memory() {
     std::ifstream file("/proc/self/statm"); // pages: size, resident, shared, text, library, data, dirty
@@ -126,14 +164,21 @@ std::optional<MemoryLimit> control_group_limit(const std::string& root) {
 
 MemoryLimit memory_limit() {
     const ProcessMemory now = process_memory();
-    std::optional<MemoryLimit> least =
-        MemoryLimit{std::uint64_t(sysconf(_SC_PHYS_PAGES)) * page_size(), "this machine's memory"};
+    std::optional<MemoryLimit> least = MemoryLimit{std::uint64_t(sysconf(_SC_PHYS_PAGES)) * page_size(), machine};
     if (const auto group = control_group_limit()) lower(least, group->bytes, group->reason);
     if (const auto bytes = soft_limit(RLIMIT_AS))
         lower(least, difference(*bytes, difference(now.address_space, now.resident)), "ulimit -v");
-    if (const auto bytes = soft_limit(RLIMIT_DATA)) // resident pages of files are not data
+    if (const auto bytes = data_limit()) // resident pages of files are not data
         lower(least, difference(*bytes + now.resident, now.data), "ulimit -d");
+    for (const MemoryCap* cap = innermost; cap; cap = cap->outer_) lower(least, cap->limit_.bytes, cap->limit_.reason);
     return *least;
+}
+
+std::optional<MemoryLimit> started_process_limit() {
+    std::optional<MemoryLimit> least;
+    if (const auto bytes = soft_limit(RLIMIT_AS)) lower(least, *bytes, "ulimit -v");
+    if (const auto bytes = data_limit()) lower(least, *bytes, "ulimit -d");
+    return least;
 }
 
 void return_free_memory() noexcept {
@@ -142,25 +187,37 @@ void return_free_memory() noexcept {
 #endif
 }
 
-MemoryCap::MemoryCap([[maybe_unused]] std::uint64_t bytes, [[maybe_unused]] int threads) {
+MemoryCap::MemoryCap(const MemoryLimit& limit, [[maybe_unused]] int threads)
+    : limit_(limit), outer_(innermost.exchange(this)) {
 #if !defined(__SANITIZE_ADDRESS__) // the sanitizer ends the process where an allocation fails
-    rlimit limit{};
-    if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-    before_ = limit.rlim_cur;
+    rlimit present{};
+    if (getrlimit(RLIMIT_DATA, &present) != 0) return;
     // Threads that have not started yet map their stacks, and use little of them.
     constexpr std::uint64_t stack = std::uint64_t(8) << 20;
     const ProcessMemory now = process_memory();
-    const std::uint64_t most = now.data + difference(bytes, now.resident) + std::uint64_t(threads) * stack;
-    limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
-    set_ = setrlimit(RLIMIT_DATA, &limit) == 0;
+    const std::uint64_t most = now.data + difference(limit.bytes, now.resident) + std::uint64_t(threads) * stack;
+    const auto before = set_data_limit(std::min<std::uint64_t>(present.rlim_cur, most));
+    before_ = before.value_or(0), set_ = before.has_value();
+    if (set_ && data_before_caps == 0) data_before_caps = before_;
 #endif
 }
 
 MemoryCap::~MemoryCap() {
-    rlimit limit{};
-    if (!set_ || getrlimit(RLIMIT_DATA, &limit) != 0) return;
-    limit.rlim_cur = before_;
-    setrlimit(RLIMIT_DATA, &limit);
+    innermost = outer_;
+    if (set_) set_data_limit(before_);
+    if (!outer_) data_before_caps = 0;
+}
+
+MemoryCapPause::MemoryCapPause() {
+    one_pause.lock();
+    const std::uint64_t before = data_before_caps;
+    const auto paused = before != 0 ? set_data_limit(before) : std::nullopt;
+    paused_ = paused.value_or(0), set_ = paused.has_value();
+}
+
+MemoryCapPause::~MemoryCapPause() {
+    if (set_) set_data_limit(paused_);
+    one_pause.unlock();
 }
 
 } // namespace bake

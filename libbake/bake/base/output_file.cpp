@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/input_record.h"
 #include "bake/base/progress.h"
+#include "bake/base/system_lack.h"
 #include "bake/base/temporary_file.h"
 #include <algorithm>
 #include <atomic>
@@ -39,8 +40,15 @@ std::string number_place(const std::string& written) {
     return {};
 }
 
-[[noreturn]] void refuse_name(const std::string& path, const std::string& reason, const char* mend) {
+[[noreturn]] void refuse_name(const std::string& path, const std::string& reason, const std::string& mend) {
     throw Error(Refusal::unwritable, path + ": cannot be written (" + reason + "); " + mend);
+}
+
+/// A call of the system failed, and errno says why.
+[[noreturn]] void refuse_call(const std::string& path, const char* mend) {
+    const int reason = errno;
+    const std::string lack = mend_of_lack(reason);
+    refuse_name(path, std::strerror(reason), lack.empty() ? mend : lack);
 }
 
 /// The file that a chain of symbolic links names, which need not be there.
@@ -168,8 +176,7 @@ OutputFile::OutputFile(const std::string& path) {
     const fs::path folder = discarded ? fs::temp_directory_path(none) : target.parent_path();
     if (!discarded) sweep_once(folder);
     TemporaryFile made(folder.string(), discarded);
-    if (made.descriptor() < 0)
-        refuse_name(path, std::strerror(errno), "choose a folder that exists and that you may write to");
+    if (made.descriptor() < 0) refuse_call(path, "choose a folder that exists and that you may write to");
     if (discarded) target.clear();
     reserved_.reset(new Reserved{path, std::move(target), std::move(made)});
 }
@@ -178,7 +185,7 @@ OutputFile::~OutputFile() = default;
 
 int OutputFile::open_descriptor() const {
     const int copy = fcntl(reserved_->file.descriptor(), F_DUPFD_CLOEXEC, 0);
-    if (copy < 0) refuse_name(reserved_->path, std::strerror(errno), "write fewer files at a time");
+    if (copy < 0) refuse_call(reserved_->path, "write fewer files at a time");
     return copy;
 }
 
@@ -186,7 +193,7 @@ std::FILE* OutputFile::open_stream() const {
     const int copy = open_descriptor();
     std::FILE* const stream = fdopen(copy, "r+b");
     if (!stream) close(copy);
-    if (!stream) refuse_name(reserved_->path, std::strerror(errno), "write fewer files at a time");
+    if (!stream) refuse_call(reserved_->path, "write fewer files at a time");
     return stream;
 }
 

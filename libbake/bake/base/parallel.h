@@ -8,7 +8,9 @@ namespace bake {
 
 class Progress;
 
-/// During the lifetime of this object at most `threads` threads work; 0 means one per core.
+/// During the lifetime of this object at most `threads` threads work; 0 means one per core. Its end may start threads that
+/// were not allowed before, and ends the program (std::terminate) when the system has none: where that can be, keep it for
+/// as long as the program runs.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads);

@@ -19,13 +19,22 @@ struct UnfinishedFile {
 };
 UnfinishedFile unfinished[256];
 
-void on_signal(int) {
+constexpr const char* out_of_time = "out of processor time (ulimit -t), nothing was written; raise ulimit -t";
+
+/// For the handler: the kernel sends SIGXCPU each second, and the second one may come before the first one is looked at.
+void print_out_of_time() noexcept {
+    for (const char* part : {"bake: ", out_of_time, "\n"})
+        if (write(STDERR_FILENO, part, std::strlen(part)) < 0) return;
+}
+
+void on_signal(int signal) {
     if (stop_requested && shields == 0) {
         for (const UnfinishedFile& file : unfinished)
             if (file.ready) unlink(file.path);
+        if (signal == SIGXCPU) print_out_of_time();
         _exit(int(Refusal::interrupted));
     }
-    stop_requested = 1;
+    stop_requested = signal;
 }
 
 } // namespace
@@ -36,6 +45,7 @@ void catch_interrupts() noexcept {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGXCPU, &action, nullptr);
     struct sigaction before {};
     if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
     // A file over the size limit must come back from write() as an error, not kill us with the output half done.
@@ -46,7 +56,8 @@ void catch_interrupts() noexcept {
 bool interrupted() noexcept { return stop_requested != 0; }
 
 void throw_if_interrupted() {
-    if (interrupted()) throw Error(Refusal::interrupted, "interrupted; nothing was written");
+    if (interrupted())
+        throw Error(Refusal::interrupted, stop_requested == SIGXCPU ? out_of_time : "interrupted; nothing was written");
 }
 
 int remove_on_second_signal(const std::string& path) noexcept {

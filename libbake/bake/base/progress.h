@@ -32,8 +32,8 @@ private:
     std::atomic<int> percent_{-1};
 };
 
-/// Makes Ctrl-C, SIGTERM and SIGHUP (unless it is ignored, as nohup has it) set a flag that long work looks at; a second
-/// signal ends the process at once, after removing the unfinished files.
+/// Makes Ctrl-C, SIGTERM, SIGHUP (unless it is ignored, as nohup has it) and SIGXCPU (the limit on processor time) set a
+/// flag that long work looks at; a second signal ends the process at once, after removing the unfinished files.
 void catch_interrupts() noexcept;
 /// True once the user has asked to stop.
 bool interrupted() noexcept;

@@ -1,5 +1,6 @@
 #include "bake/base/text.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
@@ -22,6 +23,15 @@ std::string ending(const std::string& path) {
     for (char& c : text)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     return text;
+}
+
+std::string in_binary_units(std::uint64_t bytes, bool up) {
+    const char* const units[] = {"KiB", "MiB", "GiB", "TiB", "PiB"};
+    double value = double(bytes) / 1024;
+    int unit = 0;
+    for (; value >= 1000 && unit < 4; ++unit) value /= 1024;
+    const double digit = value < 10 ? 100 : value < 100 ? 10 : 1;
+    return format("%g ", (up ? std::ceil(value * digit) : std::floor(value * digit)) / digit) + units[unit];
 }
 
 } // namespace bake

@@ -31,8 +31,9 @@ void refuse_values(const float* values, std::size_t count, std::size_t component
                    const std::string& path) {
     const std::size_t bad = first_not_finite(values, count);
     if (bad < count)
-        throw Error(Refusal::unsuitable, path + ": not written, " + what + " " + std::to_string(bad / components) +
-                                             " of the mesh is not finite; check the mesh and the amplitude");
+        throw Error(Refusal::unsuitable,
+                    path + ": not written, " + what + " " + std::to_string(bad / components) +
+                        " of the mesh is not finite; check the inputs for values that are too large");
 }
 
 template <class Vec> void refuse_values(const std::vector<Vec>& values, const char* what, const std::string& path) {

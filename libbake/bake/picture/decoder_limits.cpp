@@ -34,6 +34,13 @@ DecoderLimits decoder_limits(std::int64_t stored, double samples) noexcept {
             .seconds = seconds + stored / bytes_per_second + std::int64_t(counted / samples_per_second)};
 }
 
+std::optional<MemoryLimit> binding_limit(std::int64_t stored, double samples) {
+    constexpr std::uint64_t libraries = 512 << 20; // address space of OpenImageIO with what it uses
+    auto limit = started_process_limit();
+    if (limit && limit->bytes >= libraries + std::uint64_t(decoder_limits(stored, samples).bytes)) limit.reset();
+    return limit;
+}
+
 void limit_decoder(const DecoderLimits& limits, const DecoderLimits& largest, std::int64_t libraries) noexcept {
     set_limit(RLIMIT_CORE, 0, 0);
     // Beyond the hard limit the kernel kills without saying why.

@@ -1,6 +1,8 @@
 // What a decoder may use. It runs in a process of its own, which ends when it exceeds one of these.
 #pragma once
+#include "bake/base/memory.h"
 #include <cstdint>
+#include <optional>
 #include <sys/types.h>
 
 namespace bake {
@@ -13,6 +15,10 @@ struct DecoderLimits {
 /// Limits for a file of `stored` bytes whose picture has `samples` samples (all channels of all texels; 0 while that is not
 /// known), many times what a file that is not damaged needs.
 DecoderLimits decoder_limits(std::int64_t stored, double samples) noexcept;
+
+/// The limit that this process passes on to a decoder (ulimit), if it may be too low for such a file, the libraries of the
+/// decoder included; nothing if there is none.
+std::optional<MemoryLimit> binding_limit(std::int64_t stored, double samples);
 
 /// Limits this process to `limits` beyond `libraries` bytes. It can raise them again, up to `largest`. A crash leaves no
 /// core file.

@@ -1,5 +1,8 @@
 #include "bake/picture/decoder_process.h"
+#include "bake/base/memory.h"
 #include "bake/base/progress.h"
+#include "bake/base/system_lack.h"
+#include "bake/picture/decoder_limits.h"
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -61,6 +64,13 @@ struct Start {
     Start& operator=(const Start&) = delete;
 };
 
+constexpr const char* others = "give a PNG, EXR or TIFF"; ///< which need no decoder
+
+/// "<path>: its decoder cannot be started <why>; <mend>, or give a PNG, EXR or TIFF"
+Error cannot_start(Refusal refusal, const std::string& path, const std::string& why, const std::string& mend) {
+    return Error(refusal, path + ": its decoder cannot be started " + why + "; " + mend + ", or " + others);
+}
+
 std::string end_by_signal(int signal) {
     switch (signal) {
     case SIGXCPU: return "did not end in time";
@@ -85,13 +95,16 @@ DecoderProcess::DecoderProcess(const std::string& program, const std::vector<std
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const Start start(picture.number, theirs.number);
+    const MemoryCapPause uncapped; // the process has limits of its own
     const int failed =
         !piped || theirs.number < 0 || picture.number < 0
             ? EMFILE
             : posix_spawn(&child_, program_.c_str(), &start.files, &start.attributes, argv.data(), environ);
+    if (const std::string mend = mend_of_lack(failed); !mend.empty())
+        throw cannot_start(Refusal::unsuitable, path_, std::string("(") + std::strerror(failed) + ")", mend);
     if (failed != 0)
-        throw unreadable(path_, "its decoder " + program_ + " cannot be started (" + std::strerror(failed) + ")",
-                         "mend the installation, or give a PNG, EXR or TIFF");
+        throw cannot_start(Refusal::unreadable, path_, "(" + program_ + ": " + std::strerror(failed) + ")",
+                           "mend the installation");
     answer_ = ours.release();
 }
 
@@ -124,6 +137,18 @@ void DecoderProcess::read(void* to, std::size_t size) {
         if (got < 0) wait_for_answer();
         else at += got, size -= std::size_t(got);
     }
+    answered_ = true;
+}
+
+Error DecoderProcess::not_started(int status) const {
+    if (const auto limit = binding_limit(0, 0))
+        return cannot_start(Refusal::unsuitable, path_, "within " + limit->described(), limit->advice());
+    constexpr int by_loader = 127;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == by_loader)
+        return cannot_start(Refusal::unreadable, path_, "(a library of " + program_ + " is missing)",
+                            "mend the installation");
+    // Libraries start threads before the program begins.
+    return cannot_start(Refusal::unsuitable, path_, "(no thread or no memory is left)", mend_of_lack(EAGAIN));
 }
 
 Error DecoderProcess::end() {
@@ -134,10 +159,7 @@ Error DecoderProcess::end() {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (ended != 0) child_ = -1;
     throw_if_interrupted();
-    constexpr int not_started = 127; // by the dynamic loader
-    if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == not_started)
-        return unreadable(path_, "its decoder " + program_ + " cannot be started (a library is missing)",
-                          "mend the installation, or give a PNG, EXR or TIFF");
+    if (ended > 0 && !answered_) return not_started(status);
     return decoder_failed(path_, ended > 0 && WIFSIGNALED(status) ? end_by_signal(WTERMSIG(status)) : "crashed");
 }
 

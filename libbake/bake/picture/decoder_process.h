@@ -11,7 +11,8 @@ namespace bake {
 class DecoderProcess {
 public:
     /// Starts `program`, which inherits nothing but the open picture as descriptor 3 and a pipe for its answer as
-    /// descriptor 4. Throws Error{Refusal::unreadable} when it cannot be started.
+    /// descriptor 4. Throws Error{Refusal::unreadable} when it cannot be started, Error{Refusal::unsuitable} when the system
+    /// has no process or descriptor left for it.
     DecoderProcess(const std::string& program, const std::vector<std::string>& arguments, const PictureFile& file);
     /// Ends it.
     ~DecoderProcess();
@@ -21,7 +22,8 @@ public:
     /// How long from now the process may take, at most; without a call, for ever.
     void allow(std::chrono::seconds time) noexcept;
     /// The next `size` bytes of the answer. Throws Error{Refusal::interrupted} soon after an interrupt, and
-    /// Error{Refusal::unreadable} when the process ended before, or took too long.
+    /// Error{Refusal::unreadable} when the process ended before, or took too long; Error{Refusal::unsuitable} when it ended
+    /// before its first answer, so that the picture is not at fault.
     void read(void* to, std::size_t size);
 
 private:
@@ -29,9 +31,11 @@ private:
     void wait_for_answer() const;
     /// The reason why the answer ended.
     Error end();
+    Error not_started(int status) const;
 
     std::string path_, program_;
     std::chrono::steady_clock::time_point latest_ = std::chrono::steady_clock::time_point::max();
+    bool answered_ = false;
     int answer_ = -1; ///< our end of the pipe
     pid_t child_ = -1;
 };

@@ -1,5 +1,6 @@
 #include "bake/picture/exr.h"
 #include "bake/base/progress.h"
+#include "bake/base/system_lack.h"
 #include "bake/picture/exr_frame.h"
 #include "bake/picture/exr_guard.h"
 #include "bake/picture/exr_layers.h"
@@ -196,9 +197,8 @@ bool read_exr(const PictureFile& file, const ReadLimits& limits, ImageInfo& info
     return read_part(in, file, limits, info, image);
 } catch (const Error&) {
     throw;
-} catch (const std::bad_alloc&) {
-    throw Error(Refusal::unsuitable, file.path() + ": needs more memory than there is; scale it down");
 } catch (const std::exception& error) {
+    if (lacks_memory(error)) throw out_of_memory(file.path());
     throw unreadable(file.path(), error.what());
 }
 

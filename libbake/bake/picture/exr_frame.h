@@ -9,7 +9,7 @@ namespace bake {
 
 inline constexpr const char *exr_cube_format = "CubeFace Environment", *exr_latlong_format = "LatLong Environment";
 
-/// Sets the number of OpenEXR's own threads that help the one that calls it, and returns it.
+/// Sets the number of OpenEXR's own threads that help the one that calls it, and returns it: 0 if not all can be started.
 int exr_helpers();
 
 /// Slices of interleaved samples, of which `first` is the one at the window's upper left corner.

@@ -1,4 +1,5 @@
 #include "bake/base/parallel.h"
+#include "bake/base/system_lack.h"
 #include "bake/picture/exr.h"
 #include "bake/picture/exr_frame.h"
 #include <OpenEXR/ImfChannelList.h>
@@ -91,6 +92,7 @@ struct ExrWriter::Impl {
         try {
             call();
         } catch (const std::exception& error) {
+            if (stream.reason().empty() && lacks_memory(error)) throw std::bad_alloc();
             fail(stream.reason().empty() ? one_line(error.what(), path) : stream.reason());
         }
     }

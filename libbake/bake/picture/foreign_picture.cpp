@@ -99,6 +99,9 @@ void read_samples(DecoderProcess& decoder, SampleType sent, float* to, std::size
 /// The header, and the texels if they were asked for.
 ReplyHeader read_reply(DecoderProcess& decoder, const PictureFile& file, PictureKind kind, const ReadLimits& limits,
                        Image<float>* image) {
+    ReplyFrame start;
+    decoder.read(&start, sizeof start);
+    if (start.kind != ReplyFrame::started || start.size != 0) throw decoder_failed(file.path(), "crashed");
     std::optional<ReplyHeader> header;
     std::size_t done = 0, total = 0; // samples
     for (;;) {
@@ -128,6 +131,17 @@ ReplyHeader read_reply(DecoderProcess& decoder, const PictureFile& file, Picture
     }
 }
 
+/// read_reply(), whose refusal does not blame a file where a limit may have been at fault.
+ReplyHeader read_reply_in_limits(DecoderProcess& decoder, const PictureFile& file, PictureKind kind,
+                                 const ReadLimits& limits, double claimed, Image<float>* image) try {
+    return read_reply(decoder, file, kind, limits, image);
+} catch (const Error& error) {
+    const auto limit = binding_limit(file.size(), std::max(claimed, image ? double(image->size()) : 0));
+    if (error.refusal != Refusal::unreadable || !limit) throw;
+    throw Error(Refusal::unsuitable, file.path() + ": cannot be decoded within " + limit->described() + "; " +
+                                         limit->advice() + ", or give a PNG, EXR or TIFF");
+}
+
 } // namespace
 
 void read_by_program(const std::string& program, const PictureFile& file, PictureKind kind, const ReadLimits& limits,
@@ -135,10 +149,11 @@ void read_by_program(const std::string& program, const PictureFile& file, Pictur
     const double claimed = claimed_samples(file, kind, limits);
     DecoderProcess decoder(program,
                            {decoder_name(kind), file.path(), std::to_string(limits.max_bytes),
-                            image ? "texels" : "header", std::to_string(claimed), std::to_string(getpid())},
+                            image ? "texels" : "header", std::to_string(claimed), std::to_string(getpid()),
+                            limits.reason},
                            file);
     decoder.allow(waiting_time(file, claimed));
-    ReplyHeader header = read_reply(decoder, file, kind, limits, image);
+    ReplyHeader header = read_reply_in_limits(decoder, file, kind, limits, claimed, image);
     info = std::move(header.info);
     info.format = decoder_name(kind);
     if (!header.icc.empty()) info.colour = read_icc(header.icc);

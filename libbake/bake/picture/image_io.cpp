@@ -50,8 +50,10 @@ double level_step(const ImageInfo& info) noexcept {
 namespace {
 
 /// Reads the header, and the texels into `image` when that is given.
-ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>* image) {
-    if (image) limits.max_bytes = std::min(limits.max_bytes, std::int64_t(memory_limit().bytes));
+ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>* image) try {
+    const MemoryLimit memory = memory_limit();
+    if (image && memory.bytes < std::uint64_t(limits.max_bytes))
+        limits = {.max_bytes = std::int64_t(memory.bytes), .reason = memory.reason};
     ImageInfo info;
     const PictureFile file(path);
     const PictureKind kind = picture_kind(file);
@@ -67,6 +69,8 @@ ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>*
     }
     if (!read) read_foreign(file, kind, limits, info, image);
     return info;
+} catch (const std::bad_alloc&) {
+    throw out_of_memory(path);
 }
 
 } // namespace
@@ -75,13 +79,11 @@ ImageInfo read_image_info(const std::string& path, const ReadLimits& limits) {
     return read_picture(path, limits, nullptr);
 }
 
-Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) try {
+Image<float> read_image(const std::string& path, ImageInfo* info_out, const ReadLimits& limits) {
     Image<float> image;
     ImageInfo info = read_picture(path, limits, &image);
     if (info_out) *info_out = std::move(info);
     return image;
-} catch (const std::bad_alloc&) {
-    throw Error(Refusal::unsuitable, path + ": needs more memory than there is; scale it down");
 }
 
 Depth resolve_depth(const std::string& path, Depth depth) {

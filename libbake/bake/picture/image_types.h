@@ -44,6 +44,7 @@ struct PictureSize {
 /// Limits that a header is checked against before memory is allocated.
 struct ReadLimits {
     std::int64_t max_bytes = std::int64_t(16) << 30; ///< decoded size
+    std::string reason = {};                         ///< of max_bytes, as MemoryLimit has it; may be empty
 };
 
 /// How samples are stored in a written file.

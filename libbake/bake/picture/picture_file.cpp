@@ -1,5 +1,8 @@
 #include "bake/picture/picture_file.h"
 #include "bake/base/input_record.h"
+#include "bake/base/memory.h"
+#include "bake/base/system_lack.h"
+#include "bake/base/text.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -27,6 +30,8 @@ PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path),
     }
     if (descriptor_ >= 0) close(descriptor_);
     if (reason == ENOENT || reason == ENOTDIR) throw unreadable(path, "no such file", "check the name");
+    if (const std::string mend = mend_of_lack(reason); !mend.empty())
+        throw Error(Refusal::unsuitable, path + ": cannot be opened (" + std::strerror(reason) + "); " + mend);
     if (reason) throw unreadable(path, std::strerror(reason), "check its permissions");
     if (folder) throw unreadable(path, "is a folder", "name an image file in it");
     if (!regular) throw unreadable(path, "is not a regular file", "name an image file");
@@ -63,6 +68,12 @@ Error unreadable(const std::string& path, const std::string& why, const char* me
     return Error(Refusal::unreadable, path + ": " + one_line(why, path) + "; " + mend);
 }
 
+Error out_of_memory(const std::string& path) {
+    const MemoryLimit memory = memory_limit();
+    return Error(Refusal::unsuitable, path + ": reading it takes more memory than " + memory.described() +
+                                          "; scale it down, or " + memory.advice());
+}
+
 Error decoder_failed(const std::string& path, const std::string& what) {
     return unreadable(path, "its decoder " + what, "the file is damaged; export it again, as EXR, TIFF or PNG");
 }
@@ -81,9 +92,19 @@ void check_size(const std::string& path, std::int64_t stored, const ClaimedSize&
     if (decoded > claimed.most_per_byte * double(stored) + 65536 ||
         (shown > free_window_bytes && shown > window_ratio * double(stored)))
         throw unreadable(path, "claims " + size + " pixels in " + std::to_string(stored) + " bytes");
-    if (std::max(4 * decoded, shown) > double(limits.max_bytes) || std::max(width, height) > (1 << 20))
-        throw Error(Refusal::unsuitable, path + ": " + size + " pixels need more memory than the limit of " +
-                                             std::to_string(limits.max_bytes >> 20) + " MiB; scale it down");
+    constexpr int longest = 1 << 20;
+    if (std::max(width, height) > longest)
+        throw Error(Refusal::unsuitable, path + ": " + size + " pixels are more than the " + std::to_string(longest) +
+                                             " along a side that are read; scale it down");
+    const double needed = std::max(4 * decoded, shown);
+    if (needed <= double(limits.max_bytes)) return;
+    const MemoryLimit limit{std::uint64_t(limits.max_bytes), limits.reason};
+    const std::string needs =
+        path + ": " + size + " pixels need " + in_binary_units(std::uint64_t(needed), true) + " of memory, more than ";
+    if (limit.reason.empty())
+        throw Error(Refusal::unsuitable,
+                    needs + "the " + in_binary_units(limit.bytes, false) + " of a picture that is read; scale it down");
+    throw Error(Refusal::unsuitable, needs + limit.described() + "; scale it down, or " + limit.advice());
 }
 
 Image<float> place(Image<float> image, const Window& data, const Window& picture) {

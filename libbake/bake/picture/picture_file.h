@@ -40,6 +40,9 @@ std::string one_line(std::string text, const std::string& path);
 Error unreadable(const std::string& path, const std::string& why,
                  const char* mend = "the file is damaged; export it again");
 
+/// For a picture whose reading ends with std::bad_alloc.
+Error out_of_memory(const std::string& path);
+
 /// "<path>: its decoder <what>; ..."
 Error decoder_failed(const std::string& path, const std::string& what);
 

@@ -1,6 +1,6 @@
 // What the program bake_formats answers about a picture, and how it is written as bytes.
 //
-// The answer is a row of frames: a failure; or a header, then texels in the order of their rows, in any number of frames,
+// The answer is a row of frames: the start; then a failure; or a header, then texels in the order of their rows, in any number of frames,
 // and the end.
 #pragma once
 #include "bake/picture/picture_file.h"
@@ -11,7 +11,7 @@
 namespace bake {
 
 struct ReplyFrame {
-    enum Kind : std::uint32_t { failure = 1, header = 2, texels = 3, end = 4 };
+    enum Kind : std::uint32_t { failure = 1, header = 2, texels = 3, end = 4, started = 5 };
     std::uint32_t kind = 0;
     std::uint32_t size = 0; ///< bytes that follow
 };

@@ -222,7 +222,7 @@ void read_tiff(const PictureFile& file, const ReadLimits& limits, ImageInfo& inf
     tell_associated_alpha(header, stored, info);
     *image = upright(place(std::move(stored), header.data, header.picture), header.orientation);
 } catch (const std::bad_alloc&) {
-    throw Error(Refusal::unsuitable, file.path() + ": needs more memory than there is; scale it down");
+    throw out_of_memory(file.path());
 }
 
 } // namespace bake

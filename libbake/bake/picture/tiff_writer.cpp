@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <new>
 #include <unistd.h>
 
 namespace bake {
@@ -86,7 +87,10 @@ bool TiffWriter::close_files() noexcept {
     return closed;
 }
 
-void TiffWriter::fail(const std::string& why) const { refuse_unwritten(path_, why); }
+void TiffWriter::fail(const std::string& why) const {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    refuse_unwritten(path_, why);
+}
 
 void TiffWriter::describe_level() {
     const auto set = [&](std::uint32_t tag, int value) { return TIFFSetField(tiff_, tag, value) == 1; };

@@ -56,10 +56,12 @@ Vec2d parse_pair(const std::string& flag, const std::string& text, bool positive
     const std::size_t comma = text.find(',');
     const auto first = parse_number(text.substr(0, comma));
     const auto second = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
-    const auto in_range = [](double value) { return value >= 1e-12 && value <= 1e12; };
-    if (!first || !second || (positive && !(in_range(*first) && in_range(*second))))
+    if (!first || !second)
         throw usage(flag + " " + text + ": is not a pair; write two " + (positive ? "positive " : "") +
                     "numbers, such as 2,1");
+    const auto in_range = [](double value) { return value >= 1e-12 && value <= 1e12; };
+    if (positive && !(in_range(*first) && in_range(*second)))
+        throw usage(flag + " " + text + ": is out of range; write two numbers from 1e-12 to 1e12, such as 2,1");
     return {*first, *second};
 }
 

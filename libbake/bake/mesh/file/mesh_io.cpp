@@ -1,5 +1,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/base/error.h"
+#include "bake/base/memory.h"
 #include "bake/base/output_file.h"
 #include "bake/base/text.h"
 #include "bake/mesh/file/obj.h"
@@ -37,7 +38,9 @@ Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& 
             if (options.flip_v) uv.y = 1 - uv.y;
         return mesh;
     } catch (const std::bad_alloc&) {
-        throw Error(Refusal::unsuitable, path + ": does not fit in the memory that is free; split the mesh");
+        const MemoryLimit memory = memory_limit();
+        throw Error(Refusal::unsuitable,
+                    path + ": does not fit in " + memory.described() + "; split the mesh, or " + memory.advice());
     }
 }
 

@@ -73,6 +73,7 @@ void measure(DisplaceReport& to, const SeamedRelief& scene, const RatePlan& plan
 Displaced displace(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options, Progress* progress) {
     const DisplaceMemory memory(base, relief, options);
     const bool uniform = options.rates.rule == Rates::Rule::uniform;
+    refuse_large_height(memory);
     // Uniform rates are refused before anything else is made.
     if (uniform) refuse_too_large(memory, Plan(base, uniform_rates(base, options.rates.levels)), nullptr);
     if (progress) progress->start("seams", 0);

@@ -50,14 +50,8 @@ std::uint64_t thread_bytes() noexcept {
 } // namespace
 
 DisplaceMemory::DisplaceMemory(const BaseSurface& base, const Relief& relief, const DisplaceOptions& options)
-    : base_(&base), relief_(&relief), options_(&options), limit_(options.max_bytes), reason_("`max_bytes`") {
-    if (limit_ > 0) return;
-    const MemoryLimit machine = memory_limit();
-    limit_ = machine.bytes, reason_ = machine.reason;
-}
-
-std::string DisplaceMemory::described_limit() const {
-    return "the " + in_binary_units(limit_, false) + " it may use (" + reason_ + ")";
+    : base_(&base), relief_(&relief), options_(&options), limit_(memory_limit()) {
+    if (options.max_bytes > 0 && options.max_bytes < limit_.bytes) limit_ = {options.max_bytes, "`max_bytes`"};
 }
 
 std::uint64_t DisplaceMemory::during_displacement(const Plan& plan, const SeamBlend* blend,
@@ -111,15 +105,6 @@ std::uint64_t DisplaceMemory::search_bytes(std::uint32_t split) const noexcept {
     return patches * cells * per_cell + sampler_memory(*relief_).kept + thread_bytes();
 }
 
-std::string in_binary_units(std::uint64_t bytes, bool up) {
-    const char* const units[] = {"KiB", "MiB", "GiB", "TiB", "PiB"};
-    double value = double(bytes) / 1024;
-    int unit = 0;
-    for (; value >= 1000 && unit < 4; ++unit) value /= 1024;
-    const double digit = value < 10 ? 100 : value < 100 ? 10 : 1;
-    return format("%g ", (up ? std::ceil(value * digit) : std::floor(value * digit)) / digit) + units[unit];
-}
-
 namespace {
 
 /// What the user may change: the finest level that fits, a step that may be left out.
@@ -128,7 +113,8 @@ std::string what_would_fit(const DisplaceMemory& memory, const Plan& plan, const
     const auto fits = [&](const DisplaceCount& c) {
         return c.bytes <= memory.limit() && std::max(c.points, c.corners) < no_index;
     };
-    std::string mend = "allow more by `max_bytes`";
+    const bool indices = plan.layout.points < no_index && plan.layout.corners < no_index;
+    std::string mend = indices ? memory.advice() : "split the mesh";
     for (std::size_t i = 0; i < options.later.size(); ++i)
         if (!options.later[i].option.empty() && fits(memory.count(plan, blend, i)))
             mend += ", or leave out `" + options.later[i].option + "`";
@@ -137,11 +123,22 @@ std::string what_would_fit(const DisplaceMemory& memory, const Plan& plan, const
     int level = options.rates.levels;
     while (--level >= 0)
         if (fits(memory.count(Plan(memory.base(), uniform_rates(memory.base(), level)), blend))) break;
-    if (level < 0) return mend + ", or take a coarser mesh: not even level 0 fits";
+    if (level < 0)
+        return mend + ", or take a coarser mesh" + (options.rates.levels > 0 ? ": not even level 0 fits" : "");
     return mend + ", or set `rates.levels` to " + std::to_string(level);
 }
 
 } // namespace
+
+void refuse_large_height(const DisplaceMemory& memory) {
+    const std::uint64_t bytes = memory.options().taken + sampler_memory(memory.relief()).most;
+    if (bytes <= memory.limit()) return;
+    const Image<float>& height = memory.relief().values;
+    throw Error(Refusal::unsuitable, "to interpolate a height of " + std::to_string(height.width()) + " x " +
+                                         std::to_string(height.height()) + " texels needs " +
+                                         in_binary_units(bytes, true) + " of memory, more than " +
+                                         memory.described_limit() + "; scale the height down, or " + memory.advice());
+}
 
 DisplaceCount refuse_too_large(const DisplaceMemory& memory, const Plan& plan, const SeamBlend* blend) {
     const DisplaceCount count = memory.count(plan, blend);

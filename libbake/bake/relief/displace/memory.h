@@ -1,5 +1,6 @@
 // The memory that a displacement takes, counted before it is taken.
 #pragma once
+#include "bake/base/memory.h"
 #include "bake/relief/displace/rates.h"
 
 namespace bake {
@@ -22,9 +23,11 @@ public:
 
     const BaseSurface& base() const noexcept { return *base_; }
     const DisplaceOptions& options() const noexcept { return *options_; }
-    std::uint64_t limit() const noexcept { return limit_; }
-    /// "the 1.2 GiB it may use (this machine's memory)".
-    std::string described_limit() const;
+    const Relief& relief() const noexcept { return *relief_; }
+    /// The lower of memory_limit() and options.max_bytes.
+    std::uint64_t limit() const noexcept { return limit_.bytes; }
+    std::string described_limit() const { return limit_.described(); }
+    std::string advice() const { return limit_.advice(); }
 
     /// The result of a plan and the peak of the memory; without the later step number `without`, if given. The blend may
     /// not be there yet.
@@ -41,15 +44,14 @@ private:
     const BaseSurface* base_;
     const Relief* relief_;
     const DisplaceOptions* options_;
-    std::uint64_t limit_;
-    std::string reason_;
+    MemoryLimit limit_;
 };
+
+/// Throws Error{Refusal::unsuitable} if the height alone needs more memory than it may use.
+void refuse_large_height(const DisplaceMemory& memory);
 
 /// Throws Error{Refusal::unsuitable} if the result needs more memory than it may use, or more indices than there are. The
 /// message says what is needed and what would fit.
 DisplaceCount refuse_too_large(const DisplaceMemory& memory, const Plan& plan, const SeamBlend* blend);
-
-/// "1.21 GiB": to three digits, up or down, so that a need above the limit is not printed as the limit.
-std::string in_binary_units(std::uint64_t bytes, bool up);
 
 } // namespace bake

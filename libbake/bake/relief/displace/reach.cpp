@@ -101,11 +101,12 @@ void refuse_too_small(const RatePlan& plan, const Rates& rates, const DisplaceMe
     const std::uint64_t bytes = memory.least_bytes(triangles);
     const double over = std::max(double(bytes) / double(memory.limit()), 2 * triangles / double(no_index));
     if (over <= 1) return;
-    throw Error(Refusal::unsuitable, format("segments of %g take %.2g triangles, ", rates.size, triangles) +
-                                         in_binary_units(bytes, true) + " of memory, more than " +
-                                         (bytes <= memory.limit() ? "indices can count" : memory.described_limit()) +
-                                         format("; allow more by `max_bytes`, or set `rates.size` to %.2g or more",
-                                                1.05 * rates.size * std::sqrt(over)));
+    throw Error(Refusal::unsuitable,
+                format("segments of %g take %.2g triangles, ", rates.size, triangles) + in_binary_units(bytes, true) +
+                    " of memory, more than " +
+                    (bytes <= memory.limit() ? "indices can count" : memory.described_limit()) +
+                    (bytes <= memory.limit() ? "; " : "; " + memory.advice() + ", or ") +
+                    format("set `rates.size` to %.2g or more", 1.05 * rates.size * std::sqrt(over)));
 }
 
 } // namespace
