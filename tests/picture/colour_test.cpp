@@ -115,7 +115,7 @@ TEST_SUITE("cli") {
         };
         write_file(folder / "quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
         write_file(folder / "s.toml",
-                   "mesh = [{file = \"quad.obj\"}]\n[render]\nsize = 8\nbackground = [0.2, 0.2, 0.2]\n");
+                   "mesh = [{file = \"quad.obj\"}]\n[render]\nsize = 8\nexposure = 0\nbackground = [0.2, 0.2, 0.2]\n");
         REQUIRE(run_bake(folder, {"render", "s.toml", "--depth", "16", "-o", "r.png"}).code == 0);
         CHECK(has("r.png", "sRGB"));
         ImageInfo info;

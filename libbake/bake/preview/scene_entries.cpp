@@ -7,7 +7,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/origin.h"
 #include "bake/preview/default_lights.h"
-#include "bake/preview/scene_relief.h"
 #include "bake/preview/shape_mesh.h"
 #include <algorithm>
 #include <map>

@@ -1,21 +1,10 @@
 // The checked content of a scene file, and the function that loads its files.
 #pragma once
 #include "bake/preview/camera_entry.h"
-#include "bake/preview/relief_method.h"
+#include "bake/preview/relief_entry.h"
 #include "bake/preview/scene.h"
 
 namespace bake {
-
-/// A height and how it is shown; the numbers mean what they mean to `bake displace`.
-struct ReliefEntry {
-    std::string file;
-    std::optional<float> amplitude; ///< object units, or a part of the diagonal; none: as default_amplitude() says
-    bool relative = false;          ///< the amplitude is a part of the diagonal of the mesh
-    std::optional<float> midlevel;
-    Filter filter = Filter::automatic;
-    Wrap wrap = Wrap::repeat;
-    std::optional<ShadeMethod> shade; ///< none: exact
-};
 
 struct MaterialEntry {
     std::string name;

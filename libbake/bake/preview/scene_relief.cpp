@@ -1,6 +1,5 @@
 #include "bake/preview/scene_relief.h"
 #include "bake/base/parse_double.h"
-#include "bake/relief/height/sample_type.h"
 
 namespace bake {
 namespace {
@@ -56,18 +55,6 @@ void read_relief(const Section& in, ReliefEntry& relief) {
     relief.shade = parse_shade(shade);
     if (!relief.shade)
         refuse(in, *in.table.get("shade"), "\"shade\" is " + in_quotes(shade) + "; give one of " + shade_names);
-}
-
-ReliefOptions relief_options(const ReliefEntry& entry, const ImageInfo& file, double diagonal) {
-    const bool lengths = is_float(file);
-    ReliefOptions options;
-    if (entry.shade) options.method = *entry.shade;
-    options.filter = entry.filter;
-    const double whole = entry.relative || (!entry.amplitude && !lengths) ? diagonal : 1;
-    options.height.amplitude = whole * double(entry.amplitude.value_or(lengths ? 1.0f : 0.01f));
-    options.height.midlevel = entry.midlevel ? double(*entry.midlevel) : default_midlevel(file);
-    options.height.wrap_u = options.height.wrap_v = entry.wrap;
-    return options;
 }
 
 } // namespace bake
