@@ -131,8 +131,8 @@ std::string what_would_fit(const DisplaceMemory& memory, const Plan& plan, const
 } // namespace
 
 void refuse_large_height(const DisplaceMemory& memory) {
-    const std::uint64_t bytes = memory.options().taken + sampler_memory(memory.relief()).most;
-    if (bytes <= memory.limit()) return;
+    const std::uint64_t own = sampler_memory(memory.relief()).most, bytes = memory.options().taken + own;
+    if (bytes <= memory.limit() || own < memory.options().taken) return;
     const Image<float>& height = memory.relief().values;
     throw Error(Refusal::unsuitable, "to interpolate a height of " + std::to_string(height.width()) + " x " +
                                          std::to_string(height.height()) + " texels needs " +
