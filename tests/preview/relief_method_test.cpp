@@ -121,6 +121,16 @@ TEST_SUITE("oracle") {
         CHECK(wide.reflectance.shininess == doctest::Approx(expected).epsilon(0.01));
         CHECK(wide.reflectance.specular.x == doctest::Approx(0.5 * (expected + 2) / 202).epsilon(0.01));
         CHECK(wide.reflectance.shininess < 10);
+
+        // Little relief: a highlight of Phong is as wide as one of Blinn with four times the exponent, at the same flux.
+        options.height.amplitude = 0.02;
+        shiny.reflectance.model = Reflectance::Model::phong, shiny.reflectance.shininess = 50;
+        const Reflectance phong = with_relief(shiny, *shape, height, options).material.reflectance;
+        const double alpha2 = 2 / (4 * 50.0 + 2) + 2 * variance * 0.02 * 0.02;
+        CHECK(phong.shininess == doctest::Approx((2 / alpha2 - 2) / 4).epsilon(0.01));
+        CHECK(phong.specular.x * 51 == doctest::Approx(0.5 * (phong.shininess + 1)).epsilon(1e-4));
+        shiny.reflectance.model = Reflectance::Model::normalised_phong;
+        CHECK(with_relief(shiny, *shape, height, options).material.reflectance.specular == Vec3f(0.5f));
     }
 
 } // TEST_SUITE

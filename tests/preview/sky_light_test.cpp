@@ -99,6 +99,24 @@ TEST_SUITE("oracle") {
         }
     }
 
+    TEST_CASE("sky light: inside a closed room of half mirrors the light is the same for any number of bounces") {
+        // A sphere seen from inside: every surface reflects half by diffusion and half by mirroring, and shines with 1/2.
+        // The radiance L = 1/2 + L/4 + L/4 after infinitely many bounces; the sky is not seen.
+        const auto mean = [](int bounces) {
+            Material material = lambert(0.25f);
+            material.reflect = Vec3f(0.25f);
+            material.reflectance.ambient = Vec3f(0), material.reflectance.emission = Vec3f(0.5f);
+            Scene scene = one_mesh(sphere_mesh(32, 16), material);
+            scene.camera.position = {0.2f, 0.1f, 0}, scene.camera.target = {1, 0, 0};
+            scene.sky.cube = constant_cube(Vec3f(1));
+            scene.settings.bounces = scene.settings.diffuse_bounces = bounces;
+            build(scene);
+            return seen(scene, 32, 32, 2048);
+        };
+        CHECK(mean(12) == doctest::Approx(1).epsilon(0.02));
+        CHECK(mean(2) < 0.99); // mirror rays that have no bounce left see the sky, diffuse ones nothing
+    }
+
 } // TEST_SUITE
 
 TEST_SUITE("unit") {

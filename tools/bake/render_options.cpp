@@ -89,6 +89,8 @@ void check_usage(const RenderArgs& args) {
                                      : " is a scene, not a picture to show on a shape; remove the option");
     if (kind != FileKind::picture && args.as != MapKind::automatic)
         throw refuse_for("--as", " is not a picture to show with --on; remove the option");
+    if (args.layers && args.depth != Depth::automatic && args.depth != Depth::float32)
+        throw usage("--layers: needs --depth float, which holds the numbers of triangles; remove --depth");
     if (args.layers && ending(args.out) != ".exr")
         throw usage("--layers: " + args.out + " is no .exr, which alone holds layers; write to one");
     if (kind == FileKind::scene && !args.material.empty())

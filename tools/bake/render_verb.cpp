@@ -27,9 +27,9 @@ void note_trouble(const RenderStats& stats, const CommonArgs& common) {
     const auto share = [&](std::int64_t count) { return 100.0 * double(count) / double(stats.hits); };
     note(
         common,
-        format("relief is in trouble in %.2g %% of the samples on meshes: in %.2g %% it faces away from the viewer, in "
-               "%.2g %% it mirrors into the surface, in %.2g %% light comes from below the surface; \"terminator\" in "
-               "[render] mends the shading, true displacement the cause",
+        format("relief is in trouble in %.3g %% of the samples on meshes: in %.3g %% it faces away from the viewer, in "
+               "%.3g %% it mirrors into the surface, in %.3g %% light comes from below the surface; a displaced "
+               "mesh has no such trouble",
                share(stats.repaired), share(stats.tilted), share(stats.mirrored_below), share(stats.lit_below)));
 }
 

@@ -29,7 +29,7 @@ void set_height(MaterialEntry& material, const std::string& file, double across,
     relief.amplitude = material.bump_scale * (lengths ? 1 : share);
     if (lengths) notes.push_back(file + ": the values are taken as lengths; `material` bump-scale=FACTOR scales them");
     else
-        notes.push_back(file + format(": the amplitude is %.3g, %.2g %% of the shape's diagonal; `material` "
+        notes.push_back(file + format(": the amplitude is %.3g, %.3g %% of the shape's diagonal; `material` "
                                       "bump-scale=FACTOR scales it",
                                       double(*relief.amplitude) * across, 100.0 * double(*relief.amplitude)));
 }
@@ -70,7 +70,11 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
     MeshEntry mesh;
     mesh.material = 0;
     const bool shown = quick.mesh.empty();
-    MaterialEntry material = material_of(quick.material, glossy + (shown ? repeat_on(quick.shape) : ""));
+    // A baked map needs uvs that do not repeat.
+    const bool baked = quick.material.find("shade=normal") != std::string::npos ||
+                       quick.material.find("shade=displace+normal") != std::string::npos;
+    MaterialEntry material = material_of(quick.material, glossy + (shown && !baked ? repeat_on(quick.shape) : ""));
+    if (material.reflectance.model == Reflectance::Model::dielectric) entries.settings.bounces = 8;
     if (shown) {
         mesh.shape = quick.shape;
         const Bounds box = bounds(shape_mesh(quick.shape)); // refuses an unknown shape before the map is read
@@ -104,7 +108,8 @@ std::vector<CameraEntry> cameras_of(const std::string& mesh) {
 }
 
 void set_sky(SceneEntries& entries, const std::string& name) {
-    entries.sky = {};
+    const float yaw = entries.sky.yaw_deg;
+    entries.sky = {.yaw_deg = yaw};
     entries.labels = name == "labels";
     if (!entries.labels) entries.sky.image = name;
 }

@@ -50,9 +50,14 @@ void widen(Material& material, double variance) {
         r.roughness = float(std::min(1.0, std::pow(alpha * alpha + 2 * variance, 0.25)));
         return;
     }
-    const double n = r.shininess, alpha2 = 2 / (n + 2) + 2 * variance;
-    const double wider = std::max(0.0, 2 / alpha2 - 2);
-    r.specular *= float((wider + 2) / (n + 2));
+    using Model = Reflectance::Model;
+    const bool phong = r.model == Model::phong || r.model == Model::normalised_phong;
+    const double per = phong ? 4 : 1; // (r.v)^n is as wide as (n.h)^(4 n)
+    const double n = r.shininess, alpha2 = 2 / (per * n + 2) + 2 * variance;
+    const double wider = std::max(0.0, 2 / alpha2 - 2) / per;
+    // The normalised models keep their flux by themselves.
+    if (r.model == Model::blinn) r.specular *= float((wider + 2) / (n + 2));
+    if (r.model == Model::phong) r.specular *= float((wider + 1) / (n + 1));
     r.shininess = float(wider);
 }
 

@@ -38,9 +38,9 @@ struct RenderSettings {
     int width = 512, height = 512;
     std::optional<PixelRect> part; ///< the only pixels that are rendered; none: all
     int spp = 4;                   ///< samples per pixel; 1 is the pixel's centre
-    int bounces = 1;               ///< number of mirror reflections that can hit meshes; later ones see only the sky
-    int diffuse_bounces = 0;       ///< number of diffuse reflections that can hit meshes; needs a sky that lights
-    bool shadows = true;           ///< whether meshes shadow lights and sky
+    int bounces = 1;               ///< mirror, glossy and refracted rays that can hit meshes, one after the other
+    int diffuse_bounces = 0;       ///< the same for diffuse reflections; needs a sky that lights
+    bool shadows = true; ///< whether meshes shadow lights and sky, and are seen by glossy and diffuse reflections
     SkyLighting sky_light = SkyLighting::sampled;
     Terminator terminator = Terminator::off;
     std::uint32_t seed = 0;        ///< pictures of different seeds have independent noise

@@ -73,14 +73,22 @@ struct Loaded {
 };
 
 /// Places the mesh with the relief of its material, which is baked for this shape.
-void add_relief(const ReliefEntry& relief, const Placement& placement, const Material& material, Shape& shape,
-                HeightCache& heights, Scene& scene) {
+void add_relief(const ReliefEntry& relief, bool repeats, const Placement& placement, const Material& material,
+                Shape& shape, HeightCache& heights, Scene& scene) {
     auto& height = heights[relief.file];
     if (!height) {
         height = std::make_shared<const HeightTexture>(read_height(relief.file));
         for (const std::string& note : height->info.notes) scene.notes.push_back(relief.file + ": " + note);
     }
     const ReliefOptions options = relief_options(relief, height->info, diagonal(bounds(shape.mesh)));
+    const Shade shade = options.method.shade;
+    if ((shade == Shade::normal || shade == Shade::displace_normal) && repeats)
+        throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
+                                             " bakes a map, and the uvs repeat; give a "
+                                             "repeat of 1, or another method such as \"exact\"");
+    if (shade == Shade::bump && relief.wrap != Wrap::repeat)
+        throw Error(Refusal::unsuitable, "\"shade\" bump looks up a table that repeats; give the height the wrap "
+                                         "\"repeat\", or take another method such as \"blinn\"");
     ReliefModel model = with_relief(material, shape, *height, options);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
@@ -118,7 +126,7 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
                                              material.name + "\" need; unwrap the mesh or remove the textures");
     if (relief.file.empty()) add_instance(scene, *shape, material, entry.placement);
-    else add_relief(relief, entry.placement, material, *shape, loaded.heights, scene);
+    else add_relief(relief, repeat != Vec2f(1), entry.placement, material, *shape, loaded.heights, scene);
 }
 
 Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {

@@ -67,7 +67,7 @@ struct SceneEntries {
     std::vector<MeshEntry> meshes;
     std::optional<GroundEntry> ground;
     bool labels = false; ///< the built-in test sky (label_sky()), instead of `sky`
-    bool studio = false; ///< without lights: three lights placed relative to the camera, with or without a sky
+    bool studio = false; ///< without lights and sky: three lights placed relative to the camera instead of one
 };
 
 /// The camera that is taken; an entry that shows the whole scene if there is none.

@@ -26,8 +26,8 @@ void read_render(const Section& in, SceneEntries& scene) {
         }
     }
     read(in, "spp", s.spp, 1, 65536);
-    read(in, "bounces", s.bounces, 0, 64);
-    read(in, "diffuse-bounces", s.diffuse_bounces, 0, 64);
+    read(in, "bounces", s.bounces, 0, 16);
+    read(in, "diffuse-bounces", s.diffuse_bounces, 0, 16);
     read(in, "shadows", s.shadows);
     read_choice<SkyLighting>(in, "sky-light", s.sky_light,
                              {{"off", SkyLighting::off}, {"sampled", SkyLighting::sampled}});
@@ -107,6 +107,7 @@ void read_material(const Section& in, SceneEntries& scene) {
                         {"normalised-phong", Model::normalised_phong},
                         {"ggx", Model::ggx},
                         {"dielectric", Model::dielectric}});
+    if (m.reflectance.model == Model::dielectric && !in.table.get("ambient")) m.reflectance.ambient = Vec3f(0);
     read(in, "metallic", m.reflectance.metallic, 0, 1);
     read(in, "roughness", m.reflectance.roughness, 0, 1);
     read(in, "ior", m.reflectance.ior, 1, 10);

@@ -26,7 +26,7 @@ void read_position(const Section& in, Light<float>& light) {
 void read_cone(const Section& in, Light<float>& light) {
     light.from = -read_direction(in, "direction", "the direction in which the light shines");
     float inner = 0, outer = 45;
-    read(in, "outer-deg", outer, 0, 180);
+    read(in, "outer-deg", outer, 0.1, 180);
     read(in, "inner-deg", inner, 0, 180);
     if (!(inner < outer))
         refuse(in, *in.table.get(in.table.get("inner-deg") ? "inner-deg" : "outer-deg"),
@@ -35,13 +35,16 @@ void read_cone(const Section& in, Light<float>& light) {
     light.cos_inner = float(std::cos(inner * (pi / 180))), light.cos_outer = float(std::cos(outer * (pi / 180)));
 }
 
-/// `target` and a size, or its two edges.
+/// Its two edges, or a direction and the size of a square.
 void read_quad(const Section& in, Light<float>& light) {
     if (!read(in, "position", light.position))
         refuse(in, in.table, "\"position\" is missing; give the centre of the light");
     const bool edges = read(in, "edge-u", light.edge_u);
     if (read(in, "edge-v", light.edge_v) != edges)
         refuse(in, in.table, "\"edge-u\" and \"edge-v\" belong together; give both, or \"direction\" and \"size\"");
+    for (const char* key : {"direction", "size"})
+        if (const toml::node* node = in.table.get(key); node && edges)
+            refuse(in, *node, in_quotes(key) + " and the edges exclude each other; give one of them");
     if (!edges) {
         const Vec3f direction =
             read_direction(in, "direction", "the direction in which the light shines, or its edges");

@@ -19,7 +19,7 @@ struct Sky {
     Vec3f background{0}; ///< radiance, linear RGB; the background is seen and mirrored, but it does not light
 };
 
-/// A direction of the cube in world space. `yaw_deg` is that of the sky.
+/// From a world-space direction to the cube space in which the faces are looked up, and back. `yaw_deg` is that of the sky.
 Vec3d sky_to_cube(const Vec3d& world, double yaw_deg) noexcept;
 Vec3d cube_to_sky(const Vec3d& cube, double yaw_deg) noexcept;
 

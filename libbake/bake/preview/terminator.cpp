@@ -8,7 +8,7 @@ namespace {
 /// The mirror direction of v about n.
 Vec3f mirrored(const Vec3f& v, const Vec3f& n) noexcept { return 2 * glm::dot(n, v) * n - v; }
 
-/// The normal, in the plane of n and v, whose mirror direction is as far above the surface as `least`.
+/// The normal, in the plane of n and v, whose mirror direction is at least `least` above the surface.
 Vec3f rotated(const Vec3f& n, const Vec3f& surface, const Vec3f& v) noexcept {
     constexpr float least = 1e-3f;
     const Vec3f r = mirrored(v, n);

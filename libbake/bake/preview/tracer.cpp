@@ -28,7 +28,7 @@ private:
     Vec3f through(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
 };
 
-/// Counts light on the wrong side of a surface without relief.
+/// light_factor(). Marks the hit if l is above the horizon of the shading normal but below the surface.
 float gated(const Scene& scene, const Surfel& s, const Vec3f& l, FirstHit* first) noexcept {
     const float factor = light_factor(scene.settings.terminator, s.n, s.surface, l);
     if (first && factor == 0 && glm::dot(s.n, l) > 0 && s.n != s.surface) first->repaired = true;
@@ -82,8 +82,8 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     if (factor == 0) return;
     const Ray ray{offset_origin(s.light_at, s.facet), drawn.l};
     const BsdfValue f = evaluate(s.bsdf, s.n, drawn.l, s.v);
-    ++stats.rays;
-    const Hit hit = scene.settings.shadows ? scene.bvh->intersect(ray) : Hit{};
+    Hit hit;
+    if (scene.settings.shadows) ++stats.rays, hit = scene.bvh->intersect(ray);
     if (!hit) {
         const Vec3f light =
             factor * weight(drawn.pdf, scene.sky_light.pdf(drawn.l)) / drawn.pdf * sky_radiance(scene.sky, drawn.l);
@@ -122,13 +122,21 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     const Surfel s = make_surfel(scene, hit, ray.direction);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
-    if (is_glass(s.bsdf)) {
-        sum.reflected += through(s, bounces, diffuse_bounces);
-    } else if (!scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled) {
-        add_sky_sample(s, sum, first);
-        add_bsdf_sample(s, bounces, diffuse_bounces, sum);
+    const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
+    const bool sky =
+        !glass && s.bsdf.count > 0 && !scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled;
+    // Beyond the first hit one of two branches is followed, so that the time does not double with every bounce.
+    const bool choose = !first && sky && mirror;
+    const float choice = choose ? sampler.next() : 0, part = choose ? 0.5f : 1.0f;
+    if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
+    if (sky) add_sky_sample(s, sum, first);
+    if (sky && (!choose || choice < part)) {
+        Radiance drawn;
+        add_bsdf_sample(s, bounces, diffuse_bounces, drawn);
+        sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;
     }
-    if (s.reflect != Vec3f(0)) sum.reflected += s.reflect * mirrored(s, bounces, diffuse_bounces);
+    if (mirror && (!choose || choice >= part))
+        sum.reflected += s.reflect * mirrored(s, bounces, diffuse_bounces) / part;
     if (!first) return sum;
 
     first->hit = hit, first->depth = hit.t * glm::length(ray.direction);

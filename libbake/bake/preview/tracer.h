@@ -6,7 +6,7 @@
 namespace bake {
 
 struct RenderStats {
-    std::int64_t rays = 0;        ///< primary, shadow, sky and mirror rays
+    std::int64_t rays = 0;        ///< of every kind
     std::int64_t bad_samples = 0; ///< samples whose radiance is not finite; they are black
     std::int64_t hits = 0;        ///< primary rays that hit a mesh
     /// Of those: where the shading normal faces away from the viewer, where its mirror direction is below the surface,
@@ -32,7 +32,7 @@ struct FirstHit {
     float depth = 0; ///< distance from the origin of the ray
     Vec3f position{0}, facet{0}, normal{0}, albedo{0};
     Vec2f uv{0};
-    float lit = 0; ///< share of the lights that are not shadowed there
+    float lit = 0; ///< share of the lights whose light is reflected there
     bool repaired = false;
 };
 
