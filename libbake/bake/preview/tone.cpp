@@ -29,7 +29,7 @@ float automatic_exposure(const Image<float>& picture) {
     std::nth_element(luminance.begin(), high, luminance.end());
     const double by_mean = std::log2(grey) - logs / double(luminance.size());
     const double by_highlights = std::log2(brightest) - std::log2(double(*high));
-    return float(std::clamp(std::min(std::round(4 * by_mean), std::floor(4 * by_highlights)) / 4, -64.0, 64.0));
+    return 0.0f + float(std::clamp(std::min(std::round(4 * by_mean), std::floor(4 * by_highlights)) / 4, -64.0, 64.0));
 }
 
 } // namespace bake
