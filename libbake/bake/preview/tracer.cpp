@@ -70,7 +70,7 @@ void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexc
     if (factor == 0 || !is_visible(s, {from.l})) return;
     const float share = factor * weight(from.pdf, pdf(s.bsdf, s.n, from.l, s.v)) / from.pdf;
     const Vec3f light = share * sky_radiance(scene.sky, from.l);
-    sum.diffuse += f.diffuse * light;
+    sum.diffuse += s.occlusion * f.diffuse * light;
     sum.specular += f.specular * light;
 }
 
@@ -82,12 +82,13 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     if (factor == 0) return;
     const Ray ray{offset_origin(s.light_at, s.facet), drawn.l};
     const BsdfValue f = evaluate(s.bsdf, s.n, drawn.l, s.v);
-    Hit hit;
-    if (scene.settings.shadows) ++stats.rays, hit = scene.bvh->intersect(ray);
-    if (!hit) {
+    // As for the sky's samples: surfaces of one side shadow from both.
+    const bool hidden = scene.settings.shadows && scene.bvh->occluded(ray);
+    stats.rays += scene.settings.shadows;
+    if (!hidden) {
         const Vec3f light =
             factor * weight(drawn.pdf, scene.sky_light.pdf(drawn.l)) / drawn.pdf * sky_radiance(scene.sky, drawn.l);
-        sum.diffuse += f.diffuse * light;
+        sum.diffuse += s.occlusion * f.diffuse * light;
         sum.specular += f.specular * light;
         return;
     }
