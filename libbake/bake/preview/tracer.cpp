@@ -1,4 +1,5 @@
 #include "bake/preview/tracer.h"
+#include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
 #include "bake/preview/translucency.h"
 #include <cmath>
@@ -11,6 +12,8 @@ namespace {
 float weight(float own, float other) noexcept { return own > 0 ? own / (own + other) : 0; }
 
 bool is_glass(const Bsdf& bsdf) noexcept { return bsdf.count == 1 && bsdf.lobes[0].kind == LobeKind::dielectric; }
+
+std::vector<LightTerm>* terms_of(const FirstHit* first) noexcept { return first ? first->terms : nullptr; }
 
 /// One path from the camera, with what it counts.
 struct Path {
@@ -55,6 +58,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
         const LightSample<float> to = sample(light, s.at.p, u);
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, int(&light - scene.lights.data()), to.l,
+                                to.radiance);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
         if (f.diffuse + f.specular == Vec3f(0) || to.radiance == Vec3f(0)) continue;
         const float factor = gated(scene, s, to.l, first);
@@ -68,6 +73,7 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
 }
 
 void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept {
+    const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky);
     const SkySample from = scene.sky_light.sample(sampler.next2());
     if (!(from.pdf > 0)) return;
     const BsdfTerm term = evaluate_with_pdf(s.bsdf, s.n, from.l, s.v);
@@ -102,7 +108,9 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    Sampler own = sampler.branch(); // a mirror ray of the same hit may follow
+    Path path{scene, own, stats};
+    const Vec3f light = factor / drawn.pdf * path.along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
@@ -160,6 +168,7 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
     if (sky) add_sky_sample(s, sum, first);
     if (sky && (!choose || choice < part)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky_by_surface);
         Radiance drawn;
         add_bsdf_sample(s, bounces, diffuse_bounces, drawn);
         sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;
