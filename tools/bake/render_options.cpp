@@ -55,6 +55,11 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
         ->type_name("KEY=VALUE,...");
     sub.add_option("--sky", args.sky,
                    "Sky, instead of the scene's: a picture, faces with %s, or labels: the built-in test sky");
+    add_choice<std::optional<SkyLighting>>(
+        sub, "--sky-light", args.sky_light,
+        {{"sampled", SkyLighting::sampled}, {"irradiance", SkyLighting::irradiance}, {"off", SkyLighting::off}},
+        "How the sky lights meshes: by rays; from filtered levels without shadows, as in "
+        "real-time engines; not at all [the scene's]");
     sub.add_option("--camera", args.camera,
                    "Camera of the scene [the first] or of the .glb or .gltf [one that shows the mesh]")
         ->type_name("NAME");
@@ -125,6 +130,7 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
     if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
     entries.settings.spp = most_samples(args, entries.settings.spp);
     if (args.yaw) entries.sky.yaw_deg = float(*args.yaw);
+    if (args.sky_light) entries.settings.sky_light = *args.sky_light;
     if (args.exposure) entries.settings.exposure = float(*args.exposure);
     return entries;
 }

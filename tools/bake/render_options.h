@@ -15,7 +15,8 @@ struct RenderArgs {
     MapKind as = MapKind::automatic;
     std::optional<PixelRect> crop;
     std::optional<double> yaw, exposure; ///< none: the scene's
-    bool layers = false;                 ///< .exr with the channels of layer_channels()
+    std::optional<SkyLighting> sky_light;
+    bool layers = false; ///< .exr with the channels of layer_channels()
     SamplingArgs sampling;
 };
 
