@@ -81,7 +81,7 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
                       "  bake render meshes/scene.toml -o layers.exr --layers\n"
                       "  bake render meshes/scene.toml -o smooth.png --noise 0.02\n"
-                      "  bake render meshes/scene.toml -o minute.png --time-limit 2 --preview\n"
+                      "  bake render meshes/scene.toml -o soon.png --time-limit 2 --preview\n"
                       "  bake render meshes/scene.toml --pixel 120,80\n"
                       "A mesh or a map needs no scene file; it is lit and framed automatically:\n"
                       "  bake render meshes/torus.obj -o torus.png --material diffuse=#c08050,specular=.4\n"

@@ -108,9 +108,7 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    Sampler own = sampler.branch(); // a mirror ray of the same hit may follow
-    Path path{scene, own, stats};
-    const Vec3f light = factor / drawn.pdf * path.along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
@@ -167,6 +165,8 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     const float choice = choose ? sampler.next() : 0, part = choose ? 0.5f : 1.0f;
     if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
     if (sky) add_sky_sample(s, sum, first);
+    // Where two branches are followed, the numbers of the mirror's do not depend on how many the other one takes.
+    Sampler branch = sampler.branch();
     if (sky && (!choose || choice < part)) {
         const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky_by_surface);
         Radiance drawn;
@@ -174,7 +174,9 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
         sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;
     }
     if (mirror && (!choose || choice >= part))
-        sum.reflected += s.reflect * mirrored(s, bounces, diffuse_bounces) / part;
+        sum.reflected += s.reflect *
+                         Path{scene, sky && !choose ? branch : sampler, stats}.mirrored(s, bounces, diffuse_bounces) /
+                         part;
     if (!first) return sum;
 
     first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
