@@ -3,6 +3,7 @@
 #include "bake/base/file_bytes.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/preview/scene_lights.h"
+#include "bake/preview/scene_maps.h"
 #include "bake/preview/scene_objects.h"
 #include "bake/preview/scene_relief.h"
 #include "bake/preview/scene_section.h"
@@ -110,10 +111,11 @@ void read_sky(const Section& in, SceneEntries& scene) {
 } // namespace
 
 void read_material(const Section& in, SceneEntries& scene) {
-    allow_only(in,
-               {"name",     "brdf",     "ambient", "diffuse", "specular",     "shininess",  "metallic",    "roughness",
-                "ior",      "emission", "reflect", "albedo",  "albedo-space", "bump",       "bump-scale",  "normal",
-                "encoding", "directx",  "height",  "shade",   "repeat",       "subsurface", "translucency"});
+    allow_only(in, {"name",         "brdf",          "ambient",      "diffuse",      "specular",      "shininess",
+                    "metallic",     "roughness",     "ior",          "emission",     "reflect",       "albedo",
+                    "albedo-space", "bump",          "bump-scale",   "normal",       "encoding",      "directx",
+                    "height",       "shade",         "repeat",       "specular-map", "shininess-map", "roughness-map",
+                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -145,6 +147,7 @@ void read_material(const Section& in, SceneEntries& scene) {
         refuse(in, *share, "\"translucency\" has no \"subsurface\"; give the mean free path of the light in the body");
     read_path(in, "albedo", m.albedo);
     read_colour_space(in, "albedo-space", m.albedo_space);
+    read_maps(in, m);
     read_path(in, "bump", m.bump_table);
     read(in, "bump-scale", m.bump_scale);
     if (read_path(in, "normal", m.normal_map) && !m.bump_table.empty())
@@ -164,11 +167,13 @@ namespace {
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
     allow_only(in, {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat",
-                    "flip-v", "uv-set", "repeat"});
+                    "flip-v", "uv-set", "repeat", "lights"});
     MeshEntry m;
     read_mesh_source(in, m);
     read_mesh_name(in, scene, m);
     read_material_name(in, scene, m.material);
+    m.own_materials = m.material < 0;
+    read(in, "lights", m.lights);
     read_placement(in, m.placement);
     read_repeat(in, m.repeat);
     read(in, "flat", m.flat);

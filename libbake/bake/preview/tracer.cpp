@@ -1,4 +1,5 @@
 #include "bake/preview/tracer.h"
+#include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
 #include "bake/preview/translucency.h"
 #include <cmath>
@@ -11,6 +12,8 @@ namespace {
 float weight(float own, float other) noexcept { return own > 0 ? own / (own + other) : 0; }
 
 bool is_glass(const Bsdf& bsdf) noexcept { return bsdf.count == 1 && bsdf.lobes[0].kind == LobeKind::dielectric; }
+
+std::vector<LightTerm>* terms_of(const FirstHit* first) noexcept { return first ? first->terms : nullptr; }
 
 /// One path from the camera, with what it counts.
 struct Path {
@@ -55,6 +58,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
         const LightSample<float> to = sample(light, s.at.p, u);
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, int(&light - scene.lights.data()), to.l,
+                                to.radiance);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
         if (f.diffuse + f.specular == Vec3f(0) || to.radiance == Vec3f(0)) continue;
         const float factor = gated(scene, s, to.l, first);
@@ -68,6 +73,7 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
 }
 
 void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept {
+    const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky);
     const SkySample from = scene.sky_light.sample(sampler.next2());
     if (!(from.pdf > 0)) return;
     const BsdfTerm term = evaluate_with_pdf(s.bsdf, s.n, from.l, s.v);
@@ -77,7 +83,7 @@ void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexc
     if (factor == 0 || !is_visible(s, {from.l})) return;
     const float share = factor * weight(from.pdf, term.pdf) / from.pdf;
     const Vec3f light = share * sky_radiance(scene.sky, from.l);
-    sum.diffuse += f.diffuse * light;
+    sum.diffuse += s.occlusion * f.diffuse * light;
     sum.specular += f.specular * light;
 }
 
@@ -89,26 +95,29 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     if (factor == 0) return;
     const Ray ray{offset_origin(s.light_at, s.facet), drawn.l};
     const BsdfValue& f = drawn.value;
-    Hit hit;
-    if (scene.settings.shadows) ++stats.rays, hit = scene.bvh->intersect(ray);
-    if (!hit) {
+    // As for the sky's samples: surfaces of one side shadow from both.
+    const bool hidden = scene.settings.shadows && scene.bvh->occluded(ray);
+    stats.rays += scene.settings.shadows;
+    if (!hidden) {
         const Vec3f light =
             factor * weight(drawn.pdf, scene.sky_light.pdf(drawn.l)) / drawn.pdf * sky_radiance(scene.sky, drawn.l);
-        sum.diffuse += f.diffuse * light;
+        sum.diffuse += s.occlusion * f.diffuse * light;
         sum.specular += f.specular * light;
         return;
     }
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    Sampler own = sampler.branch(); // a mirror ray of the same hit may follow
+    Path path{scene, own, stats};
+    const Vec3f light = factor / drawn.pdf * path.along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
 
 void Path::add_filtered_sky(const Surfel& s, Radiance& sum) noexcept {
     const BsdfValue light = reflected(scene.sky_levels, scene.sky, s.bsdf, s.n, s.v);
-    sum.diffuse += light.diffuse, sum.specular += light.specular;
+    sum.diffuse += s.occlusion * light.diffuse, sum.specular += light.specular;
 }
 
 /// Light that enters elsewhere and leaves the body here.
@@ -162,6 +171,7 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
     if (sky) add_sky_sample(s, sum, first);
     if (sky && (!choose || choice < part)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky_by_surface);
         Radiance drawn;
         add_bsdf_sample(s, bounces, diffuse_bounces, drawn);
         sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;
