@@ -120,17 +120,20 @@ void Path::add_filtered_sky(const Surfel& s, Radiance& sum) noexcept {
 
 /// Light that enters elsewhere and leaves the body here.
 void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces, Radiance& sum) noexcept {
-    const LightEntry entry = draw_light_entry(scene, s, hit, sampler, stats.rays);
-    if (!entry.hit) return;
-    const Surfel there = entry_surfel(scene, entry, s);
-    Radiance light;
-    add_lights(there, light, nullptr);
-    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
-    if (sky_lights(SkyLighting::sampled)) {
-        add_sky_sample(there, light, nullptr);
-        add_bsdf_sample(there, 0, diffuse_bounces, light);
+    const LightEntries entries = draw_light_entries(scene, s, hit, sampler, stats.rays);
+    const Vec3f leaves = cover(s.bsdf, s.n, s.v);
+    for (int i = 0; i < entries.count; ++i) {
+        const LightEntry& entry = entries.entry[std::size_t(i)];
+        const Surfel there = entry_surfel(scene, entry, s);
+        Radiance light;
+        add_lights(there, light, nullptr);
+        if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
+        if (sky_lights(SkyLighting::sampled)) {
+            add_sky_sample(there, light, nullptr);
+            add_bsdf_sample(there, 0, diffuse_bounces, light);
+        }
+        sum.diffuse += entry.factor * leaves * light.diffuse;
     }
-    sum.diffuse += entry.factor * cover(s.bsdf, s.n, s.v) * light.diffuse;
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
