@@ -66,6 +66,8 @@ void build(Scene& scene) {
     }
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
+    if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
+        complete(scene.sky_levels, scene.sky.cube);
 }
 
 Bounds bounds(const Scene& scene) noexcept {

@@ -210,6 +210,13 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     return std::move(sky.cube);
 }
 
+void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {
+    if (!entry.irradiance.empty()) levels.irradiance = read_irradiance(entry.irradiance);
+    if (entry.specular.empty()) return;
+    levels.glossy = read_glossy(entry.specular, entry.alphas.size());
+    levels.alphas = entry.alphas;
+}
+
 void add_ground(const SceneEntries& entries, const Bounds& box, Loaded& loaded, Scene& scene) {
     const GroundEntry& ground = *entries.ground;
     const double across = diagonal(box) > 0 ? diagonal(box) : 1;
@@ -238,10 +245,13 @@ Scene load(const SceneEntries& entries) {
     scene.lights = entries.lights;
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
-    scene.sky.scale = entries.sky.scale, scene.sky.yaw_deg = entries.sky.yaw_deg;
+    scene.sky.scale = entries.sky.scale, scene.sky.yaw = SkyYaw(double(entries.sky.yaw_deg));
     if (entries.labels) scene.sky.cube = label_sky(512);
     else if (has_sky)
         scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
+
+    if (scene.settings.sky_light == SkyLighting::irradiance)
+        at_line(entries, entries.sky.line, [&] { load_sky_levels(entries.sky, scene.sky_levels); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1

@@ -45,6 +45,9 @@ struct SkyEntry {
     ColourSpace space = ColourSpace::automatic;
     BadPolicy bad = BadPolicy::refuse;
     float scale = 1, yaw_deg = 0;
+    std::string irradiance;    ///< file for SkyLighting::irradiance; empty: computed
+    std::string specular;      ///< the same, six files with levels
+    std::vector<float> alphas; ///< of the levels in `specular`
     int line = 0;
 };
 
