@@ -1,6 +1,7 @@
 #include "bake/relief/height/height.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/relief/height/picture_height.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -126,8 +127,13 @@ void refuse_bad_values(const std::string& path, const Image<float>& values) {
 } // namespace
 
 HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& limits) {
-    HeightTexture height;
-    Image<float> picture = read_image(path, &height.info, limits);
+    ImageInfo info;
+    Image<float> picture = read_image(path, &info, limits);
+    return picture_height(path, std::move(picture), std::move(info), grey);
+}
+
+HeightTexture picture_height(const std::string& path, Image<float> picture, ImageInfo info, Grey grey) {
+    HeightTexture height{.values = {}, .info = std::move(info), .kind = {}};
     const std::vector<float> weights = grey_weights(path, height.info, grey);
     count_levels(height, picture, weights);
     if (grey == Grey::mean || grey == Grey::luma) height.kind = guess_kind(picture, height.info);
