@@ -21,6 +21,9 @@ struct Reflectance {
     float ior = 1.5f;                     ///< dielectric: index of refraction
 };
 
+/// The lobe of the highlight; none of a dielectric.
+LobeKind highlight(Reflectance::Model model) noexcept;
+
 /// `tint` multiplies ambient and diffuse.
 Bsdf make_bsdf(const Reflectance& reflectance, const Vec3f& tint = Vec3f(1)) noexcept;
 

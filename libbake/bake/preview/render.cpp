@@ -62,7 +62,9 @@ void for_pixels(const Scene& scene, const RenderSettings& settings, RenderStats*
                         const Vec2d at = pixel_sample(settings.spp, sampler);
                         const Ray ray = primary_ray(frame, x + at.x, y + at.y, settings.width, settings.height);
                         FirstHit hit;
-                        const Radiance value = radiance(scene, ray, settings.bounces, sampler, counts, &hit);
+                        const Radiance value =
+                            radiance(scene, ray, settings.bounces, sampler, counts, &hit,
+                                     primary_cone(frame, ray.direction, settings.height, settings.spp));
                         if (finite(value.total())) sums.add(value, hit);
                         else ++counts.bad_samples;
                         if (i == 0) sums.first = hit;

@@ -63,6 +63,7 @@ void build(Scene& scene) {
     }
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
+    add_mips(scene.materials, scene.settings.filter);
 }
 
 Bounds bounds(const Scene& scene) noexcept {
