@@ -1,4 +1,4 @@
-// The height of a picture that is in memory.
+// The height of a picture: of a file, by read_height(), or in memory.
 #pragma once
 #include "bake/relief/height/height.h"
 
