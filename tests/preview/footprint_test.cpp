@@ -1,4 +1,5 @@
 #include "bake/preview/footprint.h"
+#include "bake/ray/camera.h"
 #include "preview/little_scenes.h"
 #include <doctest/doctest.h>
 #include <limits>
@@ -46,7 +47,8 @@ TEST_SUITE("unit") {
             const auto hit = [&](double x, double y) {
                 const Ray ray = primary_ray(frame, x, y, 200, 200);
                 const float t = -ray.origin.z / ray.direction.z;
-                const RayCone cone = primary_cone(frame, ray.direction, 200, 1);
+                const RayCone cone =
+                    pixel_cone(ray, primary_ray(frame, x + 1, y, 200, 200), primary_ray(frame, x, y + 1, 200, 200), 1);
                 const Footprint print = footprint_at(*shape, as_is, {0, 0.3f, 0.3f}, Vec3f(0, 0, 1), ray.direction,
                                                      cone.width + cone.spread * t);
                 return std::pair(Vec2f(ray.origin + t * ray.direction) / 2.0f, print);
@@ -55,8 +57,11 @@ TEST_SUITE("unit") {
             const auto [at, print] = hit(100.5, 100.5);
             CHECK(glm::length(hit(101.5, 100.5).first - at) == doctest::Approx(glm::length(print.minor)).epsilon(0.01));
             CHECK(glm::length(hit(100.5, 101.5).first - at) == doctest::Approx(glm::length(print.major)).epsilon(0.01));
-            const RayCone four = primary_cone(frame, frame.forward, 200, 4),
-                          one = primary_cone(frame, frame.forward, 200, 1);
+            const auto centre = [&](int spp) {
+                const auto at = [&](double x, double y) { return primary_ray(frame, x, y, 200, 200); };
+                return pixel_cone(at(100, 100), at(101, 100), at(100, 101), spp);
+            };
+            const RayCone four = centre(4), one = centre(1);
             CHECK(four.width == doctest::Approx(one.width / 2));
             CHECK(four.spread == doctest::Approx(one.spread / 2));
         }

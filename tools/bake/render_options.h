@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/preview/quick_scene.h"
 #include "options.h"
+#include "sampling_options.h"
 
 namespace bake {
 
@@ -15,7 +16,9 @@ struct RenderArgs {
     std::optional<PixelRect> crop;
     std::optional<double> yaw, exposure; ///< none: the scene's
     std::optional<TextureFilter> filter; ///< none: the scene's
-    bool layers = false;                 ///< .exr with the channels of layer_channels()
+    std::optional<SkyLighting> sky_light;
+    bool layers = false; ///< .exr with the channels of layer_channels()
+    SamplingArgs sampling;
 };
 
 void add_render_options(CLI::App& sub, RenderArgs& args);

@@ -38,13 +38,13 @@ bool finite(const Vec2f& v) noexcept { return std::isfinite(v.x) && std::isfinit
 
 } // namespace
 
-RayCone primary_cone(const CameraFrame& frame, const Vec3f& direction, int height, int spp) noexcept {
-    const float side = 2 * frame.half_height / float(height) / std::sqrt(float(spp));
-    if (frame.orthographic) return {side, 0};
-    // Away from the centre a pixel is seen at an angle, and from farther away: cos along a circle around the centre, its
-    // square along a radius. This keeps the solid angle.
-    const float cosine = std::max(0.0f, glm::dot(direction, frame.forward));
-    return {0, side * cosine * std::sqrt(cosine)};
+RayCone pixel_cone(const Ray& ray, const Ray& right, const Ray& below, int spp) noexcept {
+    // The side of a square as large as the pixel, which is a parallelogram away from the centre of a picture.
+    const auto side = [&](const Vec3f& at, const Vec3f& a, const Vec3f& b) {
+        const double area = glm::length(glm::cross(Vec3d(a) - Vec3d(at), Vec3d(b) - Vec3d(at)));
+        return std::isfinite(area) ? float(std::sqrt(area / spp)) : 0.0f;
+    };
+    return {side(ray.origin, right.origin, below.origin), side(ray.direction, right.direction, below.direction)};
 }
 
 Footprint footprint_at(const Shape& shape, const glm::mat3& linear, const ShapePoint& at, const Vec3f& facet,

@@ -4,7 +4,7 @@
 // Akenine-Moeller et al., Improved Shader and Texture Level of Detail Using Ray Cones, JCGT 2021.
 #pragma once
 #include "bake/preview/shape.h"
-#include "bake/ray/camera.h"
+#include "bake/ray/ray.h"
 #include <glm/mat3x3.hpp>
 
 namespace bake {
@@ -14,8 +14,9 @@ struct RayCone {
     float width = 0, spread = 0;
 };
 
-/// The cone of one of `spp` samples of a pixel, in a picture that is `height` pixels high, around a ray of the camera.
-RayCone primary_cone(const CameraFrame& frame, const Vec3f& direction, int height, int spp) noexcept;
+/// The cone of one of `spp` samples of a pixel, from the ray through a point of it and those through the same points of the
+/// pixels to the right and below.
+RayCone pixel_cone(const Ray& ray, const Ray& right, const Ray& below, int spp) noexcept;
 
 /// The ellipse in which a cone meets the plane of a facet, in uv: its two axes, from end to end. `minor` is the one across
 /// the ray. Zeros where nothing is known.

@@ -127,8 +127,23 @@ void add_mips(std::span<const std::unique_ptr<Material>> materials, TextureFilte
                                             : normal_mips(*texture);
         texture.mips = mips;
     };
+    std::map<const SurfaceMaps*, std::shared_ptr<const SurfaceMaps>> filtered;
+    const auto add_to_maps = [&](std::shared_ptr<const SurfaceMaps>& maps) {
+        auto& with_mips = filtered[maps.get()];
+        if (!with_mips) {
+            auto copy = std::make_shared<SurfaceMaps>(*maps); // that of the rays' filters stays as it is
+            for (SurfaceMap* map :
+                 {&copy->base, &copy->specular, &copy->shininess, &copy->roughness, &copy->metallic, &copy->emission})
+                if (map->is_plain()) add(map->texture, Holds::colours);
+            with_mips = std::move(copy);
+        }
+        maps = with_mips;
+    };
     for (const auto& material : materials) {
-        if (filter != TextureFilter::off) add(material->albedo, Holds::colours);
+        if (filter != TextureFilter::off) {
+            add(material->albedo, Holds::colours);
+            if (material->maps) add_to_maps(material->maps);
+        }
         if (filter == TextureFilter::off && !material->always_moments) continue;
         add(material->bump_table, Holds::slopes);
         add(material->normal_map, Holds::normals);
@@ -138,11 +153,10 @@ void add_mips(std::span<const std::unique_ptr<Material>> materials, TextureFilte
 
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at, const Lookup& lookup,
              float variance) noexcept {
-    const auto colour = [&](const Texture& texture) {
-        const Vec2f uv = uv_at(shape, at);
-        return lookup.filter == TextureFilter::off ? lookup3(*texture, uv) : lookup3(texture, uv, lookup.footprint);
-    };
-    Bsdf bsdf = make_bsdf(material.reflectance, material.albedo ? colour(material.albedo) : Vec3f(1));
+    const Footprint print = lookup.filter == TextureFilter::off ? Footprint{} : lookup.footprint;
+    const Vec3f tint = material.albedo ? lookup3(material.albedo, uv_at(shape, at), print) : Vec3f(1);
+    Bsdf bsdf = material.maps ? mapped_bsdf(*material.maps, material.reflectance, tint, shape, at, print)
+                              : make_bsdf(material.reflectance, tint);
     widen(bsdf, variance);
     return bsdf;
 }

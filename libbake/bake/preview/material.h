@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/preview/reflectance.h"
 #include "bake/preview/shape.h"
+#include "bake/preview/surface_maps.h"
 #include "bake/preview/texture.h"
 #include "bake/relief/map/displaced_normal.h"
 #include <span>
@@ -22,6 +23,7 @@ struct Material {
     ConstantScale<float> height_scale;       ///< for NormalMethod::constant_scale
     std::shared_ptr<const Mips> height_mips; ///< of the slopes of `height`; null: its lookups are at a point
     bool always_moments = false;             ///< relief is filtered by TextureFilter::moments whatever the scene says
+    std::shared_ptr<const SurfaceMaps> maps; ///< further textures, alpha and sides; null: none
 };
 
 /// What a lookup at a point of a shape covers.
@@ -34,7 +36,7 @@ struct Lookup {
 /// Gives the textures their mips, unless they have them. Materials that share a picture share its mips.
 void add_mips(std::span<const std::unique_ptr<Material>> materials, TextureFilter filter);
 
-/// The reflection model at a point, including the albedo texture. `variance` of the slopes around the shading normal widens
+/// The reflection model at a point, including the albedo texture and the maps. `variance` of the slopes around the shading normal widens
 /// it.
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at, const Lookup& lookup = {},
              float variance = 0) noexcept;

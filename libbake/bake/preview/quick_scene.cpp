@@ -86,6 +86,7 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
         set_map(material, quick, *picture, diagonal(box), notes);
     } else {
         mesh.file = quick.mesh;
+        mesh.own_materials = quick.material.empty();
     }
     const auto& shade = material.relief.shade;
     if (material.relief.file.empty() && shade && shade->shade != Shade::plain)

@@ -4,7 +4,9 @@ namespace bake {
 
 namespace {
 
-bool has_textures(const Material& material) noexcept { return material.albedo || has_relief(material); }
+bool has_textures(const Material& material) noexcept {
+    return material.albedo || material.maps || has_relief(material);
+}
 
 } // namespace
 
@@ -45,6 +47,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, c
     s.reflect = instance.material->reflect;
     s.cone = s.reflect == Vec3f(0) ? RayCone{cone.width + cone.spread * hit.t, cone.spread}
                                    : mirrored_cone(shape, instance.linear, where, s.facet, direction, cone, hit.t);
+    if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.
     const Vec3f& base = glm::dot(s.surface, s.v) > 0 ? s.surface : s.facet;

@@ -15,6 +15,7 @@ struct Surfel {
     RayCone cone;       ///< of mirror rays
     float variance = 0; ///< of the slopes around n that lookups averaged away; the bsdf has it already
     Bsdf bsdf;
+    float occlusion = 1;         ///< factor on what diffuse terms reflect of the sky
     Vec3f reflect{0};            ///< factor on the radiance from the mirror direction
     bool inside = false;         ///< seen from the side that the normals point away from
     bool tilted = false;         ///< relief tilts n away from the viewer, before it is mended
