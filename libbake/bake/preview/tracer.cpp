@@ -2,6 +2,7 @@
 #include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
 #include "bake/preview/translucency.h"
+#include "bake/preview/widen.h"
 #include <cmath>
 
 namespace bake {
@@ -21,7 +22,7 @@ struct Path {
     Sampler& sampler;
     RenderStats& stats;
 
-    Radiance along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
+    Radiance along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
 
 private:
     bool is_visible(const Surfel& s, const LightSample<float>& to) noexcept;
@@ -108,7 +109,7 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    const Vec3f light = factor / drawn.pdf * along(ray, s.cone, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
@@ -137,9 +138,10 @@ void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces,
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
-    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
+    const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.next2()) : s.n;
+    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, n, s.facet)};
     if (bounces <= 0) return sky_radiance(scene.sky, ray.direction);
-    return along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
 /// Glass: reflects or refracts, by chance.
@@ -149,14 +151,14 @@ Vec3f Path::through(const Surfel& s, int bounces, int diffuse_bounces) noexcept 
     if (drawn.factor == Vec3f(0)) return Vec3f(0);
     const Ray ray{offset_origin(s.at, glm::dot(drawn.l, s.facet) < 0 ? -s.facet : s.facet), drawn.l};
     if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction);
-    return drawn.factor * along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return drawn.factor * along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
-Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
+Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
     ++stats.rays;
     const Hit hit = scene.bvh->intersect(ray);
     if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction)};
-    const Surfel s = make_surfel(scene, hit, ray.direction);
+    const Surfel s = make_surfel(scene, hit, ray.direction, cone);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
     const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
@@ -204,9 +206,10 @@ RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
 }
 
 Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
-                  FirstHit* first) noexcept {
+                  FirstHit* first, const RayCone& cone) noexcept {
     FirstHit unused;
-    return Path{scene, sampler, stats}.along(ray, bounces, scene.settings.diffuse_bounces, first ? first : &unused);
+    return Path{scene, sampler, stats}.along(ray, cone, bounces, scene.settings.diffuse_bounces,
+                                             first ? first : &unused);
 }
 
 } // namespace bake
