@@ -33,7 +33,7 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
                         const Vec2d at = pixel_sample(spp, sampler);
                         const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
                         Ray ray;
-                        ray.origin = position;
+                        ray.origin = position - scene.origin;
                         ray.direction =
                             Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
                         const Vec3f value = radiance(scene, ray, scene.settings.bounces, sampler, per_row[r]).total();

@@ -26,7 +26,8 @@ struct PixelSums {
 /// Writes the values of a pixel, in the order of layer_channels().
 void write_layers(const PixelSums& s, int spp, float* to) noexcept {
     const double share = 1.0 / spp;
-    const auto put = [&](double value) { *to++ = float(value); };
+    // Extreme materials have an albedo beyond what floats hold, which is no reason to drop the radiance.
+    const auto put = [&](double value) { *to++ = std::isfinite(float(value)) ? float(value) : 0; };
     const auto put3 = [&](const Vec3d& value) { put(value.x), put(value.y), put(value.z); };
     put3(s.total * share);
     put(s.hits * share);
@@ -46,7 +47,7 @@ template <class Write>
 void for_pixels(const Scene& scene, const RenderSettings& settings, RenderStats* stats, Progress* progress,
                 const Write& write) {
     const PixelRect part = settings.part.value_or(PixelRect{0, 0, settings.width, settings.height});
-    const CameraFrame frame = camera_frame(scene.camera);
+    const CameraFrame frame = camera_frame(scene);
     std::vector<RenderStats> per_row(part.height);
     if (progress) progress->start("render", part.height);
     for_rows(

@@ -35,6 +35,11 @@ float gated(const Scene& scene, const Surfel& s, const Vec3f& l, FirstHit* first
     return factor;
 }
 
+Light<float> moved(Light<float> light, const Vec3f& by) noexcept {
+    light.position += by;
+    return light;
+}
+
 bool Path::is_visible(const Surfel& s, const LightSample<float>& to) noexcept {
     if (!scene.settings.shadows) return true;
     ++stats.rays;
@@ -48,7 +53,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     int visible = 0;
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
-        const LightSample<float> to = sample(light, s.at.p, u);
+        const LightSample<float> to =
+            scene.origin == Vec3f(0) ? sample(light, s.at.p, u) : sample(moved(light, -scene.origin), s.at.p, u);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
         if (f.diffuse + f.specular == Vec3f(0) || to.radiance == Vec3f(0)) continue;
         const float factor = gated(scene, s, to.l, first);
@@ -140,7 +146,7 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     if (!first) return sum;
 
     first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
-    first->position = s.at.p, first->facet = s.facet, first->normal = s.n;
+    first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
     first->albedo = albedo(s.bsdf);
