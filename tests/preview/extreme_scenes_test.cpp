@@ -67,6 +67,21 @@ Texture any_texture(Dice& dice, int channels, bool colours = false) {
     });
 }
 
+std::shared_ptr<const SurfaceMaps> any_maps(Dice& dice) {
+    auto maps = std::make_shared<SurfaceMaps>();
+    for (SurfaceMap* map : {&maps->base, &maps->specular, &maps->shininess, &maps->roughness, &maps->metallic,
+                            &maps->occlusion, &maps->emission, &maps->alpha})
+        if (dice.one_in(3)) {
+            map->texture = any_texture(dice, 3, true);
+            map->wrap_u = MapWrap(dice.below(3)), map->wrap_v = MapWrap(dice.below(3));
+            map->nearest = dice.one_in(2);
+        }
+    maps->occlusion_strength = dice.share(), maps->opacity = dice.share();
+    maps->alpha_mode = AlphaMode(dice.below(3)), maps->alpha_cutoff = dice.share();
+    maps->one_sided = dice.one_in(4), maps->unlit = dice.one_in(8);
+    return maps;
+}
+
 Material any_material(Dice& dice) {
     Material material;
     Reflectance& r = material.reflectance;
@@ -75,6 +90,8 @@ Material any_material(Dice& dice) {
     r.shininess = dice.pick({0.f, 1.f, 50.f, 1e6f, 1e15f, 3e38f});
     r.roughness = dice.share(), r.metallic = dice.share();
     r.ior = dice.pick({1.f, 1.5f, 1e-3f, 10.f, 1e15f});
+    if (dice.one_in(6)) r.subsurface = dice.colour(), r.translucency = dice.share();
+    if (dice.one_in(6)) material.maps = any_maps(dice);
     if (dice.one_in(3)) material.reflect = dice.colour();
     if (dice.one_in(3)) material.albedo = any_texture(dice, 3, true);
     switch (dice.below(6)) {
@@ -149,7 +166,8 @@ Scene any_scene(std::uint32_t seed) {
     RenderSettings& s = scene.settings;
     s.width = 1 + dice.below(4), s.height = 1 + dice.below(4), s.spp = 1 + dice.below(2);
     s.bounces = dice.below(4), s.diffuse_bounces = dice.below(3), s.shadows = !dice.one_in(8);
-    s.sky_light = SkyLighting(dice.below(2)), s.terminator = Terminator(dice.below(5)), s.seed = seed;
+    s.sky_light = dice.one_in(10) ? SkyLighting::irradiance : SkyLighting(dice.below(2)),
+    s.terminator = Terminator(dice.below(5)), s.seed = seed;
     return scene;
 }
 
