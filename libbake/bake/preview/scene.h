@@ -67,7 +67,10 @@ struct Scene {
     std::vector<std::string> notes; ///< of reading the files, with their names
     SkyLight sky_light;             ///< set by build()
     SkyLevels sky_levels;           ///< completed by build() for SkyLighting::irradiance
-    std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
+    /// Set by build(): the positions of the Bvh, and the rays of radiance(), are relative to this point. It is 0 unless the
+    /// meshes lie farther from 0 than they extend, where floats would be too coarse for them.
+    Vec3f origin{0};
+    std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
 /// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
@@ -76,6 +79,8 @@ void add_instance(Scene& scene, Shape& shape, const Material& material, const Pl
 /// Builds the Bvh and the light of the sky. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world
 /// position is not finite or beyond 1e18.
 void build(Scene& scene);
+/// The frame of the scene's camera, relative to scene.origin: its rays are those of radiance().
+CameraFrame camera_frame(const Scene& scene) noexcept;
 
 /// World-space bounding box of all instances; zero without instances.
 Bounds bounds(const Scene& scene) noexcept;

@@ -45,6 +45,11 @@ float gated(const Scene& scene, const Surfel& s, const Vec3f& l, FirstHit* first
     return factor;
 }
 
+Light<float> moved(Light<float> light, const Vec3f& by) noexcept {
+    light.position += by;
+    return light;
+}
+
 bool Path::is_visible(const Surfel& s, const LightSample<float>& to) noexcept {
     if (!scene.settings.shadows) return true;
     ++stats.rays;
@@ -58,7 +63,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     int visible = 0;
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
-        const LightSample<float> to = sample(light, s.at.p, u);
+        const LightSample<float> to =
+            scene.origin == Vec3f(0) ? sample(light, s.at.p, u) : sample(moved(light, -scene.origin), s.at.p, u);
         const TermRecord record(terms_of(first), sum.diffuse, sum.specular, int(&light - scene.lights.data()), to.l,
                                 to.radiance);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
@@ -185,7 +191,7 @@ Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffu
     if (!first) return sum;
 
     first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
-    first->position = s.at.p, first->facet = s.facet, first->normal = s.n;
+    first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
     first->albedo = albedo(s.bsdf);
