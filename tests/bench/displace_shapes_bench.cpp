@@ -1,5 +1,6 @@
 // displace_shapes_bench [LEVELS_MORE [CAGE]]: time and error of displacement, memory to memory, per point of the result: shapes whose
-// displaced form is known, and cages under the same height. ratio is against one pass that writes as many bytes as the
+// displaced form is known, and cages under the same height. Rows named blend are those of Seam::blend, the default; in the others
+// the points at seams take the mean of both sides. ratio is against one pass that writes as many bytes as the
 // mesh has, by the same for_rows, measured in turn.
 //
 // error_*_deg: angles of the normals in the mesh that was timed: on shapes against the closed form; on cages against
@@ -91,7 +92,7 @@ bench::Errors normal_errors(const Case& c, const oracle::TorusRelief& r, const M
     return bench::errors_of(std::move(errors));
 }
 
-void run(const Case& c, int threads) {
+void run(const Case& c, int threads, Seam seam) {
     const ThreadLimit limit(threads);
     const oracle::TorusRelief r{0.01, 12, 12};
     Relief height;
@@ -99,6 +100,7 @@ void run(const Case& c, int threads) {
     height.height = {.amplitude = 2 * r.A, .midlevel = 0.5};
     DisplaceOptions options;
     options.rates.levels = c.levels;
+    options.seam = seam;
     Displaced out = displace(c.base, height, options);
     const std::size_t bytes = 12 * (out.mesh.positions.size() + out.mesh.normals.size() + out.mesh.corners()) +
                               8 * out.mesh.uvs.size() + 4 * out.mesh.faces();
@@ -116,8 +118,8 @@ void run(const Case& c, int threads) {
     double position = 0;
     const bench::Errors errors = normal_errors(c, r, out.mesh, position);
     const double points = double(out.mesh.positions.size());
-    bench::print_row("displace_shapes", c.name, std::int64_t(points), 1e9 * times[1].median() / points, errors,
-                     times[1].ratio_to(times[0]), "writing the bytes",
+    bench::print_row("displace_shapes", c.name + (seam == Seam::blend ? "_blend" : ""), std::int64_t(points),
+                     1e9 * times[1].median() / points, errors, times[1].ratio_to(times[0]), "writing the bytes",
                      (c.form ? bench::text("position %.2g of the diagonal; ", position) : std::string()) +
                          bench::text("%.0f MB; %.0f ms", double(bytes) / 1e6, 1e3 * times[1].median()));
 }
@@ -143,5 +145,6 @@ int main(int argc, char** argv) {
                          5 + more,
                          {}});
     for (const Case& c : cases)
-        for (const int threads : {1, 0}) run(c, threads);
+        for (const int threads : {1, 0})
+            for (const Seam seam : {Seam::average, Seam::blend}) run(c, threads, seam);
 }

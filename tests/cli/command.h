@@ -32,7 +32,7 @@ void write_file(const std::string& file, const std::string& bytes);
 std::size_t lines(const std::string& text);
 
 struct RunLimits {
-    double seconds = 20;         ///< killed after
+    double seconds = 20;         ///< killed after, in processor time; after 15 times as long in any case
     long long file_bytes = -1;   ///< largest file it may write; -1: any
     double interrupt_after = -1; ///< seconds after which the signal is sent; -1: never
     int signal = SIGINT;
@@ -63,6 +63,9 @@ Run run_bake(const Folder& folder, const std::vector<std::string>& arguments, co
 /// but those that were there.
 void check_refused(const Folder& folder, const std::vector<std::string>& arguments, int code, const std::string& named,
                    const RunLimits& limits = {});
+
+/// The verbs, as bake --help lists them.
+std::vector<std::string> verbs();
 
 /// A mip level of a file, read by OpenImageIO; empty when there is none.
 Image<float> read_level(const std::string& file, int mip);

@@ -1,5 +1,6 @@
 // Names of files, and names in files, that hold what a terminal would obey.
 #include "cli/command.h"
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 using namespace bake::test;
@@ -40,6 +41,9 @@ TEST_SUITE("cli") {
             {"surface", obj, "-o", out_ply, "--maps", "normal", "--maps-out", hostile, "--size", "16"},
             {"cubemap", "labels", "--size", "8", "-o", out_png},
             {"render", toml, "-o", out_png, "--size", "8", "--spp", "1"}};
+        for (const std::string& verb : verbs())
+            CHECK_MESSAGE(std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return line[0] == verb; }),
+                          "add a command line of " << verb << " to this test");
         for (std::vector<std::string> line : lines) {
             CAPTURE(line[0]);
             const Run text = run_bake(folder, line);

@@ -78,6 +78,7 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
         {"render", {scene, "-o", "a.png"}},
         {"cubemap", flag == "--at" ? std::vector<std::string>{"--capture", scene, "-o", "a.exr"}
                                    : std::vector<std::string>{"labels", "-o", "a.exr"}}};
+    REQUIRE_MESSAGE(lines.contains(verb), "add a command line of " << verb << " to this test");
     std::vector<std::string> line = lines.at(verb);
     line.insert(line.begin(), verb);
     if (flag == "--roughness") line.insert(line.end(), {"--specular", "ggx"});
@@ -92,8 +93,7 @@ TEST_SUITE("cli") {
         const Folder folder;
         int with_numbers = 0;
         std::set<std::string> known; // options that several verbs have get all values once, and then one
-        for (const char* verb :
-             {"check", "bump-table", "normal-map", "explain", "displace", "surface", "render", "cubemap"})
+        for (const std::string& verb : verbs())
             for (const Option& option : options_of(verb)) {
                 CAPTURE(option.flag);
                 std::vector<std::string> values = not_numbers(option.type);
@@ -135,8 +135,7 @@ TEST_SUITE("cli") {
 
     TEST_CASE("numbers: an empty argument is a usage error everywhere, wherever it stands") {
         const Folder folder;
-        for (const char* verb :
-             {"check", "bump-table", "normal-map", "explain", "displace", "surface", "render", "cubemap"}) {
+        for (const std::string& verb : verbs()) {
             check_refused(folder, {verb, ""}, 2, "argument 2: is empty", {.seconds = 5});
             std::vector<std::string> line = complete(verb, "");
             line.push_back("");

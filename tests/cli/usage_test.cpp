@@ -13,19 +13,6 @@ namespace {
 
 const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_meshes() / "torus.obj").string();
 
-/// The verbs, as bake --help lists them.
-std::vector<std::string> verbs() {
-    const Folder folder;
-    std::istringstream help(run_bake(folder, {"--help"}).out);
-    std::vector<std::string> names;
-    std::string line;
-    while (std::getline(help, line) && line != "Subcommands:") {
-    }
-    while (std::getline(help, line) && line.starts_with("  "))
-        if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
-    return names;
-}
-
 } // namespace
 
 TEST_SUITE("cli") {

@@ -179,7 +179,7 @@ TEST_SUITE("cli") {
         const GreedyBake greedy;
         const Folder folder;
         write_file(folder / "a.pgm", picture("sleep"));
-        const Run run = run_bake(folder, {"check", "a.pgm"}, {.seconds = 0.5}); // then SIGKILL
+        const Run run = run_bake(folder, {"check", "a.pgm"}, {.interrupt_after = 0.5, .signal = SIGKILL});
         CHECK(run.code == 128 + SIGKILL);
         for (int i = 0; i < 100 && runs(greedy.folder / "bake_formats"); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -25,7 +25,7 @@ Scene shiny_ball() {
 
 /// Index of a channel of layer_channels().
 int channel(const char* name) {
-    const std::vector<std::string>& all = layer_channels();
+    const std::vector<std::string> all = layer_channels();
     const auto at = std::find(all.begin(), all.end(), name);
     REQUIRE(at != all.end());
     return int(at - all.begin());
@@ -54,11 +54,14 @@ TEST_SUITE("unit") {
                 Sampler sampler(x, y, 0);
                 const Vec2d at = pixel_sample(scene.settings.spp, sampler);
                 const Hit hit = scene.bvh->intersect(primary_ray(frame, x + at.x, y + at.y, 40, 30));
-                CHECK((p[channel("id.object")] == 1) == bool(hit));
+                CHECK((p[channel("object.Y")] == 1) == bool(hit));
                 CHECK(p[channel("Z")] == doctest::Approx(hit ? hit.t : 0));
                 if (!hit) continue;
                 ++hits;
-                CHECK(p[channel("id.triangle")] == float(hit.triangle + 1));
+                CHECK(p[channel("material.Y")] == 1);
+                CHECK(p[channel("samples.Y")] == float(scene.settings.spp));
+                CHECK(p[channel("rays.Y")] > 1);
+                CHECK(p[channel("triangle.Y")] == float(hit.triangle + 1));
                 const Vec3f position(p[channel("P.X")], p[channel("P.Y")], p[channel("P.Z")]);
                 CHECK(glm::length(position) == doctest::Approx(1).epsilon(0.01));
                 if (p[3] < 1) continue;

@@ -82,4 +82,40 @@ TEST_SUITE("unit") {
         CHECK(std::abs(sum / count) < 4.0 / 12 / std::sqrt(double(count)));
     }
 
+    TEST_CASE("sampler: a branch is independent of its stem and of other branches, and leaves the stem alone") {
+        double with_stem = 0, with_other = 0, with_nested = 0;
+        const int count = 4096;
+        for (int i = 0; i < count; ++i) {
+            Sampler stem(1, 2, i), untouched(1, 2, i);
+            Sampler first = stem.branch(), nested = first.branch();
+            const float a = stem.next(), b = first.next(), d = nested.next();
+            const float c = stem.branch().next();
+            CHECK(a == untouched.next());
+            CHECK(stem.next() == untouched.next());
+            with_stem += (a - 0.5) * (b - 0.5), with_other += (b - 0.5) * (c - 0.5),
+                with_nested += (b - 0.5) * (d - 0.5);
+        }
+        for (const double sum : {with_stem, with_other, with_nested})
+            CHECK(std::abs(sum / count) < 4.0 / 12 / std::sqrt(double(count)));
+    }
+
+    TEST_CASE("sampler: a branch has one point in every elementary interval, as its stem has") {
+        for (const int columns : {1, 16, 256}) {
+            std::set<int> cells;
+            for (int i = 0; i < 256; ++i) {
+                Sampler stem(5, 9, i, 3);
+                stem.next2();
+                const Vec2f u = stem.branch().next2();
+                cells.insert(int(u.y * float(256 / columns)) * columns + int(u.x * float(columns)));
+            }
+            CHECK(cells.size() == 256);
+        }
+    }
+
+    TEST_CASE("sampler: seeds of second halves differ from their own and from each other") {
+        std::set<std::uint32_t> seeds;
+        for (std::uint32_t seed = 0; seed < 1000; ++seed) seeds.insert({seed, second_seed(seed)});
+        CHECK(seeds.size() == 2000);
+    }
+
 } // TEST_SUITE

@@ -53,7 +53,7 @@ TEST_SUITE("oracle") {
         for (const float yaw : {0.0f, 70.0f})
             for (const int n : {16, 61}) {
                 Sky sky = sky_with_sun(glm::normalize(Vec3f(0.3f, 0.8f, -0.5f)), n);
-                sky.yaw_deg = yaw;
+                sky.yaw = SkyYaw(yaw);
                 const SkyLight light(sky);
                 const auto share = [&](const Vec3f& l) {
                     return double(sky_radiance(sky, l).y) / (light.pdf(l) + 1 / (4 * pi));
@@ -75,7 +75,7 @@ TEST_SUITE("oracle") {
 
     TEST_CASE("sky: sampled directions are distributed as the density says (chi-square)") {
         Sky sky = sky_with_sun(glm::normalize(Vec3f(0.125f, 0.125f, 1)), 8);
-        sky.yaw_deg = 20;
+        sky.yaw = SkyYaw(20);
         const SkyLight light(sky);
         // Cells of equal solid angle: 16 bands of height, 16 of angle. The expected share of each by 32 x 32 midpoints.
         constexpr int bands = 16, fine = 48, count = 200'000;
@@ -118,7 +118,7 @@ TEST_SUITE("unit") {
     TEST_CASE("sky: yaw moves what is ahead to the right, for the eye and for the light") {
         Sky sky = sky_with_sun({0, 0, 1}, 16);
         CHECK(sky_radiance(sky, {0, 0, 1}).x > 40);
-        sky.yaw_deg = 90;
+        sky.yaw = SkyYaw(90);
         // The camera looks along +Z; its right is -X.
         CHECK(sky_radiance(sky, {-1, 0, 0}).x > 40);
         CHECK(sky_radiance(sky, {0, 0, 1}).x < 1);

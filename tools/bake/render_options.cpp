@@ -39,7 +39,8 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
         ->required();
     add_output_option(
         sub, args.out,
-        "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance");
+        "Picture (.png, .exr, .tif): 8 and 16 bits exposed and sRGB-encoded, half and float linear radiance")
+        ->required(false); // --pixel writes none
     sub.add_option("--on", args.on, "Show the picture on a shape of bake surface, or on a cube")
         ->type_name("sphere|plane|cube|torus|NAME:KEY=VALUE,...");
     add_choice<MapKind>(sub, "--as", args.as,
@@ -54,6 +55,11 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
         ->type_name("KEY=VALUE,...");
     sub.add_option("--sky", args.sky,
                    "Sky, instead of the scene's: a picture, faces with %s, or labels: the built-in test sky");
+    add_choice<std::optional<SkyLighting>>(
+        sub, "--sky-light", args.sky_light,
+        {{"sampled", SkyLighting::sampled}, {"irradiance", SkyLighting::irradiance}, {"off", SkyLighting::off}},
+        "How the sky lights meshes: by rays; from filtered levels without shadows, as in "
+        "real-time engines; not at all [the scene's]");
     sub.add_option("--camera", args.camera,
                    "Camera of the scene [the first] or of the .glb or .gltf [one that shows the mesh]")
         ->type_name("NAME");
@@ -65,6 +71,7 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
            "Render this part of the picture alone: pixels from the upper left corner")
         ->type_name("X,Y,W,H");
     add_integer_option(sub, "--spp", args.spp, 1, 65536, "Samples per pixel, instead of the scene's");
+    add_sampling_options(sub, args.sampling);
     add_number_option(sub, "--exposure", args.exposure, -64, 64, "Stops, instead of the scene's [automatic, printed]");
     sub.add_flag(
         "--layers", args.layers,
@@ -73,12 +80,16 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
     add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
                       "  bake render meshes/scene.toml -o layers.exr --layers\n"
+                      "  bake render meshes/scene.toml -o smooth.png --noise 0.02\n"
+                      "  bake render meshes/scene.toml -o minute.png --time-limit 2 --preview\n"
+                      "  bake render meshes/scene.toml --pixel 120,80\n"
                       "A mesh or a map needs no scene file; it is lit and framed automatically:\n"
                       "  bake render meshes/torus.obj -o torus.png --material diffuse=#c08050,specular=.4\n"
                       "  bake render meshes/bricks.png --on sphere -o bricks.png\n");
 }
 
 void check_usage(const RenderArgs& args) {
+    check_sampling(args);
     const FileKind kind = kind_of(args);
     const auto refuse_for = [&](const char* flag, const char* why) { return usage(flag + (": " + args.input) + why); };
     if (kind == FileKind::picture && args.on.empty())
@@ -117,8 +128,9 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
     if (kind == FileKind::mesh && !args.camera.empty()) entries.cameras = cameras_of(args.input);
     if (!args.camera.empty()) entries.camera = find_camera(entries.cameras, args.camera, args.input);
     if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
-    if (args.spp > 0) entries.settings.spp = args.spp;
+    entries.settings.spp = most_samples(args, entries.settings.spp);
     if (args.yaw) entries.sky.yaw_deg = float(*args.yaw);
+    if (args.sky_light) entries.settings.sky_light = *args.sky_light;
     if (args.exposure) entries.settings.exposure = float(*args.exposure);
     return entries;
 }

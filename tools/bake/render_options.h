@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/preview/quick_scene.h"
 #include "options.h"
+#include "sampling_options.h"
 
 namespace bake {
 
@@ -14,7 +15,9 @@ struct RenderArgs {
     MapKind as = MapKind::automatic;
     std::optional<PixelRect> crop;
     std::optional<double> yaw, exposure; ///< none: the scene's
-    bool layers = false;                 ///< .exr with the channels of layer_channels()
+    std::optional<SkyLighting> sky_light;
+    bool layers = false; ///< .exr with the channels of layer_channels()
+    SamplingArgs sampling;
 };
 
 void add_render_options(CLI::App& sub, RenderArgs& args);

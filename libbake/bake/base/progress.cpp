@@ -1,5 +1,6 @@
 #include "bake/base/progress.h"
 #include "bake/base/error.h"
+#include "bake/base/interruption.h"
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -9,7 +10,7 @@
 namespace bake {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
+volatile std::sig_atomic_t stop_requested = 0, stop_accepted = 0;
 std::atomic<int> shields = 0;
 
 /// A file that is not finished. Its path stays where it is, as the handler may read it at any time.
@@ -53,7 +54,13 @@ void catch_interrupts() noexcept {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool interrupted() noexcept { return stop_requested != 0; }
+bool interrupted() noexcept { return stop_requested != 0 && !stop_accepted; }
+
+bool accept_interrupt() noexcept {
+    if (!stop_requested || stop_requested == SIGXCPU) return false;
+    stop_accepted = 1;
+    return true;
+}
 
 void throw_if_interrupted() {
     if (interrupted())

@@ -12,6 +12,14 @@ template <class T> T cone(const Light<T>& light, const Vec3<T>& l) noexcept {
     return part * part;
 }
 
+/// The attenuation, faded out at the range by the window of KHR_lights_punctual.
+template <class T> T faded(const Light<T>& light, T r) noexcept {
+    const T d = attenuation(light.falloff, r);
+    if (!(light.range < std::numeric_limits<T>::infinity())) return d;
+    const T part = r / light.range, squared = part * part;
+    return squared < T(1) ? d * (T(1) - squared * squared) : T(0);
+}
+
 /// Irradiance over pi from the whole quad, if it were all as near and as inclined as its point `at`.
 template <class T> T form_factor(const Light<T>& light, const Vec3<T>& l, T r) noexcept {
     const Vec3<T> area = glm::cross(light.edge_u, light.edge_v);
@@ -34,8 +42,8 @@ template <class T> LightSample<T> sample(const Light<T>& light, const Vec3<T>& p
     const T r = glm::length(at - p);
     switch (light.kind) {
     case LightKind::quad: return {l, light.colour * form_factor(light, l, r), r};
-    case LightKind::spot: return {l, light.colour * (attenuation(light.falloff, r) * cone(light, l)), r};
-    default: return {l, light.colour * attenuation(light.falloff, r), r};
+    case LightKind::spot: return {l, light.colour * (faded(light, r) * cone(light, l)), r};
+    default: return {l, light.colour * faded(light, r), r};
     }
 }
 

@@ -26,7 +26,8 @@ template <class T> struct Light {
     /// Spot light: full brightness within the inner cone, none outside the outer one; between the two the square of
     /// (cos - cos_outer) / (cos_inner - cos_outer), as in KHR_lights_punctual.
     T cos_inner = T(1), cos_outer = T(0.7071068);
-    Vec3<T> edge_u{T(0)}, edge_v{T(0)}; ///< quad: its edges; it shines towards edge_u x edge_v
+    T range = std::numeric_limits<T>::infinity(); ///< point and spot light: distance at which it has faded out
+    Vec3<T> edge_u{T(0)}, edge_v{T(0)};           ///< quad: its edges; it shines towards edge_u x edge_v
 };
 
 /// Direction and brightness of a light at a point of a surface.

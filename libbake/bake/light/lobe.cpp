@@ -1,15 +1,14 @@
 #include "bake/light/lobe.h"
 #include "bake/light/cosine_power.h"
+#include "bake/light/frame.h"
 #include "bake/light/fresnel.h"
 #include "bake/light/ggx.h"
-#include "bake/light/ggx_albedo.h"
+#include "bake/light/lobe_view.h"
 
 namespace bake {
 namespace {
 
 constexpr float one_over_pi = float(1 / pi);
-constexpr float least_n_v = 1e-4f;   ///< ggx, mirror: a viewer farther down is moved up to this cosine
-constexpr float least_cover = 1e-4f; ///< mean light left to a covered lobe, below which it gets none
 
 float mean(const Vec3f& c) noexcept { return (c.x + c.y + c.z) / 3; }
 
@@ -32,87 +31,16 @@ struct Angles {
 /// (n.h)^exponent; with exponent 0 it is 1 above the surface.
 float blinn_power(float sin2_h, float exponent) noexcept { return cosine_power(sin2_h, exponent / 2); }
 
-/// A lobe as seen by the viewer.
-struct Seen {
-    float choice = 0;          ///< probability that sample() picks the lobe
-    float multiple_choice = 0; ///< ggx: and its light of several bounces
-    float exponent = 0;
-    GgxRow row;
-    Vec3f f0{0}, multiple{0}; ///< ggx: reflectance at normal incidence, and that of light of several bounces
-    GgxAlbedo at_v, average;
-
-    /// Directional albedo of ggx.
-    Vec3f reflected(const GgxAlbedo& a) const noexcept {
-        return f0 * (1 - a.loss - a.schlick) + Vec3f(a.schlick) + multiple * a.loss;
-    }
-};
-
-struct View {
-    Vec3f n, v;
-    Vec3f raised; ///< v, moved up to the horizon if it is below
-    float n_raised;
-    std::array<Seen, Bsdf::most_lobes> seen;
-    int count;
-    Vec3f cover{1},
-        cover_mean{1}; ///< what the ggx lobes leave to covered lobes: for v, and as mean over all directions
-};
-
-void see_ggx(const Lobe& lobe, View& view, Seen& seen) noexcept {
-    const float roughness = std::clamp(lobe.roughness, 0.f, 1.f);
-    seen.row = ggx_row(roughness * roughness);
-    seen.f0 = glm::clamp(lobe.weight, Vec3f(0), Vec3f(1));
-    seen.at_v = ggx_albedo(seen.row, view.n_raised);
-    seen.average = ggx_mean_albedo(seen.row);
-    // Hill, A Multi-Faceted Exploration, 2018: the geometric series of what is lost and reflected again.
-    const Vec3f f_mean = seen.f0 + (Vec3f(1) - seen.f0) / 21.f;
-    seen.multiple = f_mean * f_mean * (1 - seen.average.loss) / (Vec3f(1) - f_mean * seen.average.loss);
-    view.cover -= seen.reflected(seen.at_v);
-    view.cover_mean -= seen.reflected(seen.average);
-}
-
-View view_of(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v) noexcept {
-    View view{n, v, v, glm::dot(n, v), {}, std::clamp(bsdf.count, 0, Bsdf::most_lobes)};
-    if (!(view.n_raised >= least_n_v)) {
-        view.raised = unit_or_zero(v + (least_n_v - view.n_raised) * n);
-        view.n_raised = std::clamp(glm::dot(n, view.raised), least_n_v, 1.f);
-    }
-    for (int i = 0; i < view.count; ++i) {
-        const Lobe& lobe = bsdf.lobes[std::size_t(i)];
-        Seen& seen = view.seen[std::size_t(i)];
-        seen.exponent = std::max(0.f, lobe.exponent);
-        if (lobe.kind == LobeKind::ggx) see_ggx(lobe, view, seen);
-    }
-    view.cover = glm::max(view.cover, Vec3f(0));
-    for (int c = 0; c < 3; ++c)
-        if (!(view.cover_mean[c] > least_cover)) view.cover_mean[c] = 1, view.cover[c] = 0;
-    return view;
-}
-
-/// Albedo for choosing lobes, per unit of weight where the lobe has one: of phong and blinn at normal incidence.
-Vec3f estimated_albedo(const Lobe& lobe, const Seen& seen, const View& view) noexcept {
-    switch (lobe.kind) {
-    case LobeKind::lambert: return lobe.covered ? lobe.weight * view.cover : lobe.weight;
-    case LobeKind::phong: return lobe.weight * float(phong_albedo(seen.exponent) / pi);
-    case LobeKind::blinn: return lobe.weight * float(blinn_albedo(seen.exponent) / pi);
-    case LobeKind::ggx: return seen.reflected(seen.at_v) - seen.multiple * seen.at_v.loss;
-    case LobeKind::mirror: return schlick(glm::clamp(lobe.weight, Vec3f(0), Vec3f(1)), view.n_raised);
-    case LobeKind::normalised_phong:
-    case LobeKind::normalised_blinn:
-    case LobeKind::dielectric: break;
-    }
-    return lobe.weight;
-}
-
-void add_choices(const Bsdf& bsdf, View& view) noexcept {
+void add_choices(const Bsdf& bsdf, BsdfView& view) noexcept {
     float sum = 0;
     for (int i = 0; i < view.count; ++i) {
-        Seen& seen = view.seen[std::size_t(i)];
+        SeenLobe& seen = view.seen[std::size_t(i)];
         seen.choice = std::max(0.f, mean(estimated_albedo(bsdf.lobes[std::size_t(i)], seen, view)));
         seen.multiple_choice = mean(seen.multiple) * seen.at_v.loss;
         sum += seen.choice + seen.multiple_choice;
     }
     const float scale = sum > 0 ? 1 / sum : 0;
-    for (Seen& seen : view.seen) seen.choice *= scale, seen.multiple_choice *= scale;
+    for (SeenLobe& seen : view.seen) seen.choice *= scale, seen.multiple_choice *= scale;
 }
 
 /// A lobe, or of ggx its light of several bounces.
@@ -120,11 +48,11 @@ struct Pick {
     int lobe = -1;
     bool multiple = false;
 };
-Pick pick(const View& view, float choice) noexcept {
+Pick pick(const BsdfView& view, float choice) noexcept {
     Pick last; // rounding may leave `choice` beyond the sum
     for (int i = 0; i < view.count; ++i)
         for (const bool multiple : {false, true}) {
-            const Seen& seen = view.seen[std::size_t(i)];
+            const SeenLobe& seen = view.seen[std::size_t(i)];
             const float share = multiple ? seen.multiple_choice : seen.choice;
             if (!(share > 0)) continue;
             last = {i, multiple};
@@ -134,13 +62,8 @@ Pick pick(const View& view, float choice) noexcept {
     return last;
 }
 
-/// Value of the sum for light from l, and its density with the choices of the view.
-struct Term {
-    BsdfValue value;
-    float pdf = 0;
-};
-
-void add_ggx(const Seen& seen, const GgxAlbedo& at_l, const View& view, const Vec3f& l, Term& out) noexcept {
+void add_ggx(const SeenLobe& seen, const GgxAlbedo& at_l, const BsdfView& view, const Vec3f& l,
+             BsdfTerm& out) noexcept {
     const Angles a(view.n, l, view.raised);
     const float n_v = view.n_raised, d = ggx_distribution(seen.row.alpha, a.sin2_h);
     const float lost = at_l.loss * seen.at_v.loss / std::max(seen.average.loss, 1e-12f);
@@ -155,7 +78,7 @@ struct Lit {
     std::array<GgxAlbedo, Bsdf::most_lobes> albedo; ///< of the ggx lobes
     Vec3f cover{1};                                 ///< share of a covered lobe, besides `cover` of the view
 };
-Lit lit_from(const Bsdf& bsdf, const View& view, float n_l) noexcept {
+Lit lit_from(const Bsdf& bsdf, const BsdfView& view, float n_l) noexcept {
     Lit out;
     for (std::size_t i = 0; i < std::size_t(view.count); ++i) {
         if (bsdf.lobes[i].kind != LobeKind::ggx) continue;
@@ -166,14 +89,14 @@ Lit lit_from(const Bsdf& bsdf, const View& view, float n_l) noexcept {
     return out;
 }
 
-Term term(const Bsdf& bsdf, const View& view, const Vec3f& l) noexcept {
-    Term out;
+BsdfTerm term(const Bsdf& bsdf, const BsdfView& view, const Vec3f& l) noexcept {
+    BsdfTerm out;
     const Angles a(view.n, l, view.v);
     if (!(a.n_l > 0)) return out;
     const Lit lit = lit_from(bsdf, view, a.n_l);
     for (int i = 0; i < view.count; ++i) {
         const Lobe& lobe = bsdf.lobes[std::size_t(i)];
-        const Seen& seen = view.seen[std::size_t(i)];
+        const SeenLobe& seen = view.seen[std::size_t(i)];
         const float density = cosine_power_density(seen.exponent);
         switch (lobe.kind) {
         case LobeKind::lambert:
@@ -207,21 +130,8 @@ Term term(const Bsdf& bsdf, const View& view, const Vec3f& l) noexcept {
     return out;
 }
 
-/// The right-handed frame with z = n. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017.
-struct Frame {
-    Vec3f x, y, z;
-    explicit Frame(const Vec3f& n) noexcept : z(n) {
-        const float sign = std::copysign(1.f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-        x = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
-        y = {b, sign + n.y * n.y * a, -n.y};
-    }
-    Vec3f local(const Vec3f& v) const noexcept { return {glm::dot(x, v), glm::dot(y, v), glm::dot(z, v)}; }
-    Vec3f world(const Vec3f& v) const noexcept { return x * v.x + y * v.y + z * v.z; }
-};
-
-Vec3f mirrored(const Vec3f& v, const Vec3f& n) noexcept { return 2 * glm::dot(n, v) * n - v; }
-
-Vec3f sample_direction(const Lobe& lobe, const Seen& seen, bool multiple, const View& view, const Vec2f& u) noexcept {
+Vec3f sample_direction(const Lobe& lobe, const SeenLobe& seen, bool multiple, const BsdfView& view,
+                       const Vec2f& u) noexcept {
     const Frame frame(view.n);
     if (multiple) return frame.world(sample_ggx_loss(seen.row.alpha, u));
     if (lobe.kind == LobeKind::lambert) return frame.world(sample_cosine_power(1, u));
@@ -236,12 +146,12 @@ Vec3f sample_direction(const Lobe& lobe, const Seen& seen, bool multiple, const 
     return mirrored(view.v, frame.world(about));
 }
 
-BsdfSample sample_mirror(const Lobe& lobe, const View& view, float probability) noexcept {
+BsdfSample sample_mirror(const Lobe& lobe, const BsdfView& view, float probability) noexcept {
     const Vec3f f = schlick(glm::clamp(lobe.weight, Vec3f(0), Vec3f(1)), view.n_raised);
     return {unit_or_zero(mirrored(view.raised, view.n)), f / probability, probability, true, true};
 }
 
-BsdfSample sample_dielectric(const Lobe& lobe, const View& view, float probability, float u) noexcept {
+BsdfSample sample_dielectric(const Lobe& lobe, const BsdfView& view, float probability, float u) noexcept {
     const float n_v = std::clamp(glm::dot(view.n, view.v), -1.f, 1.f), ior = std::clamp(lobe.ior, 1e-3f, 1e3f);
     const Vec3f n = n_v < 0 ? -view.n : view.n;
     const float cosine = std::abs(n_v), eta = n_v < 0 ? ior : 1 / ior;
@@ -260,26 +170,38 @@ BsdfValue evaluate(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f
     return term(bsdf, view_of(bsdf, n, v), l).value;
 }
 
-float pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
-    if (!(glm::dot(n, l) > 0)) return 0;
-    View view = view_of(bsdf, n, v);
+BsdfTerm evaluate_with_pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
+    if (!(glm::dot(n, l) > 0)) return {};
+    BsdfView view = view_of(bsdf, n, v);
     add_choices(bsdf, view);
-    return term(bsdf, view, l).pdf;
+    return term(bsdf, view, l);
+}
+
+float pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
+    return evaluate_with_pdf(bsdf, n, l, v).pdf;
 }
 
 BsdfSample sample(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v, float choice, const Vec2f& u) noexcept {
-    View view = view_of(bsdf, n, v);
+    BsdfView view = view_of(bsdf, n, v);
     add_choices(bsdf, view);
     const auto [picked, multiple] = pick(view, choice);
     if (picked < 0) return {};
     const Lobe& lobe = bsdf.lobes[std::size_t(picked)];
-    const Seen& seen = view.seen[std::size_t(picked)];
+    const SeenLobe& seen = view.seen[std::size_t(picked)];
     if (lobe.kind == LobeKind::mirror) return sample_mirror(lobe, view, seen.choice);
     if (lobe.kind == LobeKind::dielectric) return sample_dielectric(lobe, view, seen.choice, u.x);
     const Vec3f l = unit_or_zero(sample_direction(lobe, seen, multiple, view, u));
-    const Term all = term(bsdf, view, l);
+    const BsdfTerm all = term(bsdf, view, l);
     if (!(all.pdf > 1e-30f)) return {};
-    return {l, (all.value.diffuse + all.value.specular) / all.pdf, all.pdf, false, lobe.kind != LobeKind::lambert};
+    return {
+        l,        (all.value.diffuse + all.value.specular) / all.pdf, all.pdf, false, lobe.kind != LobeKind::lambert,
+        all.value};
+}
+
+Vec3f cover(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v) noexcept {
+    bool covered = false;
+    for (int i = 0; i < bsdf.count; ++i) covered |= bsdf.lobes[std::size_t(i)].covered;
+    return covered ? view_of(bsdf, n, v).cover : Vec3f(1);
 }
 
 Bsdf metallic_roughness(const Vec3f& base, float metallic, float roughness) noexcept {

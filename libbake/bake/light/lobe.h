@@ -15,31 +15,9 @@
 // added as by Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course 2017; lambert under ggx
 // as by Kelemen and Szirmay-Kalos, A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001.
 #pragma once
-#include "bake/base/vec.h"
-#include <array>
+#include "bake/light/bsdf.h"
 
 namespace bake {
-
-enum class LobeKind { lambert, phong, blinn, normalised_phong, normalised_blinn, ggx, mirror, dielectric };
-
-struct Lobe {
-    LobeKind kind = LobeKind::lambert;
-    Vec3f weight{1}; ///< factor on what is reflected; ggx, mirror: reflectance at normal incidence, 0 to 1 (Schlick)
-    float exponent = 32;  ///< phong, blinn and their normalised forms; at least 0
-    float roughness = .5; ///< ggx: alpha = roughness^2, at least least_ggx_alpha
-    float ior = 1.5;      ///< dielectric: index of refraction on the side that n points away from
-    bool covered =
-        false; ///< lambert under the ggx lobes: receives what those lobes do not reflect, so that energy is kept
-};
-
-/// Weighted sum of lobes.
-struct Bsdf {
-    static constexpr int most_lobes = 4;
-    std::array<Lobe, most_lobes> lobes;
-    int count = 0;
-    Vec3f ambient{0};  ///< factor on ambient light
-    Vec3f emission{0}; ///< emitted radiance
-};
 
 // All vectors are unit vectors; n and v, l point away from the surface. Light from below the surface (n.l <= 0) is not
 // reflected. A viewer below the surface (relief can tilt n away from the viewer) sees ggx and mirror as from the horizon
@@ -59,6 +37,7 @@ struct BsdfSample {
     float pdf = 0;         ///< per solid angle; probability if singular
     bool singular = false; ///< from mirror or dielectric: l is the only direction
     bool specular = false; ///< from another lobe than lambert
+    BsdfValue value;       ///< of evaluate() for l; 0 if singular
 };
 /// A direction of light for the viewer `v`. `choice` in [0, 1) picks a lobe in proportion to its estimated albedo, u in
 /// [0, 1) the direction. Across a dielectric border radiance over the squared index of refraction is carried, which does not
@@ -68,6 +47,16 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v, float choice
 /// Density of the directions of sample() per solid angle, without the singular lobes. Its integral is at most 1, as some
 /// samples are absorbed.
 float pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept;
+
+/// Both at once.
+struct BsdfTerm {
+    BsdfValue value;
+    float pdf = 0;
+};
+BsdfTerm evaluate_with_pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept;
+
+/// What the ggx lobes leave, of light from below them, to the viewer; 1 without covered lobes.
+Vec3f cover(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v) noexcept;
 
 /// The material of glTF 2.0, appendix B: ggx with the reflectance mix(0.04, base, metallic) over lambert of
 /// base (1 - metallic). Lambert's share is what ggx does not reflect on the way in and out, instead of 1 - F(v.h).

@@ -2,22 +2,19 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
-#include <cmath>
+#include "bake/preview/pixel_samples.h"
 #include <vector>
 
 namespace bake {
-namespace {
-
-bool finite(const Vec3f& v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-} // namespace
 
 Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* stats, Progress* progress) {
-    if (!finite(position)) throw Error(Refusal::usage, "`position`: is not finite; give three numbers, such as 0,1,0");
+    if (!is_finite(position))
+        throw Error(Refusal::usage, "`position`: is not finite; give three numbers, such as 0,1,0");
     if (size < 1 || size > 32768)
         throw Error(Refusal::usage, "`size` " + std::to_string(size) + ": is not from 1 to 32768; give such as 512");
     Cube cube = make_cube(size, 3);
-    const int spp = std::max(1, scene.settings.spp);
+    RenderSettings settings = scene.settings;
+    settings.spp = std::max(1, settings.spp);
     std::vector<RenderStats> per_row(std::size_t(6) * size);
     if (progress) progress->start("capture", std::int64_t(6) * size);
     for_rows(
@@ -28,19 +25,19 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
                 const int y = int(r % size);
                 for (int x = 0; x < size; ++x) {
                     Vec3d sum(0);
-                    for (int i = 0; i < spp; ++i) {
-                        Sampler sampler(x, int(r), i, scene.settings.seed);
-                        const Vec2d at = pixel_sample(spp, sampler);
+                    const auto ray_at = [&](const Vec2d& at) {
                         const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
                         Ray ray;
                         ray.origin = position;
                         ray.direction =
                             Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
-                        const Vec3f value = radiance(scene, ray, scene.settings.bounces, sampler, per_row[r]).total();
-                        if (finite(value)) sum += Vec3d(value);
-                        else ++per_row[r].bad_samples;
-                    }
-                    const Vec3f mean(sum / double(spp));
+                        return ray;
+                    };
+                    add_samples(scene, settings, x, int(r), {0, settings.spp}, per_row[r], ray_at,
+                                [&](int, const Radiance* value, const FirstHit&) {
+                                    if (value) sum += Vec3d(value->total());
+                                });
+                    const Vec3f mean(sum / double(settings.spp));
                     for (int c = 0; c < 3; ++c) cube[face].at(x, y, c) = mean[c];
                 }
             }

@@ -33,7 +33,9 @@ Vec3f mapped(const Material& material, const Shape& shape, const ShapePoint& at,
 } // namespace
 
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept {
-    return make_bsdf(material.reflectance, material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1));
+    const Vec3f tint = material.albedo ? lookup3(*material.albedo, uv_at(shape, at)) : Vec3f(1);
+    return material.maps ? mapped_bsdf(*material.maps, material.reflectance, tint, shape, at)
+                         : make_bsdf(material.reflectance, tint);
 }
 
 bool has_relief(const Material& material) noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/preview/reflectance.h"
 #include "bake/preview/shape.h"
+#include "bake/preview/surface_maps.h"
 #include "bake/preview/texture.h"
 #include "bake/relief/map/displaced_normal.h"
 
@@ -18,10 +19,11 @@ struct Material {
     Texture object_normals;                             ///< the same in object space
     std::shared_ptr<const HeightSampler<float>> height; ///< from which height_method computes normals at each hit
     NormalMethod height_method = NormalMethod::exact;
-    ConstantScale<float> height_scale; ///< for NormalMethod::constant_scale
+    ConstantScale<float> height_scale;       ///< for NormalMethod::constant_scale
+    std::shared_ptr<const SurfaceMaps> maps; ///< further textures, alpha and sides; null: none
 };
 
-/// The reflection model at a point, including the albedo texture.
+/// The reflection model at a point, including the albedo texture and the maps.
 Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at) noexcept;
 
 /// Whether shading normals differ from those of the mesh.

@@ -84,6 +84,7 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
         set_map(material, quick, diagonal(box), notes);
     } else {
         mesh.file = quick.mesh;
+        mesh.own_materials = quick.material.empty();
     }
     entries.materials.push_back(std::move(material));
     entries.meshes.push_back(std::move(mesh));

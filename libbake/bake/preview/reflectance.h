@@ -19,6 +19,9 @@ struct Reflectance {
     float shininess = 32;
     float metallic = 0, roughness = 0.5f; ///< ggx
     float ior = 1.5f;                     ///< dielectric: index of refraction
+    /// Mean free path of light below the surface, in world units: diffuse reflection spreads. 0: it does not.
+    Vec3f subsurface{0};
+    float translucency = 1; ///< share of the diffuse reflection that spreads
 };
 
 /// `tint` multiplies ambient and diffuse.

@@ -1,20 +1,11 @@
-// Renders pictures of a scene: radiance, and beside it what the camera's rays hit.
+// Renders pictures of a scene: radiance, and beside it what the camera's rays hit. Passes (passes.h) gives the pictures
+// on the way too.
 #pragma once
-#include "bake/preview/tracer.h"
-#include <string>
-#include <vector>
+#include "bake/preview/layers.h"
 
 namespace bake {
 
 class Progress;
-
-/// The channels of render_layers(), with the names of OpenEXR files that compositing programs expect:
-///   R G B A              mean radiance; share of the samples that hit a mesh
-///   emission diffuse specular reflection   the parts of R, G, B, as in Radiance
-///   albedo N Ng          means of the diffuse reflectance and of the shading and facet normals, in world space
-///   Z P uv id.object id.triangle   of the first sample: distance from the camera, position, uv, numbers from 1 (0: no mesh)
-///   lit repaired rays    share of lights that are not shadowed, of samples whose relief is in trouble, rays per sample
-const std::vector<std::string>& layer_channels();
 
 /// Mean radiance per pixel of a built scene, three channels; of settings.part alone, if given. All values are finite. The
 /// result does not depend on the number of threads.
@@ -23,5 +14,18 @@ Image<float> render(const Scene& scene, const RenderSettings& settings, RenderSt
 /// The same with the channels of layer_channels().
 Image<float> render_layers(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
                            Progress* progress = nullptr);
+
+/// Two pictures of a scene whose noise is independent.
+struct Halves {
+    Image<float> a, b;
+};
+/// Two pictures of half of settings.spp samples per pixel each, which is rounded up to an even number.
+Halves render_halves(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
+                     Progress* progress = nullptr);
+
+/// An estimate of the mean square of x - y over all values that noise does not bias: the mean of (x.a - y.a) (x.b - y.b), which are
+/// independent of each other. The mean of the squares of a single pair would be too large by the sum of the variances. It may
+/// come out below 0. x and y may use the same seed, which makes them more alike and the estimate better. The four pictures have the same size.
+double mean_square_difference(const Halves& x, const Halves& y) noexcept;
 
 } // namespace bake

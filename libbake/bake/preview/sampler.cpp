@@ -53,6 +53,10 @@ Vec2f Sampler::next2() noexcept {
     return {unit(scrambled(reversed(index), low)), unit(scrambled(second_dimension(index), high))};
 }
 
+Sampler Sampler::branch() const noexcept { return {hash(pixel_ ^ hash(~std::uint64_t(pair_))), index_}; }
+
+std::uint32_t second_seed(std::uint32_t seed) noexcept { return std::uint32_t(hash(std::uint64_t(1) << 32 | seed)); }
+
 Vec2d pixel_sample(int spp, Sampler& sampler) noexcept {
     const Vec2f at = sampler.next2();
     return spp <= 1 ? Vec2d(0.5) : Vec2d(at);

@@ -19,11 +19,19 @@ public:
     /// The next pair of numbers. Calls have to come in the same order for every sample of a pixel.
     Vec2f next2() noexcept;
     float next() noexcept { return next2().x; }
+    /// Numbers for a path that splits off here, independent of all that this sampler gives. However many the path takes,
+    /// those that follow here keep their place in the sequence, and with it their even distribution.
+    Sampler branch() const noexcept;
 
 private:
+    Sampler(std::uint64_t pixel, std::uint32_t index) noexcept : pixel_(pixel), index_(index) {}
+
     std::uint64_t pixel_;
     std::uint32_t index_, pair_ = 0;
 };
+
+/// The seed of the second half of the samples where two independent halves are wanted.
+std::uint32_t second_seed(std::uint32_t seed) noexcept;
 
 /// Sample `index` of `spp` in the unit square of pixel (x, y): its centre for spp = 1.
 Vec2d pixel_sample(int spp, Sampler& sampler) noexcept;

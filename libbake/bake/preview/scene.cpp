@@ -59,10 +59,15 @@ void build(Scene& scene) {
         for (const Triangle& t : instance.shape->surface.triangles)
             triangles[i].push_back({mesh.corner_position[t.corner[0]], mesh.corner_position[t.corner[1]],
                                     mesh.corner_position[t.corner[2]]});
-        meshes[i] = {positions[i], triangles[i]};
+        const bool mirrored = glm::determinant(instance.linear) < 0;
+        const auto& maps = instance.material->maps;
+        meshes[i] = {positions[i], triangles[i], seen_filter(maps, *instance.shape, mirrored),
+                     light_filter(maps, *instance.shape)};
     }
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
+    if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
+        complete(scene.sky_levels, scene.sky.cube);
 }
 
 Bounds bounds(const Scene& scene) noexcept {

@@ -3,6 +3,7 @@
 #include "bake/light/light.h"
 #include "bake/preview/material.h"
 #include "bake/preview/sky.h"
+#include "bake/preview/sky_levels.h"
 #include "bake/preview/terminator.h"
 #include "bake/preview/tone.h"
 #include "bake/ray/bvh.h"
@@ -27,7 +28,11 @@ struct Instance {
 };
 
 /// Whether the sky lights meshes, or is only seen and mirrored.
-enum class SkyLighting { off, sampled };
+enum class SkyLighting {
+    off,
+    sampled,
+    irradiance, ///< as in real-time engines: from filtered levels of the sky, without shadows
+};
 
 /// Pixels x to x + width, y to y + height of a picture.
 struct PixelRect {
@@ -60,6 +65,7 @@ struct Scene {
     RenderSettings settings;
     std::vector<std::string> notes; ///< of reading the files, with their names
     SkyLight sky_light;             ///< set by build()
+    SkyLevels sky_levels;           ///< completed by build() for SkyLighting::irradiance
     std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 

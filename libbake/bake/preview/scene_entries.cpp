@@ -5,8 +5,10 @@
 #include "bake/environment/resample/resample.h"
 #include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/gltf/material.h"
 #include "bake/mesh/origin.h"
 #include "bake/preview/default_lights.h"
+#include "bake/preview/gltf_objects.h"
 #include "bake/preview/shape_mesh.h"
 #include <algorithm>
 #include <map>
@@ -38,6 +40,35 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
     return texture;
 }
 
+/// The textures besides albedo and normal. Null if there are none.
+std::shared_ptr<const SurfaceMaps> load_maps(const MaterialEntry& entry, TextureCache& cache,
+                                             std::vector<std::string>& notes) {
+    SurfaceMaps maps;
+    bool any = false;
+    const auto read_map = [&](const std::string& file, bool colour, SurfaceMap& to) {
+        if (file.empty()) return;
+        const ColourSpace space = colour ? ColourSpace::automatic : ColourSpace::linear;
+        to.texture = cached(cache, "albedo " + std::to_string(int(space)) + " " + file,
+                            [&] { return read_albedo(file, space, &notes); });
+        any = true;
+    };
+    read_map(entry.specular_map, true, maps.specular);
+    read_map(entry.emission_map, true, maps.emission);
+    read_map(entry.shininess_map, false, maps.shininess);
+    read_map(entry.roughness_map, false, maps.roughness);
+    read_map(entry.metallic_map, false, maps.metallic);
+    read_map(entry.occlusion_map, false, maps.occlusion);
+    if (entry.alpha_cutoff) {
+        maps.alpha.texture = read_alpha(entry.albedo);
+        if (!maps.alpha)
+            throw Error(Refusal::unsuitable,
+                        entry.albedo + ": is opaque, and \"alpha-cutoff\" needs its alpha; remove the key");
+        maps.alpha_mode = AlphaMode::mask, maps.alpha_cutoff = *entry.alpha_cutoff;
+        any = true;
+    }
+    return any ? std::make_shared<const SurfaceMaps>(std::move(maps)) : nullptr;
+}
+
 std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
                                         std::vector<std::string>& notes) {
     if (entry.relief.file.empty() && entry.relief.shade && entry.relief.shade->shade != Shade::plain)
@@ -57,6 +88,7 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
             cache,
             (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
             [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes); });
+    material->maps = load_maps(entry, cache, notes);
     return material;
 }
 
@@ -66,10 +98,15 @@ using ShapeCache = std::map<std::tuple<std::string, std::string, int, int, bool,
 /// Heights by their file.
 using HeightCache = std::map<std::string, std::shared_ptr<const HeightTexture>>;
 
+/// glTF files with their own materials, by all options of reading.
+using GltfCache = std::map<std::tuple<std::string, bool, bool, float, float>, std::vector<GltfObject>>;
+
 /// What meshes share.
 struct Loaded {
     ShapeCache shapes;
     HeightCache heights;
+    GltfCache gltf;
+    std::map<std::string, std::vector<GltfLight>> lights; ///< of glTF files
 };
 
 /// Places the mesh with the relief of its material, which is baked for this shape.
@@ -106,11 +143,39 @@ Mesh read_entry(const MeshEntry& entry, Scene& scene) {
     return mesh;
 }
 
+bool is_gltf(const MeshEntry& entry) { return entry.shape.empty() && mesh_format(entry.file) == MeshFormat::gltf; }
+
+/// Adds the lights of the file where its last instance stands.
+void add_gltf_lights(const MeshEntry& entry, Loaded& loaded, Scene& scene) {
+    const auto [found, added] = loaded.lights.try_emplace(entry.file);
+    if (added) {
+        std::vector<std::string> notes;
+        found->second = read_gltf_lights(entry.file, notes);
+        for (const std::string& note : notes) scene.notes.push_back(entry.file + ": " + note);
+    }
+    for (const GltfLight& light : found->second) scene.lights.push_back(placed_light(light, scene.instances.back()));
+}
+
+/// A glTF file with its own materials. False if it has none.
+bool load_gltf(const MeshEntry& entry, Loaded& loaded, Scene& scene) {
+    const auto [found, added] =
+        loaded.gltf.try_emplace({entry.file, entry.flat, entry.flip_v, entry.repeat.x, entry.repeat.y});
+    if (added && has_gltf_materials(entry.file)) {
+        if (entry.uv_set >= 0)
+            scene.notes.push_back(entry.file + ": its own materials name their sets of uvs; \"uv-set\" is for others");
+        found->second = load_gltf_objects(entry.file, {entry.flat, entry.flip_v, entry.repeat}, scene);
+    }
+    for (const GltfObject& part : found->second) add_instance(scene, *part.shape, *part.material, entry.placement);
+    return !found->second.empty();
+}
+
 void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& loaded, Scene& scene) {
     throw_if_interrupted();
+    if (entry.own_materials && is_gltf(entry) && load_gltf(entry, loaded, scene)) return;
     const Material& material = *scene.materials[entry.material + 1];
     const ReliefEntry relief = entry.material < 0 ? ReliefEntry{} : entries.materials[entry.material].relief;
-    const bool textured = !relief.file.empty() || material.albedo || material.bump_table || material.normal_map;
+    const bool textured =
+        !relief.file.empty() || material.albedo || material.bump_table || material.normal_map || material.maps;
     Vec2f repeat = entry.repeat;
     if (entry.material >= 0) repeat *= entries.materials[entry.material].repeat;
     if (!textured) repeat = Vec2f(1); // so that meshes with and without textures share their shape
@@ -145,6 +210,13 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     return std::move(sky.cube);
 }
 
+void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {
+    if (!entry.irradiance.empty()) levels.irradiance = read_irradiance(entry.irradiance);
+    if (entry.specular.empty()) return;
+    levels.glossy = read_glossy(entry.specular, entry.alphas.size());
+    levels.alphas = entry.alphas;
+}
+
 void add_ground(const SceneEntries& entries, const Bounds& box, Loaded& loaded, Scene& scene) {
     const GroundEntry& ground = *entries.ground;
     const double across = diagonal(box) > 0 ? diagonal(box) : 1;
@@ -173,10 +245,13 @@ Scene load(const SceneEntries& entries) {
     scene.lights = entries.lights;
     scene.ambient = entries.ambient;
     scene.sky.background = entries.background;
-    scene.sky.scale = entries.sky.scale, scene.sky.yaw_deg = entries.sky.yaw_deg;
+    scene.sky.scale = entries.sky.scale, scene.sky.yaw = SkyYaw(double(entries.sky.yaw_deg));
     if (entries.labels) scene.sky.cube = label_sky(512);
     else if (has_sky)
         scene.sky.cube = at_line(entries, entries.sky.line, [&] { return load_sky(entries.sky, scene.notes); });
+
+    if (scene.settings.sky_light == SkyLighting::irradiance)
+        at_line(entries, entries.sky.line, [&] { load_sky_levels(entries.sky, scene.sky_levels); });
 
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
@@ -185,14 +260,18 @@ Scene load(const SceneEntries& entries) {
             at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
     Loaded loaded;
     for (const MeshEntry& entry : entries.meshes)
-        at_line(entries, entry.line, [&] { load_mesh(entries, entry, loaded, scene); });
+        at_line(entries, entry.line, [&] {
+            load_mesh(entries, entry, loaded, scene);
+            if (entry.lights && is_gltf(entry)) add_gltf_lights(entry, loaded, scene);
+        });
 
     const Bounds box = bounds(scene); // without the ground, which is not to be in the picture as a whole
     const float aspect = float(entries.settings.width) / float(entries.settings.height);
     scene.camera = place_camera(chosen_camera(entries), box, aspect);
     if (entries.ground) at_line(entries, entries.ground->line, [&] { add_ground(entries, box, loaded, scene); });
-    if (!entries.any_light && entries.studio && !has_sky) add_studio_lights(scene);
-    else if (!entries.any_light && !has_sky) add_default_light(scene);
+    const bool lit = entries.any_light || !scene.lights.empty(); // by the entries, or by glTF files
+    if (!lit && entries.studio && !has_sky) add_studio_lights(scene);
+    else if (!lit && !has_sky) add_default_light(scene);
     build(scene);
     return scene;
 }

@@ -3,6 +3,7 @@
 #include "bake/preview/camera_entry.h"
 #include "bake/preview/relief_entry.h"
 #include "bake/preview/scene.h"
+#include <optional>
 
 namespace bake {
 
@@ -11,6 +12,8 @@ struct MaterialEntry {
     Reflectance reflectance;
     Vec3f reflect{0};
     std::string albedo, bump_table, normal_map; ///< files; empty if not given
+    std::string specular_map, shininess_map, roughness_map, metallic_map, occlusion_map, emission_map; ///< likewise
+    std::optional<float> alpha_cutoff; ///< rays pass where the alpha of the albedo is below it
     ColourSpace albedo_space = ColourSpace::automatic;
     float bump_scale = 1;
     NormalEncoding encoding = NormalEncoding::automatic;
@@ -27,6 +30,8 @@ struct MeshEntry {
     int columns = 0, rows = 0; ///< of a shape, see shape_mesh()
     Vec2f repeat{1};           ///< factor on the uvs
     int material = -1;         ///< index in materials; -1 is plain grey
+    bool own_materials = true; ///< a glTF that has materials is shown with them instead
+    bool lights = true;        ///< the lights of a glTF shine in the scene
     Placement placement;
     bool flat = false;
     bool flip_v = false; ///< see MeshOptions
@@ -40,6 +45,9 @@ struct SkyEntry {
     ColourSpace space = ColourSpace::automatic;
     BadPolicy bad = BadPolicy::refuse;
     float scale = 1, yaw_deg = 0;
+    std::string irradiance;    ///< file for SkyLighting::irradiance; empty: computed
+    std::string specular;      ///< the same, six files with levels
+    std::vector<float> alphas; ///< of the levels in `specular`
     int line = 0;
 };
 

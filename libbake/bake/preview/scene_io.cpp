@@ -3,6 +3,7 @@
 #include "bake/base/file_bytes.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/preview/scene_lights.h"
+#include "bake/preview/scene_maps.h"
 #include "bake/preview/scene_objects.h"
 #include "bake/preview/scene_relief.h"
 #include "bake/preview/scene_section.h"
@@ -29,8 +30,9 @@ void read_render(const Section& in, SceneEntries& scene) {
     read(in, "bounces", s.bounces, 0, 16);
     read(in, "diffuse-bounces", s.diffuse_bounces, 0, 16);
     read(in, "shadows", s.shadows);
-    read_choice<SkyLighting>(in, "sky-light", s.sky_light,
-                             {{"off", SkyLighting::off}, {"sampled", SkyLighting::sampled}});
+    read_choice<SkyLighting>(
+        in, "sky-light", s.sky_light,
+        {{"off", SkyLighting::off}, {"sampled", SkyLighting::sampled}, {"irradiance", SkyLighting::irradiance}});
     read_choice<Terminator>(in, "terminator", s.terminator,
                             {{"off", Terminator::off},
                              {"flip", Terminator::flip},
@@ -45,8 +47,33 @@ void read_render(const Section& in, SceneEntries& scene) {
     read_colour(in, "background", scene.background);
 }
 
+/// Files of `bake cubemap --irradiance` and `--specular ggx`.
+void read_sky_levels(const Section& in, SkyEntry& sky) {
+    read_path(in, "irradiance", sky.irradiance);
+    const bool specular = read_path(in, "specular", sky.specular);
+    const toml::node *pattern = in.table.get("specular"), *alphas = in.table.get("specular-roughness");
+    if (specular && !is_face_pattern(sky.specular))
+        refuse(in, *pattern, "\"specular\" has no %s, which stands for the face; give such as \"ggx_%s.exr\"");
+    if (specular && !alphas)
+        refuse(in, *pattern,
+               "\"specular-roughness\" is missing; give the values of --roughness with which the file was made");
+    if (!alphas) return;
+    if (!specular) refuse(in, *alphas, "\"specular-roughness\" is of \"specular\", which is missing; give its file");
+    const toml::array* list = alphas->as_array();
+    double before = -1;
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
+        const auto alpha = list->get(i)->value<double>();
+        if (!alpha || !(*alpha > before && *alpha >= 0 && *alpha <= 1)) list = nullptr;
+        else sky.alphas.push_back(float(before = *alpha));
+    }
+    if (!list || list->empty())
+        refuse(in, *alphas,
+               "\"specular-roughness\" is no list of rising numbers from 0 to 1; give such as [0, 0.1, 1]");
+}
+
 void read_sky(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad"});
+    allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad", "irradiance", "specular",
+                    "specular-roughness"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -76,6 +103,7 @@ void read_sky(const Section& in, SceneEntries& scene) {
     read(in, "scale", scene.sky.scale, 0);
     read(in, "yaw-deg", scene.sky.yaw_deg, -360, 360);
     read_colour_space(in, "colour-space", scene.sky.space);
+    read_sky_levels(in, scene.sky);
     read_choice<BadPolicy>(in, "bad", scene.sky.bad,
                            {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
 }
@@ -83,9 +111,11 @@ void read_sky(const Section& in, SceneEntries& scene) {
 } // namespace
 
 void read_material(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"name",       "brdf",   "ambient",  "diffuse", "specular", "shininess",    "metallic",
-                    "roughness",  "ior",    "emission", "reflect", "albedo",   "albedo-space", "bump",
-                    "bump-scale", "normal", "encoding", "directx", "height",   "shade",        "repeat"});
+    allow_only(in, {"name",         "brdf",          "ambient",      "diffuse",      "specular",      "shininess",
+                    "metallic",     "roughness",     "ior",          "emission",     "reflect",       "albedo",
+                    "albedo-space", "bump",          "bump-scale",   "normal",       "encoding",      "directx",
+                    "height",       "shade",         "repeat",       "specular-map", "shininess-map", "roughness-map",
+                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -111,8 +141,13 @@ void read_material(const Section& in, SceneEntries& scene) {
     read(in, "metallic", m.reflectance.metallic, 0, 1);
     read(in, "roughness", m.reflectance.roughness, 0, 1);
     read(in, "ior", m.reflectance.ior, 1, 10);
+    read_triple(in, "subsurface", m.reflectance.subsurface, 0);
+    read(in, "translucency", m.reflectance.translucency, 0, 1);
+    if (const toml::node* share = in.table.get("translucency"); share && !in.table.get("subsurface"))
+        refuse(in, *share, "\"translucency\" has no \"subsurface\"; give the mean free path of the light in the body");
     read_path(in, "albedo", m.albedo);
     read_colour_space(in, "albedo-space", m.albedo_space);
+    read_maps(in, m);
     read_path(in, "bump", m.bump_table);
     read(in, "bump-scale", m.bump_scale);
     if (read_path(in, "normal", m.normal_map) && !m.bump_table.empty())
@@ -132,11 +167,13 @@ namespace {
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
     allow_only(in, {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat",
-                    "flip-v", "uv-set", "repeat"});
+                    "flip-v", "uv-set", "repeat", "lights"});
     MeshEntry m;
     read_mesh_source(in, m);
     read_mesh_name(in, scene, m);
     read_material_name(in, scene, m.material);
+    m.own_materials = m.material < 0;
+    read(in, "lights", m.lights);
     read_placement(in, m.placement);
     read_repeat(in, m.repeat);
     read(in, "flat", m.flat);

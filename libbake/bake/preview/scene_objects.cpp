@@ -89,6 +89,7 @@ void read_instance(const Section& in, SceneEntries& scene) {
     instance.placement = {};
     instance.line = line_of(in.table);
     read_material_name(in, scene, instance.material);
+    instance.own_materials = instance.material < 0;
     read_placement(in, instance.placement);
     scene.meshes.push_back(std::move(instance));
 }

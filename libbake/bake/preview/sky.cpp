@@ -8,12 +8,6 @@
 namespace bake {
 namespace {
 
-/// Rotation about the vertical axis; at 90 degrees +Z goes to +X.
-Vec3d about_y(const Vec3d& d, double deg) noexcept {
-    const double sine = std::sin(deg * (pi / 180)), cosine = std::cos(deg * (pi / 180));
-    return {cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x};
-}
-
 /// Mean of the channels of a face over blocks, so that n x n cells remain.
 std::vector<double> block_means(const Image<float>& face, int n) {
     std::vector<double> means(std::size_t(n) * n);
@@ -54,10 +48,22 @@ double accumulate(std::span<const double> weights, float* sums) noexcept {
     return total;
 }
 
+/// For every k the index of the first sum above k / n (Chen and Asau, On Generating Random Variates from an Empirical
+/// Distribution, 1974).
+void index_sums(std::span<const float> sums, std::uint16_t* starts) noexcept {
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        while (i + 1 < sums.size() && !(sums[i] > float(k) / float(sums.size()))) ++i;
+        starts[k] = std::uint16_t(i);
+    }
+}
+
 /// The interval of `sums` in which u lies, and where in it.
-int find(std::span<const float> sums, float u, float& within) noexcept {
-    const auto i = std::min<std::ptrdiff_t>(std::upper_bound(sums.begin(), sums.end(), u) - sums.begin(),
-                                            std::ptrdiff_t(sums.size()) - 1);
+int find(std::span<const float> sums, const std::uint16_t* starts, float u, float& within) noexcept {
+    const std::size_t last = sums.size() - 1, k = std::size_t(u * float(sums.size()));
+    std::size_t i = starts[std::min(k, last)];
+    while (i > 0 && sums[i - 1] > u) --i; // k was rounded up
+    while (i < last && !(sums[i] > u)) ++i;
     const float low = i > 0 ? sums[i - 1] : 0, high = sums[i];
     within = high > low ? std::clamp((u - low) / (high - low), 0.0f, 0x1.fffffep-1f) : 0.5f;
     return int(i);
@@ -67,21 +73,31 @@ float share(const float* sums, int i) noexcept { return sums[i] - (i > 0 ? sums[
 
 } // namespace
 
-Vec3d sky_to_cube(const Vec3d& world, double yaw_deg) noexcept {
-    const Vec3d d = world_to_cube(world);
-    return yaw_deg == 0 ? d : about_y(d, -yaw_deg);
-}
-
-Vec3d cube_to_sky(const Vec3d& cube, double yaw_deg) noexcept {
-    return world_to_cube(yaw_deg == 0 ? cube : about_y(cube, yaw_deg));
+Vec3f fast_lookup(const Cube& cube, const Vec3f& d) noexcept {
+    const int n = cube.size();
+    const CubePoint<float> at = cube_point(d);
+    const float x = at.s * float(n) - 0.5f, y = at.t * float(n) - 0.5f;
+    // Near the edges of a face other faces take part.
+    if (!(x >= 0 && y >= 0 && x < float(n - 1) && y < float(n - 1))) return lookup(cube, d);
+    const int column = int(x), row = int(y);
+    const float right = x - float(column), down = y - float(row);
+    const float* upper = &cube[at.face].at(column, row);
+    const float* lower = upper + std::size_t(n) * cube.channels();
+    const int next = cube.channels();
+    const auto mix = [&](int c) {
+        const float above = upper[c] + right * (upper[c + next] - upper[c]);
+        const float below = lower[c] + right * (lower[c + next] - lower[c]);
+        return above + down * (below - above);
+    };
+    return {mix(0), mix(1), mix(2)};
 }
 
 Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept {
     if (sky.cube.empty()) return sky.background;
-    return sky.scale * lookup(sky.cube, sky_to_cube(Vec3d(direction), sky.yaw_deg));
+    return sky.scale * fast_lookup(sky.cube, sky.yaw.to_cube(direction));
 }
 
-SkyLight::SkyLight(const Sky& sky) : yaw_deg_(sky.yaw_deg) {
+SkyLight::SkyLight(const Sky& sky) : yaw_(sky.yaw) {
     constexpr int largest = 512;
     if (sky.cube.empty() || !(sky.scale > 0)) return;
     const int n = std::min(sky.cube.size(), largest);
@@ -98,40 +114,46 @@ SkyLight::SkyLight(const Sky& sky) : yaw_deg_(sky.yaw_deg) {
     std::vector<double> row_weights(std::size_t(6) * n);
     rows_.resize(row_weights.size());
     cells_.resize(row_weights.size() * n);
+    row_starts_.resize(rows_.size()), cell_starts_.resize(cells_.size());
     for_rows(std::int64_t(6) * n, 8, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> weights(n);
         for (int row = int(begin); row < int(end); ++row) {
             const int f = row / n, j = row % n;
             for (int i = 0; i < n; ++i)
                 weights[i] = std::max(0.0, around(radiance[f], n, i, j) - dark) * solid_angles[std::size_t(j) * n + i];
-            row_weights[row] = accumulate(weights, &cells_[std::size_t(row) * n]);
+            float* sums = &cells_[std::size_t(row) * n];
+            row_weights[row] = accumulate(weights, sums);
+            index_sums({sums, std::size_t(n)}, &cell_starts_[std::size_t(row) * n]);
         }
     });
     if (accumulate(row_weights, rows_.data()) > 0) size_ = n;
+    index_sums(rows_, row_starts_.data());
 }
 
-float SkyLight::density(int row, int column, double s, double t) const noexcept {
-    const double cell = double(share(rows_.data(), row)) * share(&cells_[std::size_t(row) * size_], column);
+float SkyLight::density(int row, int column, float s, float t) const noexcept {
+    const float cell = share(rows_.data(), row) * share(&cells_[std::size_t(row) * size_], column);
     // The cell has the area (2 / n)^2 of a face at distance 1; a point at distance d, seen at the cosine 1 / d.
-    const double squared = 1 + s * s + t * t;
-    return float(cell * 0.25 * size_ * size_ * squared * std::sqrt(squared));
+    const float squared = 1 + s * s + t * t;
+    return cell * 0.25f * float(size_) * float(size_) * squared * std::sqrt(squared);
 }
 
 SkySample SkyLight::sample(const Vec2f& u) const noexcept {
     if (size_ == 0) return {};
     float along = 0, down = 0;
-    const int row = find(rows_, u.y, down);
-    const int column = find({&cells_[std::size_t(row) * size_], std::size_t(size_)}, u.x, along);
+    const int row = find(rows_, row_starts_.data(), u.y, down);
+    const std::size_t first = std::size_t(row) * size_;
+    const int column = find({&cells_[first], std::size_t(size_)}, &cell_starts_[first], u.x, along);
     const int face = row / size_, y = row % size_;
-    const CubePoint<double> point{CubeFace(face), (column + double(along)) / size_, (y + double(down)) / size_};
-    return {Vec3f(glm::normalize(cube_to_sky(cube_direction(point), yaw_deg_))),
+    const CubePoint<float> point{CubeFace(face), (float(column) + along) / float(size_),
+                                 (float(y) + down) / float(size_)};
+    return {glm::normalize(yaw_.to_world(cube_direction(point))),
             density(row, column, 2 * point.s - 1, 2 * point.t - 1)};
 }
 
 float SkyLight::pdf(const Vec3f& direction) const noexcept {
     if (size_ == 0) return 0;
-    const CubePoint<double> point = cube_point(sky_to_cube(Vec3d(direction), yaw_deg_));
-    const auto cell = [&](double at) { return std::clamp(int(at * size_), 0, size_ - 1); };
+    const CubePoint<float> point = cube_point(yaw_.to_cube(direction));
+    const auto cell = [&](float at) { return std::clamp(int(at * float(size_)), 0, size_ - 1); };
     return density(int(point.face) * size_ + cell(point.t), cell(point.s), 2 * point.s - 1, 2 * point.t - 1);
 }
 

@@ -7,21 +7,37 @@
 // (Karlik, Sik, Vevoda, Skrivan, Krivanek, MIS Compensation, SIGGRAPH Asia 2019).
 #pragma once
 #include "bake/environment/sky/cube.h"
+#include <cstdint>
 #include <vector>
 
 namespace bake {
 
+/// Rotation of a sky about the vertical axis: it moves the sky ahead to the right, as `bake cubemap --yaw` does.
+struct SkyYaw {
+    float cosine = 1, sine = 0;
+    SkyYaw() = default;
+    explicit SkyYaw(double deg) noexcept
+        : cosine(float(std::cos(deg * (pi / 180)))), sine(float(std::sin(deg * (pi / 180)))) {}
+
+    /// From a world-space direction to the cube space in which the faces are looked up, and back.
+    Vec3f to_cube(const Vec3f& world) const noexcept {
+        return {-cosine * world.x - sine * world.z, world.y, cosine * world.z - sine * world.x};
+    }
+    Vec3f to_world(const Vec3f& cube) const noexcept {
+        return {-cosine * cube.x - sine * cube.z, cube.y, cosine * cube.z - sine * cube.x};
+    }
+};
+
 /// Radiance of rays that hit nothing.
 struct Sky {
-    Cube cube;           ///< if empty, the background is used
-    float scale = 1;     ///< factor on the radiance of the cube
-    float yaw_deg = 0;   ///< moves the sky ahead to the right, as `bake cubemap --yaw` does
+    Cube cube;       ///< three channels; if empty, the background is used
+    float scale = 1; ///< factor on the radiance of the cube
+    SkyYaw yaw;
     Vec3f background{0}; ///< radiance, linear RGB; the background is seen and mirrored, but it does not light
 };
 
-/// From a world-space direction to the cube space in which the faces are looked up, and back. `yaw_deg` is that of the sky.
-Vec3d sky_to_cube(const Vec3d& world, double yaw_deg) noexcept;
-Vec3d cube_to_sky(const Vec3d& cube, double yaw_deg) noexcept;
+/// lookup() of a cube of three channels, in float.
+Vec3f fast_lookup(const Cube& cube, const Vec3f& d) noexcept;
 
 /// Radiance of the sky along a world-space direction.
 Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept;
@@ -48,13 +64,15 @@ public:
     float pdf(const Vec3f& direction) const noexcept;
 
 private:
-    float density(int row, int column, double s, double t) const noexcept;
+    float density(int row, int column, float s, float t) const noexcept;
 
     bool black_ = true;
     int size_ = 0; ///< texels along an edge of a face of the table; 0: no directions
-    double yaw_deg_ = 0;
+    SkyYaw yaw_;
     std::vector<float> rows_;  ///< sums of weights up to and with each row, of all faces in their order; the last is 1
     std::vector<float> cells_; ///< in each row: the same up to each texel
+    /// Where to begin the search in rows_, and in each row of cells_: the first sum above k / n, for every k of n.
+    std::vector<std::uint16_t> row_starts_, cell_starts_;
 };
 
 } // namespace bake

@@ -29,6 +29,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where);
     s.reflect = instance.material->reflect;
+    if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.
     const Vec3f& base = glm::dot(s.surface, s.v) > 0 ? s.surface : s.facet;

@@ -13,6 +13,7 @@ struct Surfel {
     Vec3f n{0};        ///< with relief
     Vec3f v{0};        ///< unit, towards the viewer
     Bsdf bsdf;
+    float occlusion = 1;         ///< factor on what diffuse terms reflect of the sky
     Vec3f reflect{0};            ///< factor on the radiance from the mirror direction
     bool inside = false;         ///< seen from the side that the normals point away from
     bool tilted = false;         ///< relief tilts n away from the viewer, before it is mended

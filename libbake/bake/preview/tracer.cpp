@@ -1,5 +1,7 @@
 #include "bake/preview/tracer.h"
+#include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
+#include "bake/preview/translucency.h"
 #include <cmath>
 
 namespace bake {
@@ -10,6 +12,8 @@ namespace {
 float weight(float own, float other) noexcept { return own > 0 ? own / (own + other) : 0; }
 
 bool is_glass(const Bsdf& bsdf) noexcept { return bsdf.count == 1 && bsdf.lobes[0].kind == LobeKind::dielectric; }
+
+std::vector<LightTerm>* terms_of(const FirstHit* first) noexcept { return first ? first->terms : nullptr; }
 
 /// One path from the camera, with what it counts.
 struct Path {
@@ -24,6 +28,11 @@ private:
     void add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
     void add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
     void add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Radiance& sum) noexcept;
+    bool sky_lights(SkyLighting how) const noexcept {
+        return scene.settings.sky_light == how && !scene.sky_light.is_black();
+    }
+    void add_filtered_sky(const Surfel& s, Radiance& sum) noexcept;
+    void add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces, Radiance& sum) noexcept;
     Vec3f mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
     Vec3f through(const Surfel& s, int bounces, int diffuse_bounces) noexcept;
 };
@@ -49,6 +58,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
         const LightSample<float> to = sample(light, s.at.p, u);
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, int(&light - scene.lights.data()), to.l,
+                                to.radiance);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
         if (f.diffuse + f.specular == Vec3f(0) || to.radiance == Vec3f(0)) continue;
         const float factor = gated(scene, s, to.l, first);
@@ -62,15 +73,17 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
 }
 
 void Path::add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept {
+    const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky);
     const SkySample from = scene.sky_light.sample(sampler.next2());
     if (!(from.pdf > 0)) return;
-    const BsdfValue f = evaluate(s.bsdf, s.n, from.l, s.v);
+    const BsdfTerm term = evaluate_with_pdf(s.bsdf, s.n, from.l, s.v);
+    const BsdfValue& f = term.value;
     if (f.diffuse + f.specular == Vec3f(0)) return;
     const float factor = gated(scene, s, from.l, first);
     if (factor == 0 || !is_visible(s, {from.l})) return;
-    const float share = factor * weight(from.pdf, pdf(s.bsdf, s.n, from.l, s.v)) / from.pdf;
+    const float share = factor * weight(from.pdf, term.pdf) / from.pdf;
     const Vec3f light = share * sky_radiance(scene.sky, from.l);
-    sum.diffuse += f.diffuse * light;
+    sum.diffuse += s.occlusion * f.diffuse * light;
     sum.specular += f.specular * light;
 }
 
@@ -81,22 +94,45 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const float factor = light_factor(scene.settings.terminator, s.n, s.surface, drawn.l);
     if (factor == 0) return;
     const Ray ray{offset_origin(s.light_at, s.facet), drawn.l};
-    const BsdfValue f = evaluate(s.bsdf, s.n, drawn.l, s.v);
-    Hit hit;
-    if (scene.settings.shadows) ++stats.rays, hit = scene.bvh->intersect(ray);
-    if (!hit) {
+    const BsdfValue& f = drawn.value;
+    // As for the sky's samples: surfaces of one side shadow from both.
+    const bool hidden = scene.settings.shadows && scene.bvh->occluded(ray);
+    stats.rays += scene.settings.shadows;
+    if (!hidden) {
         const Vec3f light =
             factor * weight(drawn.pdf, scene.sky_light.pdf(drawn.l)) / drawn.pdf * sky_radiance(scene.sky, drawn.l);
-        sum.diffuse += f.diffuse * light;
+        sum.diffuse += s.occlusion * f.diffuse * light;
         sum.specular += f.specular * light;
         return;
     }
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    Sampler own = sampler.branch(); // a mirror ray of the same hit may follow
+    Path path{scene, own, stats};
+    const Vec3f light = factor / drawn.pdf * path.along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
+}
+
+void Path::add_filtered_sky(const Surfel& s, Radiance& sum) noexcept {
+    const BsdfValue light = reflected(scene.sky_levels, scene.sky, s.bsdf, s.n, s.v);
+    sum.diffuse += s.occlusion * light.diffuse, sum.specular += light.specular;
+}
+
+/// Light that enters elsewhere and leaves the body here.
+void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces, Radiance& sum) noexcept {
+    const LightEntry entry = draw_light_entry(scene, s, hit, sampler, stats.rays);
+    if (!entry.hit) return;
+    const Surfel there = entry_surfel(scene, entry, s);
+    Radiance light;
+    add_lights(there, light, nullptr);
+    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
+    if (sky_lights(SkyLighting::sampled)) {
+        add_sky_sample(there, light, nullptr);
+        add_bsdf_sample(there, 0, diffuse_bounces, light);
+    }
+    sum.diffuse += entry.factor * cover(s.bsdf, s.n, s.v) * light.diffuse;
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
@@ -123,14 +159,16 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
     const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
-    const bool sky =
-        !glass && s.bsdf.count > 0 && !scene.sky_light.is_black() && scene.settings.sky_light == SkyLighting::sampled;
+    const bool sky = !glass && s.bsdf.count > 0 && sky_lights(SkyLighting::sampled);
+    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(s, sum);
+    if (s.bsdf.translucent != Vec3f(0)) add_translucent(s, hit, diffuse_bounces, sum);
     // Beyond the first hit one of two branches is followed, so that the time does not double with every bounce.
     const bool choose = !first && sky && mirror;
     const float choice = choose ? sampler.next() : 0, part = choose ? 0.5f : 1.0f;
     if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
     if (sky) add_sky_sample(s, sum, first);
     if (sky && (!choose || choice < part)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky_by_surface);
         Radiance drawn;
         add_bsdf_sample(s, bounces, diffuse_bounces, drawn);
         sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;

@@ -5,6 +5,8 @@
 
 namespace bake {
 
+struct LightTerm;
+
 struct RenderStats {
     std::int64_t rays = 0;        ///< of every kind
     std::int64_t bad_samples = 0; ///< samples whose radiance is not finite; they are black
@@ -34,6 +36,7 @@ struct FirstHit {
     Vec2f uv{0};
     float lit = 0; ///< share of the lights whose light is reflected there
     bool repaired = false;
+    std::vector<LightTerm>* terms = nullptr; ///< receives what each light adds, if given (light_terms.h)
 };
 
 /// Radiance along a ray in a built scene:

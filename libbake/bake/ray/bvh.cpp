@@ -52,6 +52,11 @@ struct Bvh::Impl {
     struct Buffers {
         std::vector<Vec3f> positions; // with one element of padding, because Embree loads 16 bytes at a time
         std::vector<std::array<std::uint32_t, 3>> triangles;
+        PassFilter passes_seen, passes_light;
+        std::uint32_t number = 0; ///< of the mesh
+
+        bool is_behind(std::uint32_t triangle, const Vec3f& direction) const noexcept;
+        template <bool seen> static void filter(const RTCFilterFunctionNArguments* args) noexcept;
     };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -65,6 +70,33 @@ struct Bvh::Impl {
         if (device) rtcReleaseDevice(device);
     }
 };
+
+bool Bvh::Impl::Buffers::is_behind(std::uint32_t triangle, const Vec3f& direction) const noexcept {
+    const std::array<std::uint32_t, 3>& corner = triangles[triangle];
+    const Vec3d p0(positions[corner[0]]);
+    const Vec3d facet = glm::cross(Vec3d(positions[corner[1]]) - p0, Vec3d(positions[corner[2]]) - p0);
+    return glm::dot(facet, Vec3d(direction)) > 0;
+}
+
+/// Embree calls this for each triangle that a ray meets in a mesh with a filter, and goes on where it clears `valid`.
+template <bool seen> void Bvh::Impl::Buffers::filter(const RTCFilterFunctionNArguments* args) noexcept {
+    const auto& mesh = *static_cast<const Buffers*>(args->geometryUserPtr);
+    const PassFilter& passes = seen ? mesh.passes_seen : mesh.passes_light;
+    const unsigned count = args->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (args->valid[i] == 0) continue;
+        Crossing at;
+        at.origin = {RTCRayN_org_x(args->ray, count, i), RTCRayN_org_y(args->ray, count, i),
+                     RTCRayN_org_z(args->ray, count, i)};
+        at.direction = {RTCRayN_dir_x(args->ray, count, i), RTCRayN_dir_y(args->ray, count, i),
+                        RTCRayN_dir_z(args->ray, count, i)};
+        at.mesh = mesh.number;
+        at.triangle = RTCHitN_primID(args->hit, count, i);
+        at.b1 = RTCHitN_u(args->hit, count, i), at.b2 = RTCHitN_v(args->hit, count, i);
+        at.behind = mesh.is_behind(at.triangle, at.direction);
+        if (passes(at)) args->valid[i] = 0;
+    }
+}
 
 Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
@@ -85,6 +117,11 @@ Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, own.triangles.data(), 0,
                                    sizeof(own.triangles[0]), own.triangles.size());
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+        own.passes_seen = meshes[i].passes_seen, own.passes_light = meshes[i].passes_light;
+        own.number = std::uint32_t(i);
+        rtcSetGeometryUserData(geometry, &own);
+        if (own.passes_seen) rtcSetGeometryIntersectFilterFunction(geometry, Impl::Buffers::filter<true>);
+        if (own.passes_light) rtcSetGeometryOccludedFilterFunction(geometry, Impl::Buffers::filter<false>);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(impl_->scene, geometry, unsigned(i));
         rtcReleaseGeometry(geometry);

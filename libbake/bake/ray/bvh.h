@@ -6,15 +6,27 @@
 #include "bake/ray/ray.h"
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
 namespace bake {
 
+/// A ray at a triangle: the point is that of Hit.
+struct Crossing {
+    Vec3f origin, direction; ///< of the ray
+    std::uint32_t mesh, triangle;
+    float b1, b2;
+    bool behind; ///< the ray comes from the side on which the corners are clockwise
+};
+/// Whether a ray goes on through a triangle as if it were not there. Must depend on the crossing alone, and must not throw.
+using PassFilter = std::function<bool(const Crossing&)>;
+
 /// Triangles of one mesh in world space; triangle i has the corners positions[triangles[i][0..2]].
 struct BvhMesh {
     std::span<const Vec3f> positions;
     std::span<const std::array<std::uint32_t, 3>> triangles;
+    PassFilter passes_seen, passes_light; ///< for intersect() and for occluded(); empty: no ray passes
 };
 
 /// First intersection of a ray: the point origin + t * direction, which is (1 - b1 - b2) corner[0] + b1 corner[1] +
@@ -44,7 +56,7 @@ public:
     Bvh(Bvh&&) noexcept;
     Bvh& operator=(Bvh&&) noexcept;
 
-    /// The nearest hit. A ray that is not finite, has a zero direction, or has coordinates beyond 1e18 hits nothing.
+    /// The nearest hit that the ray does not pass. A ray that is not finite, has a zero direction, or has coordinates beyond 1e18 hits nothing.
     /// t_min below 0 is taken as 0.
     Hit intersect(const Ray& ray) const noexcept;
     /// True if the ray hits anything; faster than intersect.

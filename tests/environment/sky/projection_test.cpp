@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace bake;
@@ -25,6 +26,20 @@ std::vector<SkyFormatEntry> projected_formats() {
 }
 
 int height_of(const SkyFormatEntry& format, int width) { return width * format.rows / format.columns; }
+
+/// Derivatives of the direction at a picture point, along the picture's x and y. The difference is taken on the side of the
+/// picture's middle, because a step over the border would be clamped.
+std::pair<Vec3d, Vec3d> steps_at(const SkyFormatEntry& format, int w, int h, const Vec2d& at) {
+    const double dx = at.x < 0.5 * w ? 1e-4 : -1e-4, dy = at.y < 0.5 * h ? 1e-4 : -1e-4;
+    const auto direction = [&](double x, double y) { return picture_direction(*format.projection, w, h, x, y); };
+    const Vec3d here = direction(at.x, at.y);
+    return {(direction(at.x + dx, at.y) - here) / dx, (direction(at.x, at.y + dy) - here) / dy};
+}
+
+bool is_near_rim(const Vec2d& at, int w, int h, int discs) {
+    const double width = double(w) / discs, u = std::fmod(at.x, width) / width;
+    return std::hypot(2 * u - 1, 2 * at.y / h - 1) > 0.99;
+}
 
 } // namespace
 
@@ -117,6 +132,54 @@ TEST_SUITE("unit") {
                 // Near the rim of the disc the ball's radius hardly changes with the direction.
                 CHECK(glm::length(back - d) < (format.discs > 0 ? 1e-6 : 1e-7));
             }
+        }
+    }
+
+    TEST_CASE("projection: a texel in the middle of the picture, or of each disc, is square") {
+        for (const SkyFormatEntry& format : projected_formats()) {
+            CAPTURE(std::string(format.name));
+            const int w = 240, h = height_of(format, w), discs = std::max(1, format.discs);
+            for (int disc = 0; disc < discs; ++disc) {
+                const Vec2d middle((disc + 0.5) * w / discs, 0.5 * h);
+                const auto [across, down] = steps_at(format, w, h, middle);
+                CHECK(glm::length(across) > 0);
+                CHECK(glm::length(across) ==
+                      doctest::Approx(glm::length(down)).epsilon(format.is_openexr() ? 0.02 : 1e-3));
+            }
+        }
+    }
+
+    TEST_CASE("projection: no part of a picture is mirrored, but a photograph of a mirror is mirrored everywhere") {
+        std::mt19937 random(3);
+        for (const SkyFormatEntry& format : projected_formats()) {
+            CAPTURE(std::string(format.name));
+            const double side =
+                format.projection == Projection::ball ? 1 : -1; // of (right x down) . d, seen from inside
+            const int w = 240, h = height_of(format, w);
+            for (int i = 0; i < 500; ++i) {
+                const Vec3d d = random_direction(random);
+                const Vec2d at = picture_point(*format.projection, w, h, d);
+                if (format.discs > 0 && is_near_rim(at, w, h, format.discs)) continue;
+                const auto [across, down] = steps_at(format, w, h, at);
+                CAPTURE(i);
+                CHECK(side * glm::dot(glm::cross(across, down), d) > 0);
+            }
+        }
+    }
+
+    TEST_CASE(
+        "projection: a picture of width_per_edge times the edge of a face holds about as many texels as the cube") {
+        for (const SkyFormatEntry& format : projected_formats()) {
+            if (format.width_per_edge == 0) continue;
+            CAPTURE(std::string(format.name));
+            const int edge = 60, w = edge * format.width_per_edge, h = height_of(format, w);
+            const double texels = double(w) * h * (format.discs > 0 ? pi / 4 : 1);
+            CHECK(texels > 0.5 * 6 * edge * edge);
+            CHECK(texels < 2.0 * 6 * edge * edge);
+            Environment sky;
+            sky.picture = Image<float>(w, h, 1);
+            sky.projection = *format.projection;
+            CHECK(sky.face_edge() == edge);
         }
     }
 

@@ -27,6 +27,8 @@ double Stopwatch::total() const {
     return sum;
 }
 
+double Stopwatch::elapsed() const { return now() - last_; }
+
 std::string Stopwatch::to_text() const {
     std::string line;
     for (const auto& [step, seconds] : laps_)

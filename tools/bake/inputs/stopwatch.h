@@ -15,6 +15,8 @@ public:
     /// Of the step of this name; 0 if there was none.
     double seconds(const std::string& step) const;
     double total() const;
+    /// Since the last lap, or since the beginning.
+    double elapsed() const;
     /// The steps in order, with their seconds.
     std::string to_text() const;
     nlohmann::json to_json() const;

@@ -137,7 +137,8 @@ double Environment::density() const noexcept {
 
 int Environment::face_edge() const noexcept {
     if (is_cube()) return cube.size();
-    if (is_latlong(projection)) return std::max(1, picture.width() / 4);
+    if (const int per_edge = entry_of(projection).width_per_edge; per_edge > 0)
+        return std::max(1, picture.width() / per_edge);
     return std::max(1, int(std::lround(density() * std::sqrt(4 * pi / 6))));
 }
 

@@ -15,7 +15,8 @@ struct Environment {
     int channels() const noexcept { return is_cube() ? cube.channels() : picture.channels(); }
     /// Texels per radian, on average over the sphere.
     double density() const noexcept;
-    /// Edge, in texels, of the faces of an equally fine cube, at least 1.
+    /// Edge, in texels, of the faces of an equally fine cube, at least 1: by width_per_edge of the table of formats, and by
+    /// density() for a projection that is not written.
     int face_edge() const noexcept;
 };
 

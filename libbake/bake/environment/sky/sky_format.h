@@ -1,6 +1,9 @@
 // The table of sky formats: everything that the reader, the writer and the command line must know of a format. A new
 // format is one enumerator and one entry here. A new projection needs an enumerator in projection.h and its two functions
-// in projection.cpp as well; projection_test then checks these functions.
+// in projection.cpp as well. A field or function that is forgotten does not compile. What is wrong in an entry or in the two
+// functions, projection_test finds by laws over all entries: each function is the inverse of the other, a texel in the middle
+// of a picture or disc is square (columns, rows, discs), no part of the picture is mirrored, and width_per_edge gives about
+// as many texels as the cube has. How a picture is turned about its axis is a convention that no law can check.
 #pragma once
 #include "bake/environment/sky/layout.h"
 #include "bake/environment/sky/projection.h"

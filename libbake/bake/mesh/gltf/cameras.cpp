@@ -1,49 +1,13 @@
 #include "bake/mesh/gltf/cameras.h"
 #include "bake/base/error.h"
 #include "bake/mesh/gltf/document.h"
-#include "bake/mesh/gltf/nodes.h"
+#include "bake/mesh/gltf/node_tree.h"
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace bake {
 namespace {
 
 using nlohmann::json;
-
-/// The member of an object, or null if there is none.
-json member(const json& object, const char* key) {
-    return object.is_object() && object.contains(key) ? object[key] : json();
-}
-
-std::vector<double> numbers(const json& node, const char* key) {
-    const json list = member(node, key);
-    return list.is_array() ? list.get<std::vector<double>>() : std::vector<double>();
-}
-
-/// The children and transforms of the nodes; cameras need nothing else of them.
-std::vector<GltfSourceNode> read_nodes(const json& nodes) {
-    std::vector<GltfSourceNode> out;
-    for (const json& node : nodes) {
-        GltfSourceNode& to = out.emplace_back();
-        if (const json children = member(node, "children"); children.is_array())
-            to.children = children.get<std::vector<int>>();
-        to.transform = local_transform(numbers(node, "matrix"), numbers(node, "translation"), numbers(node, "rotation"),
-                                       numbers(node, "scale"));
-    }
-    return out;
-}
-
-/// The nodes that are not children.
-std::vector<int> roots_of(const std::vector<GltfSourceNode>& nodes) {
-    std::vector<bool> child(nodes.size());
-    for (const GltfSourceNode& node : nodes)
-        for (const int c : node.children)
-            if (c >= 0 && std::size_t(c) < nodes.size()) child[std::size_t(c)] = true;
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (!child[i]) roots.push_back(int(i));
-    return roots;
-}
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
@@ -78,8 +42,8 @@ std::vector<GltfCamera> read_gltf_cameras(const std::string& path) {
     try {
         const json root = json::parse(document.json);
         const json nodes = member(root, "nodes"), cameras = json::parse(document.cameras);
-        const std::vector<GltfSourceNode> tree = read_nodes(nodes);
-        const std::vector<Transform> world = place_nodes(tree, roots_of(tree), path).world;
+        const std::vector<GltfSourceNode> tree = node_tree(nodes);
+        const std::vector<Transform> world = place_nodes(tree, all_roots(tree), path).world;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const json index = member(nodes[i], "camera");
             if (!index.is_number_integer()) continue;

@@ -342,6 +342,8 @@ GltfDocument read_gltf_document(const std::string& path) {
     each("buffers", [&](const json& object, std::size_t i) { read_buffer(object, i, chunks, path, out); });
     each("images", [&](const json& object, std::size_t i) { read_image(object, i, path, out); });
     if (const auto cameras = parsed.find("cameras"); cameras != parsed.end()) out.cameras = cameras->dump();
+    if (const json::json_pointer lights("/extensions/KHR_lights_punctual/lights"); parsed.contains(lights))
+        out.lights = parsed[lights].dump();
     for (const char* unread : {"animations", "cameras", "extensions", "extras"}) parsed.erase(unread);
     out.json = parsed.dump();
     return out;

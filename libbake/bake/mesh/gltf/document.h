@@ -7,8 +7,9 @@
 namespace bake {
 
 struct GltfDocument {
-    std::string json;                                   ///< without the buffers, the images and the cameras
+    std::string json;                                   ///< without the buffers, the images, the cameras and the lights
     std::string cameras = "[]";                         ///< JSON: the list of cameras
+    std::string lights = "[]";                          ///< JSON: the list of KHR_lights_punctual
     std::vector<std::span<const std::uint8_t>> buffers; ///< with the lengths given in the JSON
     std::vector<GltfImage> images;                      ///< bytes are empty where image_view is not -1
     std::vector<std::int64_t> image_view;               ///< per image: its bufferView, or -1

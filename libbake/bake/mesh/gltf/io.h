@@ -31,6 +31,9 @@ struct GltfTransform {
     bool operator==(const GltfTransform&) const = default;
 };
 
+/// The uv after the transform. `flip_v`: v points up and is turned before and after.
+Vec2f transformed(const GltfTransform& transform, const Vec2f& uv, bool flip_v) noexcept;
+
 struct GltfTexture {
     std::uint32_t image = no_index; ///< no_index: in a format that an extension brings, which is not read
     std::uint32_t uv_set = 0;
@@ -46,10 +49,13 @@ struct GltfMaterial {
     std::optional<GltfTexture> normal, base_color, metallic_roughness, occlusion, emissive;
     Vec4f base_color_factor{1};
     Vec3f emissive_factor{0};
+    float emissive_strength = 1; ///< KHR_materials_emissive_strength: factor on emissive_factor
     float metallic = 1, roughness = 1;
     std::string alpha_mode = "OPAQUE"; ///< or MASK, BLEND
     float alpha_cutoff = 0.5f;         ///< for MASK
     bool double_sided = false;
+    bool unlit = false;                  ///< KHR_materials_unlit: the base colour is shown as it is
+    std::vector<std::string> extensions; ///< names of the others, which are not read
 
     bool operator==(const GltfMaterial&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "bake/mesh/gltf/material.h"
 #include "bake/base/error.h"
+#include "bake/mesh/gltf/document.h"
+#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
 namespace bake {
@@ -64,6 +66,25 @@ std::optional<GltfTexture> texture_of(const tinygltf::Model& model, std::size_t 
     return out;
 }
 
+/// The strength, if it is one.
+std::optional<float> emissive_strength(const tinygltf::Value& extension) {
+    if (!extension.IsObject() || !extension.Has("emissiveStrength")) return 1.f;
+    const tinygltf::Value& value = extension.Get("emissiveStrength");
+    const double strength = value.IsNumber() ? value.GetNumberAsDouble() : -1;
+    if (!(strength >= 0 && strength <= 1e15)) return {};
+    return float(strength);
+}
+
+void read_extensions(const tinygltf::ExtensionMap& extensions, GltfMaterial& out) {
+    for (const auto& [name, content] : extensions) {
+        const auto strength =
+            name == "KHR_materials_emissive_strength" ? emissive_strength(content) : std::optional<float>();
+        if (name == "KHR_materials_unlit") out.unlit = true;
+        else if (strength) out.emissive_strength = *strength;
+        else out.extensions.push_back(name);
+    }
+}
+
 GltfMaterial material_of(const tinygltf::Model& model, const tinygltf::Material& from, std::size_t images,
                          const std::string& path) {
     GltfMaterial out;
@@ -86,6 +107,7 @@ GltfMaterial material_of(const tinygltf::Model& model, const tinygltf::Material&
     if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") out.alpha_mode = from.alphaMode;
     out.alpha_cutoff = float(from.alphaCutoff);
     out.double_sided = from.doubleSided;
+    read_extensions(from.extensions, out);
     return out;
 }
 
@@ -96,6 +118,13 @@ std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size
     for (const tinygltf::Material& material : model.materials)
         out.push_back(material_of(model, material, images, path));
     return out;
+}
+
+bool has_gltf_materials(const std::string& path) {
+    const GltfDocument document = read_gltf_document(path);
+    if (document.json.find("\"materials\"") == std::string::npos) return false;
+    const nlohmann::json root = nlohmann::json::parse(document.json); // dumped by read_gltf_document()
+    return root.contains("materials") && root["materials"].is_array() && !root["materials"].empty();
 }
 
 } // namespace bake

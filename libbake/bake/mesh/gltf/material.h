@@ -12,4 +12,7 @@ namespace bake {
 /// no image. Throws Error{Refusal::unreadable} for the index of a texture, image or sampler that does not exist.
 std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size_t images, const std::string& path);
 
+/// Whether the file has any material. Throws as read_gltf_document.
+bool has_gltf_materials(const std::string& path);
+
 } // namespace bake

@@ -33,13 +33,6 @@ TextureUvs uvs_of(const GltfMaterial& m, int set) {
     return out;
 }
 
-Vec2f moved(const GltfTransform& t, const Vec2f& uv, bool flip_v) noexcept {
-    const double u = t.scale_u * double(uv.x), v = t.scale_v * (flip_v ? 1 - double(uv.y) : double(uv.y));
-    const double c = std::cos(t.rotation), s = std::sin(t.rotation);
-    const double moved_u = c * u + s * v + t.offset_u, moved_v = c * v - s * u + t.offset_v;
-    return Vec2f(Vec2d(moved_u, flip_v ? 1 - moved_v : moved_v));
-}
-
 /// "brick", or "brick and 2 other materials".
 std::string material_list(const std::vector<std::string>& names) {
     const std::string others = std::to_string(names.size() - 1);
@@ -66,6 +59,13 @@ void add_notes(const std::vector<TextureUvs>& of_material, const std::vector<boo
 }
 
 } // namespace
+
+Vec2f transformed(const GltfTransform& t, const Vec2f& uv, bool flip_v) noexcept {
+    const double u = t.scale_u * double(uv.x), v = t.scale_v * (flip_v ? 1 - double(uv.y) : double(uv.y));
+    const double c = std::cos(t.rotation), s = std::sin(t.rotation);
+    const double moved_u = c * u + s * v + t.offset_u, moved_v = c * v - s * u + t.offset_v;
+    return Vec2f(Vec2d(moved_u, flip_v ? 1 - moved_v : moved_v));
+}
 
 void take_texture_uvs(Gltf& gltf, const std::string& path, const GltfUvOptions& options) {
     Mesh& mesh = gltf.mesh;
@@ -100,7 +100,7 @@ void take_texture_uvs(Gltf& gltf, const std::string& path, const GltfUvOptions& 
         const TextureUvs& uvs = of_material[face_uvs[f]];
         if (!uvs.moves()) continue;
         for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-            if (corners.has[c]) corners.uv[c] = moved(uvs.transform, corners.uv[c], options.flip_v);
+            if (corners.has[c]) corners.uv[c] = transformed(uvs.transform, corners.uv[c], options.flip_v);
     }
     set_corner_uvs(mesh, corners);
     for (const Vec2f& uv : mesh.uvs)

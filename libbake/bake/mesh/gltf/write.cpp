@@ -3,6 +3,7 @@
 #include "bake/base/version.h"
 #include "bake/mesh/gltf/geometry.h"
 #include "bake/mesh/origin.h"
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -221,6 +222,11 @@ std::size_t place_of(json& list, json object) {
 }
 
 /// The texture's info where it can be written: its image is there, and so are the uvs that it asks for.
+void use_extension(Layout& layout, const char* name) {
+    json& used = layout.root["extensionsUsed"];
+    if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
 void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, const Images& images, std::uint32_t uv_sets,
                  const char* key, const char* scale, json& to) {
     if (!texture || texture->image >= images.number.size() || images.number[texture->image] == no_index ||
@@ -238,7 +244,7 @@ void add_texture(Layout& layout, const std::optional<GltfTexture>& texture, cons
     if (const GltfTransform& t = texture->transform; !(t == GltfTransform())) {
         info["extensions"]["KHR_texture_transform"] = {
             {"offset", {t.offset_u, t.offset_v}}, {"rotation", t.rotation}, {"scale", {t.scale_u, t.scale_v}}};
-        layout.root["extensionsUsed"] = {"KHR_texture_transform"};
+        use_extension(layout, "KHR_texture_transform");
     }
     to[key] = std::move(info);
 }
@@ -263,6 +269,14 @@ void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, c
         if (from.alpha_mode != "OPAQUE") object["alphaMode"] = from.alpha_mode;
         if (from.alpha_mode == "MASK" && from.alpha_cutoff != 0.5f) object["alphaCutoff"] = from.alpha_cutoff;
         if (from.double_sided) object["doubleSided"] = true;
+        if (from.emissive_strength != 1) {
+            object["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = from.emissive_strength;
+            use_extension(layout, "KHR_materials_emissive_strength");
+        }
+        if (from.unlit) {
+            object["extensions"]["KHR_materials_unlit"] = json::object();
+            use_extension(layout, "KHR_materials_unlit");
+        }
         layout.root["materials"].push_back(std::move(object));
     }
 }

@@ -4,6 +4,7 @@
 #include "bake/surface/patch/patch_domain.h"
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <type_traits>
 
 namespace bake {
 namespace {
@@ -188,50 +189,58 @@ SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d&
     return c;
 }
 
-SeamBlend::Node SeamBlend::node(std::uint32_t number) const noexcept {
-    const double* const v = nodes_.data() + 2 * components_ * number;
-    if (components_ == 1) return {Vec3d(v[0], 0, 0), Vec3d(v[1], 0, 0)};
-    return {Vec3d(v[0], v[1], v[2]), Vec3d(v[3], v[4], v[5])};
+namespace {
+
+template <class Value> Value value_at(const double* components) noexcept {
+    if constexpr (std::is_same_v<Value, double>) return components[0];
+    else return {components[0], components[1], components[2]};
 }
 
-SeamBlend::Node SeamBlend::along(const Curve& curve, double x) const noexcept {
+} // namespace
+
+template <class Value> SeamBlend::Node<Value> SeamBlend::along(const Curve& curve, double x) const noexcept {
+    constexpr std::size_t components = sizeof(Value) / sizeof(double);
     const double place = std::clamp(x, 0.0, 1.0) * curve.count;
     const auto k = std::min(std::uint32_t(place), curve.count - 1);
     const double u = place - k, w = 1 - u;
-    const Node a = node(curve.first + k), b = node(curve.first + k + 1);
-    const Vec3d step_ab = b.value - a.value;
-    return {w * w * (1 + 2 * u) * a.value + u * u * (3 - 2 * u) * b.value + u * w * (w * a.slope - u * b.slope),
-            double(curve.count) * (6 * u * w * step_ab + w * (1 - 3 * u) * a.slope + u * (3 * u - 2) * b.slope)};
+    const double* const node = nodes_.data() + 2 * components * (curve.first + k);
+    const Value a = value_at<Value>(node), a_slope = value_at<Value>(node + components),
+                b = value_at<Value>(node + 2 * components), b_slope = value_at<Value>(node + 3 * components);
+    return {w * w * (1 + 2 * u) * a + u * u * (3 - 2 * u) * b + u * w * (w * a_slope - u * b_slope),
+            double(curve.count) * (6 * u * w * (b - a) + w * (1 - 3 * u) * a_slope + u * (3 * u - 2) * b_slope)};
 }
 
-SeamBlend::Correction SeamBlend::correction(const Patch& p, const Vec2d& st) const noexcept {
-    Correction sum;
-    const auto add_term = [&](const Graded& weight, const Vec3d& v, const Vec3d& v_s, const Vec3d& v_t) {
+template <class Value>
+SeamBlend::Correction<Value> SeamBlend::correction(const Patch& p, const Vec2d& st) const noexcept {
+    Correction<Value> sum;
+    const auto add_term = [&](const Graded& weight, const Value& v, const Value& v_s, const Value& v_t) {
         sum.at += weight.at * v;
         sum.s += weight.s * v + weight.at * v_s;
         sum.t += weight.t * v + weight.at * v_t;
     };
+    const auto corner = [&](int i) { return value_at<Value>(&p.corner[i].x); };
     if (p.sides == 4) {
         // Distance from the start of the side, and from the opposite side.
         const Graded s{st.x, 1, 0}, t{st.y, 0, 1}, s_back{1 - st.x, -1, 0}, t_back{1 - st.y, 0, -1};
-        const Graded along_side[4] = {s, t, s_back, t_back}, near_side[4] = {t_back, s, t, s_back};
+        const Graded along_side[4] = {s, t, s_back, t_back};
+        const Graded near_side[4] = {stepped(t_back), stepped(s), stepped(t), stepped(s_back)};
         for (int i = 0; i < 4; ++i) {
-            add_term(stepped(near_side[i]) * stepped(near_side[(i + 3) % 4]), p.corner[i], Vec3d(0), Vec3d(0));
+            add_term(near_side[i] * near_side[(i + 3) % 4], corner(i), Value(0), Value(0));
             if (p.side[i].first == no_index) continue;
-            const Node node = along(p.side[i], along_side[i].at);
-            add_term(stepped(near_side[i]), node.value, along_side[i].s * node.slope, along_side[i].t * node.slope);
+            const Node<Value> node = along<Value>(p.side[i], along_side[i].at);
+            add_term(near_side[i], node.value, along_side[i].s * node.slope, along_side[i].t * node.slope);
         }
         return sum;
     }
     const Graded near_corner[3] = {{1 - st.x - st.y, -1, -1}, {st.x, 1, 0}, {st.y, 0, 1}};
     for (int i = 0; i < 3; ++i) {
-        add_term(stepped(near_corner[i]), p.corner[i], Vec3d(0), Vec3d(0));
+        add_term(stepped(near_corner[i]), corner(i), Value(0), Value(0));
         if (p.side[i].first == no_index) continue;
         const Graded &a = near_corner[i], &b = near_corner[(i + 1) % 3];
         const Graded both{a.at + b.at, a.s + b.s, a.t + b.t};
         if (!(both.at > 0)) continue; // at the opposite corner, where the weight vanishes
         const double x = b.at / both.at;
-        const Node node = along(p.side[i], x);
+        const Node<Value> node = along<Value>(p.side[i], x);
         add_term(stepped(both), node.value, (b.s - x * both.s) / both.at * node.slope,
                  (b.t - x * both.t) / both.at * node.slope);
     }
@@ -241,7 +250,11 @@ SeamBlend::Correction SeamBlend::correction(const Patch& p, const Vec2d& st) con
 void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point,
                     ReliefValue& value) const noexcept {
     const Patch& p = patches_[of_[patch]];
-    const Correction c = correction(p, st);
+    Correction<Vec3d> c;
+    if (components_ == 1) {
+        const Correction<double> height = correction<double>(p, st);
+        c = {Vec3d(height.at, 0, 0), Vec3d(height.s, 0, 0), Vec3d(height.t, 0, 0)};
+    } else c = correction<Vec3d>(p, st);
     value.at += c.at;
     if (!along_chart(point)) {
         value.s += c.s, value.t += c.t;

@@ -34,22 +34,18 @@ private:
         Curve side[4];
         Vec2d uv[4]; ///< at the corners
     };
-    struct Node {
-        Vec3d value, slope;
-    };
+    /// Values are double for heights and Vec3d otherwise: a third of the work where one component suffices.
+    template <class Value> struct Node { Value value, slope; };
     /// A correction and its derivatives along the parameters of the patch.
-    struct Correction {
-        Vec3d at{0}, s{0}, t{0};
-    };
+    template <class Value> struct Correction { Value at{0}, s{0}, t{0}; };
     void correct_corners(const ReliefSurface& surface, const JunctionTable& vertices);
     void correct_sides(const ReliefSurface& surface, const JunctionTable& edges);
     /// All of a side without length gets the one value of its vertex.
     void correct_poles(const ReliefSurface& surface);
-    Correction correction(const Patch& patch, const Vec2d& st) const noexcept;
+    template <class Value> Correction<Value> correction(const Patch& patch, const Vec2d& st) const noexcept;
     Patch& patch_at_seam(const ReliefSurface& surface, std::uint32_t patch);
     Curve curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end);
-    Node node(std::uint32_t number) const noexcept;
-    Node along(const Curve& curve, double x) const noexcept;
+    template <class Value> Node<Value> along(const Curve& curve, double x) const noexcept;
 
     std::vector<std::uint32_t> of_; ///< patches: number in patches_ or no_index
     std::vector<Patch> patches_;

@@ -12,25 +12,33 @@ struct CellJob {
     bool whole() const noexcept { return row_end == 0; }
 };
 
+/// values.resize(count) in huge pages. resize_in_pages() would copy a value to each element, which takes longer than
+/// clearing them.
+template <class T> void size(std::vector<T>& values, std::size_t count) {
+    values.reserve(count);
+    use_huge_pages(values.data(), values.data() + count);
+    values.resize(count);
+}
+
 Mesh make_arrays(const PatchLayout& layout, const Mesh& base) {
     Mesh mesh;
     // The system clears fresh memory slowly: each array is sized by whichever thread is free.
     for_rows(9, 1, [&](std::int64_t which, std::int64_t) {
         switch (which) {
-        case 0: resize_in_pages(mesh.corner_position, layout.corners); break;
-        case 1: resize_in_pages(mesh.corner_normal, layout.corners); break;
+        case 0: size(mesh.corner_position, layout.corners); break;
+        case 1: size(mesh.corner_normal, layout.corners); break;
         case 2:
-            if (layout.has_uv) resize_in_pages(mesh.corner_uv, layout.corners);
+            if (layout.has_uv) size(mesh.corner_uv, layout.corners);
             break;
-        case 3: resize_in_pages(mesh.positions, layout.points); break;
-        case 4: resize_in_pages(mesh.normals, layout.normals); break;
-        case 5: resize_in_pages(mesh.uvs, layout.uvs); break;
-        case 6: resize_in_pages(mesh.face_begin, layout.faces + 1); break;
+        case 3: size(mesh.positions, layout.points); break;
+        case 4: size(mesh.normals, layout.normals); break;
+        case 5: size(mesh.uvs, layout.uvs); break;
+        case 6: size(mesh.face_begin, layout.faces + 1); break;
         case 7:
-            if (!base.face_material.empty()) resize_in_pages(mesh.face_material, layout.faces);
+            if (!base.face_material.empty()) size(mesh.face_material, layout.faces);
             break;
         default:
-            if (!base.face_group.empty()) resize_in_pages(mesh.face_group, layout.faces);
+            if (!base.face_group.empty()) size(mesh.face_group, layout.faces);
         }
     });
     mesh.materials = base.materials, mesh.groups = base.groups, mesh.origin = base.origin;
