@@ -16,7 +16,8 @@ struct LightTerm {
     Vec3f diffuse{0}, specular{0};
 };
 
-/// While it lives, watches what is added to a diffuse and a specular sum for one light, and hands that to `terms`, if given.
+/// While it lives, watches what is added to a diffuse and a specular sum for one light, and hands that to `terms`, if
+/// given.
 class TermRecord {
 public:
     TermRecord(std::vector<LightTerm>* terms, const Vec3f& diffuse, const Vec3f& specular, int light,

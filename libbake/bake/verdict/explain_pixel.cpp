@@ -10,7 +10,12 @@ namespace bake {
 namespace {
 
 std::vector<double> list(const Vec3d& v) { return {v.x, v.y, v.z}; }
-std::vector<double> list(const Vec3f& v) { return list(Vec3d(v)); }
+std::vector<double> list(const Vec3f& v) {
+    // One by one: of a vector that is rounded to float and back, gcc 12 leaves out the rounding at -O3.
+    std::vector<double> values;
+    for (int c = 0; c < 3; ++c) values.push_back(double(v[c]));
+    return values;
+}
 
 /// What one light adds, over all samples of the pixel.
 struct LightSum {
