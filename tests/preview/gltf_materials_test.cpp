@@ -11,7 +11,7 @@ namespace {
 double linear(double encoded) { return std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 /// A level of 8 bits, all above the linear part of sRGB.
-float level(int x, int y, int c) { return float(40 + 50 * x + 12 * y + 20 * c) / 255; }
+float level(int x, int y, int c) { return float(40 + 45 * x + 10 * y + 20 * c) / 255; }
 
 Bsdf bsdf_of(const Scene& scene, float x, float y) {
     return bsdf_at(*scene.instances[0].material, *scene.instances[0].shape, point_of_square(x, y));
