@@ -196,7 +196,7 @@ Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffu
                          part;
     if (!first) return sum;
 
-    first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
+    first->hit = hit, first->cone = cone, first->depth = hit.t * glm::length(ray.direction);
     first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
