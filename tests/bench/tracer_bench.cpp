@@ -18,10 +18,10 @@ namespace {
 constexpr int pixels = 1024;
 const Vec3f to_light = glm::normalize(Vec3f(1, 2, 1.5f));
 
-Relief waves(const oracle::TorusRelief& r) {
+Relief waves(const oracle::TorusRelief& r, double amplitude) {
     Relief relief;
     relief.values = oracle::relief_texture(r, 1024).values;
-    relief.height = {.amplitude = 2 * r.A, .midlevel = 0.5};
+    relief.height = {.amplitude = amplitude, .midlevel = 0.5};
     return relief;
 }
 
@@ -39,7 +39,7 @@ void complete(Scene& scene, Mesh mesh, const Material& material) {
     add_instance(scene, *scene.shapes[0], *scene.materials[0]);
     Light<float> light;
     light.kind = LightKind::directional;
-    light.direction = to_light;
+    light.from = to_light;
     scene.lights.push_back(light);
     scene.camera.position = {0, 2.4f, 2.4f}, scene.camera.fov_deg = 45;
     scene.settings.width = scene.settings.height = pixels;
@@ -58,13 +58,11 @@ Material phong() {
 }
 
 /// The slopes of the relief, and a sky that is mirrored.
-Material bump_and_mirror(const Relief& relief) {
+Material bump_and_mirror(const oracle::TorusRelief& r) {
     Material material = phong();
     BumpTableOptions options;
-    options.amplitude = relief.height.amplitude;
-    HeightTexture texture;
-    texture.values = relief.values;
-    material.bump_table = std::make_shared<Image<float>>(bump_table(texture, options));
+    options.amplitude = 2 * r.A;
+    material.bump_table = std::make_shared<Image<float>>(bump_table(oracle::relief_texture(r, 1024), options));
     material.reflect = Vec3f(0.3f);
     return material;
 }
@@ -220,12 +218,10 @@ bench::Errors picture_error(const Scene& scene) {
 
 void run(int levels) {
     const oracle::TorusRelief r{0.01, 24, 12};
-    Relief relief = waves(r), flat = relief;
-    flat.height.amplitude = 0;
     Scene displaced, bumpy;
-    complete(displaced, torus(relief, levels), phong());
+    complete(displaced, torus(waves(r, 2 * r.A), levels), phong());
     bumpy.sky.cube = gradient_sky();
-    complete(bumpy, torus(flat, levels), bump_and_mirror(relief));
+    complete(bumpy, torus(waves(r, 0), levels), bump_and_mirror(r));
     Bare bare(displaced), bare_flat(bumpy);
     RenderStats phong_stats, bump_stats;
     std::int64_t rays[2] = {};

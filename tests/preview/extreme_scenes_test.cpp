@@ -159,7 +159,7 @@ Scene any_scene(std::uint32_t seed) {
         for (Image<float>& face : scene.sky.cube.faces)
             for (std::size_t k = 0; k < face.size(); ++k) face.data()[k] = dice.amount();
         scene.sky.scale = dice.pick({1.f, 1.f, 0.f, 1e-30f, 1e15f});
-        scene.sky.yaw_deg = dice.pick({0.f, 90.f, -1e6f});
+        scene.sky.yaw = SkyYaw(dice.pick({0., 90., -1e6}));
     }
     scene.sky.background = dice.colour(), scene.ambient = dice.colour();
     set_camera(scene, dice);

@@ -37,8 +37,8 @@ template <class At> Errors errors_on_torus(int n, double R, double r, const At& 
     return {oracle::spread(printed), oracle::spread(second_slope), oracle::spread(blinn)};
 }
 
-void print(const char* where, const Errors& e) {
-    const auto line = [&](const char* what, const oracle::Spread& s) {
+void print(const std::string& where, const Errors& e) {
+    const auto line = [&](const std::string& what, const oracle::Spread& s) {
         MESSAGE(where << ", " << what << ": mean " << s.mean << ", 95 % " << s.p95 << ", max " << s.max << " degrees");
     };
     line("as printed", e.printed), line("second b_u alone", e.second_slope), line("Blinn", e.blinn);

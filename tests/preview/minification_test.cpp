@@ -124,4 +124,14 @@ TEST_SUITE("oracle") {
         CHECK(many < 0.5 * one);
     }
 
+    TEST_CASE("minification: a material can ask for moments whatever the scene does, as bump+roughness does") {
+        Material bumpy;
+        bumpy.bump_table = waves(64, 0.15);
+        bumpy.reflectance.specular = Vec3f(1);
+        const Image<float> by_scene = picture(bumpy, TextureFilter::moments, 1);
+        bumpy.always_moments = true;
+        const Image<float> by_material = picture(bumpy, TextureFilter::off, 1);
+        for (std::size_t i = 0; i < by_scene.size(); ++i) CHECK(by_material.data()[i] == by_scene.data()[i]);
+    }
+
 } // TEST_SUITE

@@ -56,7 +56,8 @@ Escapes count_escapes(const Closed& mesh, float radius, const Vec3f& centre) {
     const auto escapes = [&](const Vec3f& at) {
         const Vec3f inside =
             centre + 0.4f * radius * (Vec3f(uniform(random), uniform(random), uniform(random)) - Vec3f(0.5f));
-        return !bvh.intersect({inside, at - inside}) || !bvh.occluded({inside, at - inside});
+        const Ray ray{inside, glm::normalize(at - inside)}; // of unit length, as the tracer's are
+        return !bvh.intersect(ray) || !bvh.occluded(ray);
     };
     Escapes count;
     for (const Vec3f& p : mesh.positions) ++count.vertex_rays, count.vertices += escapes(p);

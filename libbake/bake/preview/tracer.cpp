@@ -169,8 +169,14 @@ Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffu
     add_lights(s, sum, first);
     const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
     const bool sky = !glass && s.bsdf.count > 0 && sky_lights(SkyLighting::sampled);
-    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(s, sum);
-    if (s.bsdf.translucent != Vec3f(0)) add_translucent(s, hit, diffuse_bounces, sum);
+    if (sky_lights(SkyLighting::irradiance)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::filtered_sky);
+        add_filtered_sky(s, sum);
+    }
+    if (s.bsdf.translucent != Vec3f(0)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::from_inside);
+        add_translucent(s, hit, diffuse_bounces, sum);
+    }
     // Beyond the first hit one of two branches is followed, so that the time does not double with every bounce.
     const bool choose = !first && sky && mirror;
     const float choice = choose ? sampler.next() : 0, part = choose ? 0.5f : 1.0f;
@@ -190,7 +196,7 @@ Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffu
                          part;
     if (!first) return sum;
 
-    first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
+    first->hit = hit, first->cone = cone, first->depth = hit.t * glm::length(ray.direction);
     first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});

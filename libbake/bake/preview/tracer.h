@@ -31,6 +31,7 @@ struct Radiance {
 /// What a primary ray hits.
 struct FirstHit {
     Hit hit;
+    RayCone cone;      ///< around the primary ray
     float depth = 0;   ///< distance from the origin of the ray
     Vec3f position{0}; ///< in the scene's own coordinates
     Vec3f facet{0}, normal{0}, albedo{0};
