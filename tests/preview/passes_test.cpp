@@ -202,7 +202,7 @@ TEST_SUITE("unit") {
     TEST_CASE("noise: adaptive pictures are as bright on the average as those of a fixed number of samples") {
         const Scene scene = ball_under_quad(32);
         RenderSettings settings = scene.settings;
-        settings.spp = 2048;
+        settings.spp = 1024;
         const double truth = mean(render(scene, settings));
         settings.spp = 256;
         constexpr int runs = 16;
