@@ -28,7 +28,7 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
                     const auto ray_at = [&](const Vec2d& at) {
                         const CubePoint<double> point{face, (x + at.x) / size, (y + at.y) / size};
                         Ray ray;
-                        ray.origin = position;
+                        ray.origin = position - scene.origin;
                         ray.direction =
                             Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
                         return ray;

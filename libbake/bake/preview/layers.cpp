@@ -1,4 +1,5 @@
 #include "bake/preview/layers.h"
+#include <cmath>
 #include <unordered_map>
 
 namespace bake {
@@ -40,7 +41,8 @@ std::vector<std::uint32_t> material_numbers(const Scene& scene) {
 
 float* write_layers(const LayerSums& s, const Vec3d& total, int samples, float* to) noexcept {
     const double share = samples > 0 ? 1.0 / samples : 0;
-    const auto put = [&](double value) { *to++ = float(value); };
+    // Extreme materials have an albedo beyond what floats hold, which is no reason to drop the radiance.
+    const auto put = [&](double value) { *to++ = std::isfinite(float(value)) ? float(value) : 0; };
     const auto put3 = [&](const Vec3d& value) { put(value.x), put(value.y), put(value.z); };
     put3(total * share);
     put(s.hits * share);

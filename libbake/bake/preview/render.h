@@ -11,7 +11,7 @@ class Progress;
 /// result does not depend on the number of threads.
 Image<float> render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
                     Progress* progress = nullptr);
-/// The same with the channels of layer_channels().
+/// The same with the channels of layer_channels(). A mean beyond the range of floats is 0.
 Image<float> render_layers(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
                            Progress* progress = nullptr);
 

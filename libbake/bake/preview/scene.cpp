@@ -21,6 +21,12 @@ glm::dmat3 linear_part(const Placement& placement) {
 
 Vec3f to_world(const Instance& instance, const Vec3f& p) noexcept { return instance.linear * p + instance.translate; }
 
+/// The centre of the meshes, if it is farther from 0 than they extend; else 0.
+Vec3f far_centre(const Bounds& box) noexcept {
+    const Vec3d centre = 0.5 * (Vec3d(box.min) + Vec3d(box.max));
+    return glm::length(centre) > diagonal(box) ? Vec3f(centre) : Vec3f(0);
+}
+
 } // namespace
 
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement) {
@@ -45,16 +51,20 @@ void build(Scene& scene) {
     std::vector<std::vector<Vec3f>> positions(scene.instances.size());
     std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(scene.instances.size());
     std::vector<BvhMesh> meshes(scene.instances.size());
+    scene.origin = far_centre(bounds(scene));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = instance.shape->mesh;
         positions[i].reserve(mesh.positions.size());
+        const glm::dmat3 linear(instance.linear);
+        const Vec3d translate(instance.translate), origin(scene.origin);
         for (const Vec3f& p : mesh.positions) {
-            const Vec3f world = to_world(instance, p);
-            if (!(glm::dot(world * 1e-18f, world * 1e-18f) <= 1))
+            // Rounded to float only after the origin is subtracted.
+            const Vec3d world = linear * Vec3d(p) + translate;
+            if (!(glm::length(world) <= 1e18))
                 throw Error(Refusal::unsuitable,
                             "a mesh extends beyond 1e18 in the scene; give it a smaller scale or translation");
-            positions[i].push_back(world);
+            positions[i].emplace_back(world - origin);
         }
         for (const Triangle& t : instance.shape->surface.triangles)
             triangles[i].push_back({mesh.corner_position[t.corner[0]], mesh.corner_position[t.corner[1]],
@@ -66,8 +76,15 @@ void build(Scene& scene) {
     }
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
+    add_mips(scene.materials, scene.settings.filter);
     if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
         complete(scene.sky_levels, scene.sky.cube);
+}
+
+CameraFrame camera_frame(const Scene& scene) noexcept {
+    CameraFrame frame = camera_frame(scene.camera);
+    frame.position -= scene.origin;
+    return frame;
 }
 
 Bounds bounds(const Scene& scene) noexcept {

@@ -48,7 +48,8 @@ struct RenderSettings {
     bool shadows = true; ///< whether meshes shadow lights and sky, and are seen by glossy and diffuse reflections
     SkyLighting sky_light = SkyLighting::sampled;
     Terminator terminator = Terminator::off;
-    std::uint32_t seed = 0;        ///< pictures of different seeds have independent noise
+    TextureFilter filter = TextureFilter::moments; ///< of textures; set before build()
+    std::uint32_t seed = 0;                        ///< pictures of different seeds have independent noise
     std::optional<float> exposure; ///< in stops, for pictures written in 8 or 16 bits; none: automatic_exposure()
     Tone tone = Tone::srgb;
 };
@@ -66,7 +67,10 @@ struct Scene {
     std::vector<std::string> notes; ///< of reading the files, with their names
     SkyLight sky_light;             ///< set by build()
     SkyLevels sky_levels;           ///< completed by build() for SkyLighting::irradiance
-    std::optional<Bvh> bvh;         ///< set by build(); mesh i is instance i with the triangles of the shape's surface
+    /// Set by build(): the positions of the Bvh, and the rays of radiance(), are relative to this point. It is 0 unless the
+    /// meshes lie farther from 0 than they extend, where floats would be too coarse for them.
+    Vec3f origin{0};
+    std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
 /// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
@@ -75,6 +79,8 @@ void add_instance(Scene& scene, Shape& shape, const Material& material, const Pl
 /// Builds the Bvh and the light of the sky. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world
 /// position is not finite or beyond 1e18.
 void build(Scene& scene);
+/// The frame of the scene's camera, relative to scene.origin: its rays are those of radiance().
+CameraFrame camera_frame(const Scene& scene) noexcept;
 
 /// World-space bounding box of all instances; zero without instances.
 Bounds bounds(const Scene& scene) noexcept;

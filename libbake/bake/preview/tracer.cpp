@@ -2,6 +2,7 @@
 #include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
 #include "bake/preview/translucency.h"
+#include "bake/preview/widen.h"
 #include <cmath>
 
 namespace bake {
@@ -21,7 +22,7 @@ struct Path {
     Sampler& sampler;
     RenderStats& stats;
 
-    Radiance along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
+    Radiance along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
 
 private:
     bool is_visible(const Surfel& s, const LightSample<float>& to) noexcept;
@@ -44,6 +45,11 @@ float gated(const Scene& scene, const Surfel& s, const Vec3f& l, FirstHit* first
     return factor;
 }
 
+Light<float> moved(Light<float> light, const Vec3f& by) noexcept {
+    light.position += by;
+    return light;
+}
+
 bool Path::is_visible(const Surfel& s, const LightSample<float>& to) noexcept {
     if (!scene.settings.shadows) return true;
     ++stats.rays;
@@ -57,7 +63,8 @@ void Path::add_lights(const Surfel& s, Radiance& sum, FirstHit* first) noexcept 
     int visible = 0;
     for (const Light<float>& light : scene.lights) {
         const Vec2f u = light.kind == LightKind::quad ? sampler.next2() : Vec2f(0.5f);
-        const LightSample<float> to = sample(light, s.at.p, u);
+        const LightSample<float> to =
+            scene.origin == Vec3f(0) ? sample(light, s.at.p, u) : sample(moved(light, -scene.origin), s.at.p, u);
         const TermRecord record(terms_of(first), sum.diffuse, sum.specular, int(&light - scene.lights.data()), to.l,
                                 to.radiance);
         const BsdfValue f = evaluate(s.bsdf, s.n, to.l, s.v);
@@ -108,7 +115,7 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    const Vec3f light = factor / drawn.pdf * along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    const Vec3f light = factor / drawn.pdf * along(ray, s.cone, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
@@ -120,23 +127,27 @@ void Path::add_filtered_sky(const Surfel& s, Radiance& sum) noexcept {
 
 /// Light that enters elsewhere and leaves the body here.
 void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces, Radiance& sum) noexcept {
-    const LightEntry entry = draw_light_entry(scene, s, hit, sampler, stats.rays);
-    if (!entry.hit) return;
-    const Surfel there = entry_surfel(scene, entry, s);
-    Radiance light;
-    add_lights(there, light, nullptr);
-    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
-    if (sky_lights(SkyLighting::sampled)) {
-        add_sky_sample(there, light, nullptr);
-        add_bsdf_sample(there, 0, diffuse_bounces, light);
+    const LightEntries entries = draw_light_entries(scene, s, hit, sampler, stats.rays);
+    const Vec3f leaves = cover(s.bsdf, s.n, s.v);
+    for (int i = 0; i < entries.count; ++i) {
+        const LightEntry& entry = entries.entry[std::size_t(i)];
+        const Surfel there = entry_surfel(scene, entry, s);
+        Radiance light;
+        add_lights(there, light, nullptr);
+        if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
+        if (sky_lights(SkyLighting::sampled)) {
+            add_sky_sample(there, light, nullptr);
+            add_bsdf_sample(there, 0, diffuse_bounces, light);
+        }
+        sum.diffuse += entry.factor * leaves * light.diffuse;
     }
-    sum.diffuse += entry.factor * cover(s.bsdf, s.n, s.v) * light.diffuse;
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
-    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
+    const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.next2()) : s.n;
+    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, n, s.facet)};
     if (bounces <= 0) return sky_radiance(scene.sky, ray.direction);
-    return along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
 /// Glass: reflects or refracts, by chance.
@@ -146,14 +157,14 @@ Vec3f Path::through(const Surfel& s, int bounces, int diffuse_bounces) noexcept 
     if (drawn.factor == Vec3f(0)) return Vec3f(0);
     const Ray ray{offset_origin(s.at, glm::dot(drawn.l, s.facet) < 0 ? -s.facet : s.facet), drawn.l};
     if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction);
-    return drawn.factor * along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return drawn.factor * along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
-Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
+Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
     ++stats.rays;
     const Hit hit = scene.bvh->intersect(ray);
     if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction)};
-    const Surfel s = make_surfel(scene, hit, ray.direction);
+    const Surfel s = make_surfel(scene, hit, ray.direction, cone);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
     const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
@@ -185,8 +196,8 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
                          part;
     if (!first) return sum;
 
-    first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
-    first->position = s.at.p, first->facet = s.facet, first->normal = s.n;
+    first->hit = hit, first->cone = cone, first->depth = hit.t * glm::length(ray.direction);
+    first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
     first->albedo = albedo(s.bsdf);
@@ -207,9 +218,10 @@ RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
 }
 
 Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
-                  FirstHit* first) noexcept {
+                  FirstHit* first, const RayCone& cone) noexcept {
     FirstHit unused;
-    return Path{scene, sampler, stats}.along(ray, bounces, scene.settings.diffuse_bounces, first ? first : &unused);
+    return Path{scene, sampler, stats}.along(ray, cone, bounces, scene.settings.diffuse_bounces,
+                                             first ? first : &unused);
 }
 
 } // namespace bake

@@ -252,7 +252,7 @@ std::vector<RouteStep> explain_pixel(const Scene& scene, int x, int y, float exp
     const PixelShading pixel = shade(scene, x, y);
     std::vector<RouteStep> route = {camera_step(scene, x, y, pixel), hit_step(scene, pixel)};
     if (pixel.first.hit) {
-        const Surfel s = make_surfel(scene, pixel.first.hit, pixel.ray.direction);
+        const Surfel s = make_surfel(scene, pixel.first.hit, pixel.ray.direction, pixel.first.cone);
         route.push_back(normal_step(s));
         route.push_back(material_step(s));
         route.push_back(light_step(scene, s, pixel));
