@@ -6,6 +6,8 @@
 // mean square, 95th percentile, largest, against REFERENCE samples per pixel (16384 unless given) of multiple importance
 // sampling with another seed. Size is the number of samples per pixel; the time is per sample. The ratio is the error over
 // that of even directions at equal time, interpolated between their rows. The note has the order: the exponent with which the error falls from a quarter of the samples to these.
+//
+// Then one ball in that sky, lit from filtered levels, against 2048 samples per pixel; REFERENCE 0 measures this alone.
 #include "bake/base/parallel.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/resample/resample.h"
@@ -27,6 +29,15 @@ void add(Scene& scene, const char* shape, const Reflectance& reflectance, const 
     add_instance(scene, *scene.shapes.back(), *scene.materials.back(), placement);
 }
 
+void set_sky(Scene& scene, const std::string& file, int pixels) {
+    Environment sky = read_environment({file});
+    if (!sky.is_cube() || sky.edge_samples)
+        sky.cube = to_cube(sky, {std::max(1, sky.picture.width() / 4), false}, {Samples::one});
+    for (std::size_t f = 0; f < 6; ++f) scene.sky.cube.faces[f] = to_rgb(sky.cube.faces[f]);
+    scene.settings.width = scene.settings.height = pixels;
+    build(scene);
+}
+
 Scene make_scene(const std::string& sky_file, int crop) {
     using Model = Reflectance::Model;
     Scene scene;
@@ -37,12 +48,7 @@ Scene make_scene(const std::string& sky_file, int crop) {
     add(scene, "sphere", {.model = Model::ggx, .diffuse = Vec3f(0.9f), .metallic = 1, .roughness = 0.4f},
         {.translate = {2.2f, 1, 0}});
     scene.camera = {.position = {0, 2.2f, 8}, .target = {0, 0.9f, 0}, .fov_deg = 40};
-    Environment sky = read_environment({sky_file});
-    if (!sky.is_cube() || sky.edge_samples)
-        sky.cube = to_cube(sky, {std::max(1, sky.picture.width() / 4), false}, {Samples::one});
-    for (std::size_t f = 0; f < 6; ++f) scene.sky.cube.faces[f] = to_rgb(sky.cube.faces[f]);
-    scene.settings.width = scene.settings.height = crop;
-    build(scene);
+    set_sky(scene, sky_file, crop);
     return scene;
 }
 
@@ -127,18 +133,13 @@ double error_at(const std::vector<Row>& rows, double seconds) {
     return a.rmse * std::pow(seconds / a.seconds, power);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-    if (argc < 2) return std::fprintf(stderr, "sky_bench SKY [REFERENCE [CROP]]\n"), 2;
-    const int reference = argc > 2 ? std::atoi(argv[2]) : 16384, crop = argc > 3 ? std::atoi(argv[3]) : 64;
-    const Scene scene = make_scene(argv[1], crop);
+void measure_sampling(const std::string& file, const std::string& sky, int reference, int crop) {
+    const Scene scene = make_scene(file, crop);
     const std::vector<Vec3f> right = render_by(scene, Method::mis, reference, 77).picture;
     std::vector<Row> rows[3];
     for (const Method method : {Method::even, Method::cosine, Method::mis})
         for (int spp = 1; spp <= 1024; spp *= 4)
             rows[int(method)].push_back(compare(render_by(scene, method, spp, 5), spp, right));
-    const std::string sky = std::filesystem::path(argv[1]).stem().string();
     for (const Method method : {Method::mis, Method::cosine, Method::even})
         for (std::size_t i = 1; i < rows[int(method)].size(); ++i) {
             const Row &row = rows[int(method)][i], &before = rows[int(method)][i - 1];
@@ -150,4 +151,50 @@ int main(int argc, char** argv) {
                              row.rmse / error_at(rows[int(Method::even)], row.seconds), "even directions at equal time",
                              bench::text("rmse p95 max over the mean radiance; order %.2f", order));
         }
+}
+
+/// One ball alone: filtered levels against sampled light.
+void measure_levels(const std::string& file, const std::string& sky, const char* name, const Reflectance& reflectance,
+                    SkyLevels& levels) {
+    constexpr int size = 32, spp = 1024;
+    Scene scene;
+    add(scene, "sphere", reflectance, {});
+    scene.camera = {.position = {0, 0, 8}, .target = {0, 0, 0}, .fov_deg = 12};
+    set_sky(scene, file, size);
+    const std::vector<Vec3f> sampled = render_by(scene, Method::mis, spp, 5).picture;
+    complete(levels, scene.sky.cube);
+    std::vector<Vec3f> filtered, right;
+    const CameraFrame frame = camera_frame(scene.camera);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, size, size);
+            const Hit hit = scene.bvh->intersect(ray);
+            if (!hit) continue;
+            const Surfel s = make_surfel(scene, hit, ray.direction);
+            const BsdfValue light = reflected(levels, scene.sky, s.bsdf, s.n, s.v);
+            filtered.push_back(light.diffuse + light.specular), right.push_back(sampled[std::size_t(y) * size + x]);
+        }
+    const Row row = compare({filtered, 0}, 1, right);
+    bench::Errors errors = row.errors;
+    errors.mean = row.rmse;
+    bench::print_row("sky_levels", sky + "_" + name, 1, 0, errors, 0, "sampled",
+                     "rmse p95 max over the mean radiance of the ball");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) return std::fprintf(stderr, "sky_bench SKY [REFERENCE [CROP]]\n"), 2;
+    const int reference = argc > 2 ? std::atoi(argv[2]) : 16384, crop = argc > 3 ? std::atoi(argv[3]) : 64;
+    const std::string sky = std::filesystem::path(argv[1]).stem().string();
+    if (reference > 0) measure_sampling(argv[1], sky, reference, crop);
+    using Model = Reflectance::Model;
+    SkyLevels levels;
+    measure_levels(argv[1], sky, "lambert", {.diffuse = Vec3f(0.8f)}, levels);
+    for (const float roughness : {0.1f, 0.2f, 0.3f, 0.45f, 0.6f, 0.8f, 1.f}) {
+        const Reflectance metal{.model = Model::ggx, .diffuse = Vec3f(0.9f), .metallic = 1, .roughness = roughness};
+        const Reflectance coat{.model = Model::ggx, .diffuse = Vec3f(0.5f), .roughness = roughness};
+        measure_levels(argv[1], sky, bench::text("metal_%.2g", double(roughness)).c_str(), metal, levels);
+        measure_levels(argv[1], sky, bench::text("coat_%.2g", double(roughness)).c_str(), coat, levels);
+    }
 }

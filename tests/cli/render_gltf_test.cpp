@@ -27,7 +27,7 @@ TEST_SUITE("cli") {
         };
         const Run one = render("a.exr", "1");
         REQUIRE_MESSAGE(one.code == 0, one.err);
-        CHECK(one.err.find("material \"pane\": is blended") != std::string::npos);
+        CHECK(one.err.find("material 'pane': is blended") != std::string::npos);
         REQUIRE(render("b.exr", "3").code == 0);
         CHECK(contents(folder / "a.exr") == contents(folder / "b.exr"));
         const Image<float> seen = read_image(folder / "a.exr");

@@ -168,4 +168,48 @@ TEST_SUITE("cli") {
         refused({dots_normal, "--on", "cube", "--material", "normal=n.png"}, "--material normal=n.png: ");
     }
 
+    TEST_CASE("render: a map on a mesh that the same height displaced is warned of, the residual map is not") {
+        const Folder folder;
+        const auto run = [&](const std::vector<std::string>& arguments) {
+            const Run done = run_bake(folder, arguments);
+            REQUIRE_MESSAGE(done.code == 0, done.err);
+            return done.err;
+        };
+        run({"displace", torus, "--height", dots, "--amplitude", "1%", "--levels", "2", "-o", "d.glb"});
+        run({"normal-map", torus, "--height", dots, "--amplitude", "1%", "-o", "whole.png"});
+        run({"normal-map", torus, "--height", dots, "--amplitude", "1%", "--residual-of", "d.glb", "-o", "rest.png"});
+        const auto shown = [&](const std::string& mesh, const std::string& map) {
+            return run({"render", mesh, "-o", "a.png", "--size", "32", "--spp", "1", "--material", "normal=" + map});
+        };
+        CHECK(shown("d.glb", "whole.png").find("slopes count twice") != std::string::npos);
+        CHECK(shown("d.glb", "rest.png").find("slopes count twice") == std::string::npos);
+        CHECK(shown(torus, "whole.png").find("slopes count twice") == std::string::npos);
+        for (const std::vector<std::string>& wrong :
+             {std::vector<std::string>{"normal-map", dots, "--residual-of", "d.glb", "-o", "x.png"},
+              {"normal-map", torus, "--height", dots, "--residual-of", "d.glb", "--space", "object", "-o", "x.png"}})
+            CHECK(run_bake(folder, wrong).code == 2);
+    }
+
+    TEST_CASE("render: shade without a height is refused in the words of the command line") {
+        const Folder folder;
+        const Run run = run_bake(folder, {"render", torus, "-o", "a.png", "--material", "shade=exact"});
+        CHECK(run.code == 2);
+        CHECK(run.err.find("--material shade=exact: shade=exact shows a height, and there is none; add height=FILE") !=
+              std::string::npos);
+    }
+
+    TEST_CASE("render: --texture-filter changes what is far, and not what is near") {
+        const Folder folder;
+        const std::vector<std::string> small = {own_meshes() / "floor.toml", "--size", "40"};
+        const auto filtered = [&](const std::string& filter) {
+            std::vector<std::string> arguments = small;
+            arguments.insert(arguments.end(), {"--texture-filter", filter});
+            return render(folder, arguments);
+        };
+        const Image<float> off = filtered("off"), mips = filtered("mips"), moments = filtered("moments");
+        CHECK(difference(render(folder, small), moments) == 0);
+        CHECK(difference(off, moments) > 1e-3);
+        CHECK(difference(mips, moments) > 1e-3);
+    }
+
 } // TEST_SUITE

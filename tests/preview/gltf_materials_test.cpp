@@ -11,7 +11,7 @@ namespace {
 double linear(double encoded) { return std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 /// A level of 8 bits, all above the linear part of sRGB.
-float level(int x, int y, int c) { return float(40 + 50 * x + 12 * y + 20 * c) / 255; }
+float level(int x, int y, int c) { return float(40 + 45 * x + 10 * y + 20 * c) / 255; }
 
 Bsdf bsdf_of(const Scene& scene, float x, float y) {
     return bsdf_at(*scene.instances[0].material, *scene.instances[0].shape, point_of_square(x, y));
@@ -214,7 +214,7 @@ TEST_SUITE("stability") {
              "", "without KHR_materials_emissive_strength"},
             {R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_sheen":{}}})", "",
              "shown without KHR_materials_clearcoat, KHR_materials_sheen"},
-            {textured, image + R"({"uri":"none.png"}])", "image 0 \"none.png\" is missing"},
+            {textured, image + R"({"uri":"none.png"}])", "image 0 'none.png' is missing"},
             {textured, image + R"({"uri":"data:image/png;base64,iVBORw0KGgo="}])", "image 0 cannot be used"},
             {textured, R"(,"textures":[{"extensions":{"KHR_texture_basisu":{"source":0}}}])",
              "in a format that is not read"},
@@ -246,7 +246,7 @@ TEST_SUITE("stability") {
             for (const std::string& note : scene.notes) all += note + "\n";
             return all;
         };
-        CHECK(notes("", R"("COLOR_0":3)").find("material \"m\": has textures, but its faces have no uvs") !=
+        CHECK(notes("", R"("COLOR_0":3)").find("material 'm': has textures, but its faces have no uvs") !=
               std::string::npos);
         CHECK(notes(R"(,"texCoord":3)", R"("TEXCOORD_0":1)").find("TEXCOORD_3, which is missing") != std::string::npos);
         CHECK(notes("", R"("TEXCOORD_0":1)").empty());

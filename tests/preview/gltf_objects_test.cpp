@@ -147,9 +147,10 @@ material = "red"
         const Scene scene = load(read_scene(folder / "scene.toml"));
         REQUIRE(scene.instances.size() == 4);
         CHECK(scene.instances[0].material->reflectance.diffuse == Vec3f(0.2f, 0.4f, 0.6f));
-        CHECK(scene.instances[1].material == scene.instances[0].material);
-        CHECK(scene.instances[1].shape == scene.instances[0].shape);
-        for (const std::size_t i : {2, 3}) CHECK(scene.instances[i].material->name == "red");
+        // The meshes of the file come first, then its instances.
+        CHECK(scene.instances[2].material == scene.instances[0].material);
+        CHECK(scene.instances[2].shape == scene.instances[0].shape);
+        for (const std::size_t i : {1, 3}) CHECK(scene.instances[i].material->name == "red");
         std::vector<std::string> notes;
         const auto shown = [&](const std::string& material) {
             return load(quick_scene({.mesh = folder / "s.gltf", .material = material}, notes));

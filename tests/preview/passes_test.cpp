@@ -11,19 +11,20 @@ using namespace bake::test;
 
 namespace {
 
-/// A ball before black under a quad light, of which one half of the ball sees a part only: noise there alone.
-Scene ball_under_quad(int size = 48) {
+/// A ball before black under a quad light that shines to both sides, of which parts of the ball see a part only: noise
+/// there alone.
+Scene ball_under_quad(int size = 48, float distance = 4) {
     Material material;
     material.reflectance.specular = Vec3f(0.2f);
     Scene scene = one_mesh(sphere_mesh(32, 16), material);
     Light<float> quad;
     quad.kind = LightKind::quad;
     quad.position = Vec3f(3, 1, 2), quad.edge_u = Vec3f(0, 3, 0), quad.edge_v = Vec3f(2, 0, -2);
-    quad.edge_v = -quad.edge_v;
     quad.colour = Vec3f(2, 1.5f, 1);
     scene.lights.push_back(quad);
     quad.edge_v = -quad.edge_v;
     scene.lights.push_back(quad);
+    scene.camera.position.z = distance;
     scene.settings.width = scene.settings.height = size;
     build(scene);
     return scene;
@@ -126,12 +127,12 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("halves: their product of differences is unbiased, where the plain square is not") {
-        // Two scenes that differ by a factor of 1.02 in the light, each seen through noise of its own.
+        // Two scenes that differ by a factor of 1.1 in the light, each seen through noise of its own.
         Scene scene = ball_under_quad(24);
         Scene brighter = ball_under_quad(24);
-        for (Light<float>& light : brighter.lights) light.colour *= 1.02f;
+        for (Light<float>& light : brighter.lights) light.colour *= 1.1f;
         RenderSettings many = scene.settings;
-        many.spp = 4096;
+        many.spp = 1024;
         const double truth = square_difference(render(scene, many), render(brighter, many));
         constexpr int runs = 24;
         double product = 0, square = 0, squares_of_product = 0;
@@ -145,7 +146,7 @@ TEST_SUITE("unit") {
         const double error = std::sqrt((squares_of_product - product * product) / (runs - 1));
         CHECK(std::abs(product - truth) < 3.5 * error);
         CHECK(error < 0.5 * truth); // so that the check means something
-        CHECK(square > 3 * truth);
+        CHECK(square > truth + 5 * error);
     }
 
     TEST_CASE("halves: without noise the estimate is the square; equal pictures have 0") {
@@ -162,22 +163,24 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("noise: tiles end where the error is below the limit, and the error is below the limit then") {
-        const Scene scene = ball_under_quad(64);
+        // The ball lies in the four tiles in the middle.
+        const Scene scene = ball_under_quad(6 * tile_size, 9);
         RenderSettings settings = scene.settings;
         settings.spp = 4096;
-        constexpr double limit = 0.01;
+        constexpr double limit = 0.03;
         Passes passes(scene, settings, {.noise = limit});
         while (passes.next()) {
         }
         const SampleCounts counts = passes.samples();
-        CHECK(counts.least == least_adaptive_samples); // the corners are black
-        CHECK(counts.most > 2 * least_adaptive_samples);
+        CHECK(counts.least == least_adaptive_samples); // tiles at the border are black, and so are their neighbours
+        CHECK(counts.most > least_adaptive_samples);
         CHECK(counts.most < 4096);
         settings.spp = 1024, settings.seed = 99;
         const Image<float> reference = render(scene, settings), seen = passes.picture();
         const double whole = mean(reference);
-        for (int ty = 0; ty < 4; ++ty)
-            for (int tx = 0; tx < 4; ++tx) {
+        double all = 0, all_limits = 0;
+        for (int ty = 0; ty < 6; ++ty)
+            for (int tx = 0; tx < 6; ++tx) {
                 double squares = 0, sum = 0;
                 for (int y = 0; y < tile_size; ++y)
                     for (int x = 0; x < tile_size; ++x)
@@ -187,9 +190,12 @@ TEST_SUITE("unit") {
                             squares += d * d, sum += r;
                         }
                 const double n = 3.0 * tile_size * tile_size;
-                // A fifth of tolerance for the noise of an error estimated from 256 pixels, and for the reference's own.
-                CHECK(std::sqrt(squares / n) < 1.2 * limit * std::max(sum / n, 0.1 * whole));
+                // The error is estimated from the pixels of a tile that have any, and is itself uncertain by that.
+                CHECK(std::sqrt(squares / n) <= 1.4 * limit * std::max(sum / n, 0.1 * whole));
+                all += squares, all_limits += n * std::pow(limit * std::max(sum / n, 0.1 * whole), 2);
             }
+        CHECK(all < all_limits);
+        CHECK(all > 0.1 * all_limits); // no more samples than needed
     }
 
     TEST_CASE("noise: adaptive pictures are as bright on the average as those of a fixed number of samples") {

@@ -139,8 +139,8 @@ TEST_SUITE("unit") {
 
     TEST_CASE("relief method: words are read, and others are none") {
         for (const char* word :
-             {"plain", "roughness", "constant-scale", "blinn", "exact", "bump", "normal", "displace:16", "displace:1",
-              "displace:max", "displace+normal:64", "displace+normal:max"}) {
+             {"plain", "roughness", "constant-scale", "blinn", "exact", "bump", "bump+roughness", "normal",
+              "displace:16", "displace:1", "displace:max", "displace+normal:64", "displace+normal:max"}) {
             REQUIRE(parse_shade(word));
             CHECK(name(*parse_shade(word)) == word);
         }

@@ -88,10 +88,11 @@ TEST_SUITE("oracle") {
             std::int64_t rays = 0;
             for (int i = 0; i < count; ++i) {
                 Sampler sampler(1, 2, i, 9);
-                const LightEntry entry = draw_light_entry(scene, s, hit, sampler, rays);
-                if (!entry.hit) continue;
-                const Vec3f to = scene.bvh->point(entry.hit).p - s.at.p;
-                if (glm::length(Vec3d(to)) < bound) within += Vec3d(entry.factor) / double(count);
+                const LightEntries entries = draw_light_entries(scene, s, hit, sampler, rays);
+                for (int k = 0; k < entries.count; ++k) {
+                    const Vec3f to = scene.bvh->point(entries.entry[k].hit).p - s.at.p;
+                    if (glm::length(Vec3d(to)) < bound) within += Vec3d(entries.entry[k].factor) / double(count);
+                }
             }
             for (int c = 0; c < 3; ++c)
                 CHECK(within[c] == doctest::Approx(0.8 * double(diffusion_within(d[c], float(bound)))).epsilon(0.02));

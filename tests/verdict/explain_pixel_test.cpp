@@ -91,6 +91,22 @@ TEST_SUITE("unit") {
         CHECK(hits > 60);
     }
 
+    TEST_CASE("explain_pixel: a filtered sky and light from inside a translucent body are parts of the sum") {
+        Scene scene = rich_scene();
+        scene.materials[0]->reflectance.subsurface = Vec3f(0.05f);
+        scene.settings.sky_light = SkyLighting::irradiance;
+        build(scene);
+        const Image<float> picture = render(scene, scene.settings);
+        const std::vector<RouteStep> route = explain_pixel(scene, 12, 9, 0, false);
+        Vec3d lights = colour(route, "filtered sky: diffuse") + colour(route, "filtered sky: specular") +
+                       colour(route, "from inside: diffuse");
+        CHECK(lights.x > 0.1);
+        for (const char* light : {"directional 1", "point 2", "quad 3"})
+            for (const char* part : {": diffuse", ": specular"}) lights += colour(route, light + std::string(part));
+        check_near(lights, colour(route, "lights and sky"));
+        CHECK(colour(route, "radiance").y == picture.at(12, 9, 1));
+    }
+
     TEST_CASE("explain_pixel: geometry, material and light of a point that is known in closed form") {
         // The plane z = 0 under a light from (0, 3, 4), seen from (0, 0, 4): n.l = .8 at every point.
         Material material;

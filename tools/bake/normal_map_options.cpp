@@ -33,6 +33,14 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
+    if (!args.displaced.empty()) {
+        expect_mesh(args.displaced);
+        if (args.mesh.empty())
+            throw usage("--residual-of: needs the mesh that was displaced; name it, as in bake " + verb +
+                        " MESH --height H --residual-of " + args.displaced);
+        if (args.space == Space::object)
+            throw usage("--residual-of: normals in object space are the same on both meshes; leave one of the two out");
+    }
     if (args.space == Space::object && args.directx)
         throw usage("--directx: turns the green of tangent space; leave it out with --space object");
 }

@@ -7,6 +7,7 @@ namespace bake {
 
 struct NormalMapArgs {
     std::string mesh, out;
+    std::string displaced; ///< --residual-of
     std::optional<Vec2d> extent;
     std::optional<std::pair<int, int>> size;
     MeshOptions read;

@@ -42,6 +42,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (result.advice) object["better_filter"] = to_json(*result.advice);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
+                            {"uncovered", r.uncovered},
                             {"border", r.border},
                             {"overlapped", r.overlapped},
                             {"padded", r.padded},
@@ -65,6 +66,7 @@ void warn(const CommonArgs& common, const NormalMapArgs& args, const NormalMapRe
     say(r.overlapped, "texels lie in more than one face; the lowest face was baked");
     say(r.outside_faces, "faces lie outside the tile and were not baked");
     say(r.crossing_faces, "faces leave the tile; only their part inside was baked");
+    say(r.uncovered, "texels are not covered by the mesh of --residual-of; is it this mesh, displaced, with its uvs?");
     say(r.degenerate, "texels have no normal of their own (pole, or chart without area) and are flat");
     say(r.flat_triangles, "triangles have no area in uv and were not baked");
     say(r.triangles_without_uv, "triangles have no uvs and were not baked");

@@ -1,4 +1,5 @@
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/map/residual_map.h"
 #include "normal_map_output.h"
 
 namespace bake {
@@ -18,10 +19,12 @@ void bake_plane(const NormalMapArgs& args, const HeightTexture& height, const He
     result.tilt_deg = step_tilt_deg(height.step, options.height_options.amplitude, extent.x, height.values.width());
 }
 
-void bake_mesh(const HeightTexture& height, const HeightField& field, const BakeTarget& target, Depth depth,
-               Progress& progress, NormalMapResult& result) {
+/// `displaced`: what the map is relative to, if not the mesh.
+void bake_mesh(const HeightTexture& height, const HeightField& field, const BakeTarget& target,
+               const std::optional<BakeTarget>& displaced, Depth depth, Progress& progress, NormalMapResult& result) {
     const NormalMapOptions& options = result.options;
-    result.map = normal_map(field, target, options, result.report, &progress);
+    result.map = displaced ? residual_map(field, target, *displaced, options, result.report, &progress)
+                           : normal_map(field, target, options, result.report, &progress);
     const BudgetInput input = mesh_budget(height, field, options, target, depth);
     result.budget = error_budget(input);
     result.advice = better_filter(input, result.budget);
@@ -36,8 +39,9 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     progress.start("read", 0);
     const HeightTexture height = load_height(args.height, common);
-    Mesh mesh;
+    Mesh mesh, diced;
     if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
+    if (!args.displaced.empty()) diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
     watch.lap("read");
     NormalMapResult result;
     result.options = resolve_options(args, height, mesh);
@@ -47,14 +51,16 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     result.filter = resolve_filter(options.filter, height);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
-    std::optional<BakeTarget> target;
+    std::optional<BakeTarget> target, displaced;
     if (!args.mesh.empty()) {
         target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
+        if (!args.displaced.empty())
+            displaced = make_bake_target(diced, args.displaced, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
     }
     const HeightField field(height, options.height_options, options.filter, options.width, options.height);
     progress.start("bake", options.height);
-    if (target) bake_mesh(height, field, *target, depth, progress, result);
+    if (target) bake_mesh(height, field, *target, displaced, depth, progress, result);
     else bake_plane(args, height, field, depth, progress, result);
     progress.finish();
     watch.lap("bake");
@@ -79,14 +85,22 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "rectangle");
     add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
     add_normal_options(sub, *args);
+    sub.add_option("--residual-of", args->displaced,
+                   "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
+        ->type_name("DISPLACED.glb");
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
         ->default_str(std::to_string(args->padding));
     add_depth_option(sub, args->depth, "auto: 16 for .png, half for .exr, float for .tif");
     add_examples(
-        sub, "  bake normal-map meshes/bricks.png -o bricks.png\n"
-             "  bake normal-map meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
-             "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n");
+        sub,
+        "  bake normal-map meshes/bricks.png -o bricks.png\n"
+        "  bake normal-map meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
+        "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n"
+        "The detail of a mesh that is displaced already:\n"
+        "  bake displace meshes/torus.obj --height meshes/bricks.png --amplitude 1% --levels 2 -o displaced.glb\n"
+        "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% --residual-of displaced.glb -o "
+        "detail.png\n");
     return [args, &common] { return run(*args, common); };
 }
 

@@ -73,6 +73,10 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
     add_integer_option(sub, "--spp", args.spp, 1, 65536, "Samples per pixel, instead of the scene's");
     add_sampling_options(sub, args.sampling);
     add_number_option(sub, "--exposure", args.exposure, -64, 64, "Stops, instead of the scene's [automatic, printed]");
+    add_choice<std::optional<TextureFilter>>(
+        sub, "--texture-filter", args.filter,
+        {{"off", TextureFilter::off}, {"mips", TextureFilter::mips}, {"moments", TextureFilter::moments}},
+        "How textures smaller than a pixel are looked up, instead of the scene's [moments]");
     sub.add_flag(
         "--layers", args.layers,
         "Write an .exr with depth, position, normals, uv, albedo, the parts of the light and more beside RGBA");
@@ -81,7 +85,7 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
                       "  bake render meshes/scene.toml -o layers.exr --layers\n"
                       "  bake render meshes/scene.toml -o smooth.png --noise 0.02\n"
-                      "  bake render meshes/scene.toml -o minute.png --time-limit 2 --preview\n"
+                      "  bake render meshes/scene.toml -o soon.png --time-limit 2 --preview\n"
                       "  bake render meshes/scene.toml --pixel 120,80\n"
                       "A mesh or a map needs no scene file; it is lit and framed automatically:\n"
                       "  bake render meshes/torus.obj -o torus.png --material diffuse=#c08050,specular=.4\n"
@@ -130,6 +134,7 @@ SceneEntries read_entries(const RenderArgs& args, std::vector<std::string>& note
     if (args.size) std::tie(entries.settings.width, entries.settings.height) = *args.size;
     entries.settings.spp = most_samples(args, entries.settings.spp);
     if (args.yaw) entries.sky.yaw_deg = float(*args.yaw);
+    if (args.filter) entries.settings.filter = *args.filter;
     if (args.sky_light) entries.settings.sky_light = *args.sky_light;
     if (args.exposure) entries.settings.exposure = float(*args.exposure);
     return entries;

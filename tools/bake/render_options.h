@@ -15,6 +15,7 @@ struct RenderArgs {
     MapKind as = MapKind::automatic;
     std::optional<PixelRect> crop;
     std::optional<double> yaw, exposure; ///< none: the scene's
+    std::optional<TextureFilter> filter; ///< none: the scene's
     std::optional<SkyLighting> sky_light;
     bool layers = false; ///< .exr with the channels of layer_channels()
     SamplingArgs sampling;

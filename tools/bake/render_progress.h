@@ -7,7 +7,8 @@ namespace bake {
 
 /// Whether the command may show progress.
 bool is_visible(const CommonArgs& common) noexcept;
-/// "render 37 %, 4 of 16 spp, 2.13 M rays/s, 12 s left", told anew by each call. With --noise the time that is left is not known.
+/// "render 37 %, 4 of 16 spp, 2.13 M rays/s, 12 s left", told anew by each call. With --noise the time that is left is
+/// not known.
 std::function<std::string()> progress_text(const Passes& passes, const SamplingArgs& args);
 
 } // namespace bake

@@ -8,8 +8,8 @@
 
 namespace bake {
 
-/// Shows text() on stderr until it ends, from a thread of its own. Without a terminal, when not `visible`, or when no thread can
-/// be started, nothing is shown.
+/// Shows text() on stderr until it ends, from a thread of its own. Without a terminal, when not `visible`, or when no
+/// thread can be started, nothing is shown.
 class Ticker {
 public:
     Ticker(bool visible, std::function<std::string()> text);

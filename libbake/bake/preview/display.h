@@ -1,7 +1,7 @@
 // Sends a picture, tile by tile, to an image viewer that listens on a TCP port: tev and others that speak its protocol.
 //
-// A packet is its length in bytes (this number included), a byte for its kind, a byte that says whether the viewer comes to the
-// front, the name of the picture with a zero byte behind it, and
+// A packet is its length in bytes (this number included), a byte for its kind, a byte that says whether the viewer
+// comes to the front, the name of the picture with a zero byte behind it, and
 //   kind 4, create   width, height, number of channels, their names, each with a zero byte
 //   kind 6, update   number of channels, their names, x, y, width, height of the part, for each channel the place of its first
 //                    value, for each channel the distance between values, then the values of the part

@@ -15,16 +15,15 @@ void put3(const Vec3d& value, float* to) noexcept {
 } // namespace
 
 Passes::Passes(const Scene& scene, const RenderSettings& settings, const PassOptions& options)
-    : scene_(scene), settings_(settings), options_(options),
+    : scene_(scene), settings_(settings), options_(options), halves_(options.halves || options.noise > 0),
       part_(settings.part.value_or(PixelRect{0, 0, settings.width, settings.height})),
       frame_(camera_frame(scene)), grid_(make_tiles(part_.width, part_.height)),
       start_(std::chrono::steady_clock::now()) {
-    options_.halves |= options_.noise > 0;
     settings_.spp = std::max(1, settings_.spp);
-    if (options_.halves) settings_.spp += settings_.spp % 2;
+    if (halves_) settings_.spp += settings_.spp % 2;
     const std::size_t pixels = std::size_t(part_.width) * part_.height;
     sums_.resize(pixels, Vec3d(0));
-    if (options_.halves) odd_sums_.resize(pixels, Vec3d(0));
+    if (halves_) odd_sums_.resize(pixels, Vec3d(0));
     if (options_.layers) layers_.resize(pixels), materials_ = material_numbers(scene);
     stats_.resize(grid_.tiles.size());
 }
@@ -35,7 +34,7 @@ bool Passes::is_late() const noexcept {
 }
 
 Vec3d Passes::mean(std::size_t pixel, int samples) const noexcept {
-    const Vec3d sum = options_.halves ? sums_[pixel] + odd_sums_[pixel] : sums_[pixel];
+    const Vec3d sum = halves_ ? sums_[pixel] + odd_sums_[pixel] : sums_[pixel];
     return samples > 0 ? sum / double(samples) : Vec3d(0);
 }
 
@@ -52,15 +51,15 @@ void Passes::measure(Tile& tile) const noexcept {
             sum += a.x + a.y + a.z + b.x + b.y + b.z;
             squares += glm::dot(a - b, a - b);
         }
-    // Of independent a and b the square of their difference is on the average the sum of their variances, and the variance of their
-    // mean is a quarter of that sum.
+    // Of independent a and b the square of their difference is on the average the sum of their variances, and the
+    // variance of their mean is a quarter of that sum.
     const double values = 3.0 * tile.rect.width * tile.rect.height;
     tile.mean = sum / (2 * values), tile.variance = squares / (4 * values);
 }
 
 void Passes::render_tile(std::size_t index, int samples, const TileDone& done) {
     Tile& tile = grid_.tiles[index];
-    const SampleRange range{tile.samples, samples, options_.halves};
+    const SampleRange range{tile.samples, samples, halves_};
     const std::int64_t rays_before = stats_[index].rays;
     std::vector<float> values;
     for (int row = tile.rect.y; row < tile.rect.y + tile.rect.height; ++row)
@@ -74,7 +73,7 @@ void Passes::render_tile(std::size_t index, int samples, const TileDone& done) {
             };
             add_samples(scene_, settings_, x, y, range, counts, ray_at,
                         [&](int i, const Radiance* value, const FirstHit& hit) {
-                            if (value) (options_.halves && i % 2 ? odd_sums_ : sums_)[pixel] += Vec3d(value->total());
+                            if (value) (halves_ && i % 2 ? odd_sums_ : sums_)[pixel] += Vec3d(value->total());
                             if (value && layers) layers->add(*value, hit);
                             if (i == 0 && layers) layers->set_first(hit, materials_);
                         });
@@ -92,7 +91,7 @@ void Passes::render_tile(std::size_t index, int samples, const TileDone& done) {
 }
 
 bool Passes::next(const TileDone& done) {
-    const int step = options_.halves ? 2 : 1;
+    const int step = halves_ ? 2 : 1;
     const bool first = samples_ == 0;
     const int target =
         std::min(settings_.spp, first ? std::max(options_.first, step) : next_samples(samples_, settings_.spp));
@@ -138,7 +137,7 @@ Image<float> Passes::half(int which) const {
 Image<float> Passes::layers() const {
     Image<float> image(part_.width, part_.height, int(layer_channels(options_.halves).size()));
     for_pixels([&](std::size_t pixel, int samples, int x, int y) {
-        const Vec3d total = options_.halves ? sums_[pixel] + odd_sums_[pixel] : sums_[pixel];
+        const Vec3d total = halves_ ? sums_[pixel] + odd_sums_[pixel] : sums_[pixel];
         float* const end = write_layers(layers_[pixel], total, samples, &image.at(x, y));
         if (!options_.halves) return;
         for (const int which : {0, 1}) put3(half_mean(pixel, which, samples), end + 3 * which);

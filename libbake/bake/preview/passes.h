@@ -10,12 +10,14 @@ namespace bake {
 
 struct PassOptions {
     bool layers = false; ///< sums for the channels of layer_channels(), about 240 bytes more per pixel
-    /// Two halves of the samples that are independent of each other: the even and the odd ones. settings.spp is rounded up to an even number.
+    /// Two halves of the samples that are independent of each other: the even and the odd ones. settings.spp is rounded
+    /// up to an even number.
     bool halves = false;
     /// Ends a tile where the standard error of its pixels is below this share of their radiance, see choose_tiles();
-    /// settings.spp is the most samples then. 0: every pixel gets settings.spp samples. Above 0 it implies `halves`: the error is half the
-    /// difference of two independent halves, which is neither too small nor too large on the average. Samples of one sequence are not
-    /// independent of each other, so that their variance says nothing of the error of their mean.
+    /// settings.spp is the most samples then. 0: every pixel gets settings.spp samples. Above 0 the samples are taken in halves:
+    /// the error is half the difference of two independent halves, which is neither too small nor too large on the
+    /// average. Samples of one sequence are not independent of each other, so that their variance says nothing of the
+    /// error of their mean.
     double noise = 0;
     double seconds = 0; ///< no pass after the first goes on for longer after the constructor; 0: no limit
     int first = 0;      ///< samples of the first pass; 0: 1, or 2 with halves
@@ -24,15 +26,17 @@ struct PassOptions {
 /// Pixels, and radiance of each of them, row by row, 3 channels.
 using TileDone = std::function<void(const PixelRect& tile, const std::vector<float>& values)>;
 
-/// After any pass, picture() has for a pixel of n samples the very bytes that a picture of n samples per pixel has, and these do
-/// not depend on the number of threads. With a limit on the seconds n is a matter of chance.
+/// After any pass, picture() has for a pixel of n > 1 samples the very bytes that a picture of n samples per pixel has
+/// (with halves: another one with halves), and they do not depend on the number of threads. With a limit on the seconds n is a
+/// matter of chance.
 class Passes {
 public:
     /// The scene is built and outlives the object.
     Passes(const Scene& scene, const RenderSettings& settings, const PassOptions& options = {});
 
-    /// Renders one pass, and calls `done` from any thread for each tile in it. False if nothing is left to do: every tile is
-    /// finished, or the time is over, or the user asked to stop (interrupted()), which may leave tiles as they were.
+    /// Renders one pass, and calls `done` from any thread for each tile in it. False if nothing is left to do: every
+    /// tile is finished, or the time is over, or the user asked to stop (interrupted()), which may leave tiles as they
+    /// were.
     bool next(const TileDone& done = {});
 
     /// Mean radiance, 3 channels; 0 where there are no samples yet.
@@ -63,6 +67,7 @@ private:
     const Scene& scene_;
     RenderSettings settings_;
     PassOptions options_;
+    bool halves_; ///< whether samples are taken in halves, for the picture or for the noise
     PixelRect part_;
     CameraFrame frame_;
     TileGrid grid_;

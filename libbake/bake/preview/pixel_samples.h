@@ -25,13 +25,14 @@ template <class RayAt, class Add>
 void add_samples(const Scene& scene, const RenderSettings& settings, int x, int y, const SampleRange& range,
                  RenderStats& stats, RayAt&& ray_at, Add&& add, std::vector<LightTerm>* terms = nullptr) {
     const std::uint32_t seeds[2] = {settings.seed, second_seed(settings.seed)};
+    const RayCone cone = pixel_cone(ray_at({0.5, 0.5}), ray_at({1.5, 0.5}), ray_at({0.5, 1.5}), settings.spp);
     for (int i = range.begin; i < range.end; ++i) {
         Sampler sampler(x, y, range.halves ? i / 2 : i, seeds[range.halves ? i % 2 : 0]);
         const Ray ray = ray_at(pixel_sample(settings.spp, sampler));
         FirstHit hit;
         hit.terms = terms;
         if (terms) terms->clear();
-        const Radiance value = radiance(scene, ray, settings.bounces, sampler, stats, &hit);
+        const Radiance value = radiance(scene, ray, settings.bounces, sampler, stats, &hit, cone);
         const bool good = is_finite(value.total());
         if (!good) ++stats.bad_samples;
         add(i, good ? &value : nullptr, hit);

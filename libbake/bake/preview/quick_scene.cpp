@@ -20,9 +20,10 @@ std::string repeat_on(const std::string& shape) {
 }
 
 /// Shows a height with an amplitude for a shape of this diagonal.
-void set_height(MaterialEntry& material, const std::string& file, double across, std::vector<std::string>& notes) {
+void set_height(MaterialEntry& material, const std::string& file, const ImageInfo& info, double across,
+                std::vector<std::string>& notes) {
     constexpr float share = 0.02f; // of the diagonal
-    const bool lengths = is_float(read_height(file).info);
+    const bool lengths = is_float(info);
     ReliefEntry& relief = material.relief;
     relief.file = file;
     relief.relative = !lengths;
@@ -34,17 +35,16 @@ void set_height(MaterialEntry& material, const std::string& file, double across,
                                       double(*relief.amplitude) * across, 100.0 * double(*relief.amplitude)));
 }
 
-MapKind kind_of(const std::string& file, MapKind asked, std::vector<std::string>& notes) {
+MapKind kind_of(const std::string& file, const PictureFile& picture, MapKind asked, std::vector<std::string>& notes) {
     if (asked != MapKind::automatic) return asked;
-    ImageInfo info;
-    const Image<float> image = read_image(file, &info);
-    const MapKind kind = guess_map_kind(image, info);
+    const MapKind kind = guess_map_kind(picture.image, picture.info);
     notes.push_back(file + ": is taken for " + name(kind) + "; `as` says otherwise");
     return kind;
 }
 
-void set_map(MaterialEntry& material, const QuickScene& quick, double across, std::vector<std::string>& notes) {
-    const MapKind kind = kind_of(quick.map, quick.as, notes);
+void set_map(MaterialEntry& material, const QuickScene& quick, const PictureFile& picture, double across,
+             std::vector<std::string>& notes) {
+    const MapKind kind = kind_of(quick.map, picture, quick.as, notes);
     const bool relief = kind != MapKind::colour;
     const bool twice =
         relief ? !(material.bump_table.empty() && material.normal_map.empty() && material.relief.file.empty())
@@ -56,7 +56,7 @@ void set_map(MaterialEntry& material, const QuickScene& quick, double across, st
     case MapKind::normal: material.normal_map = quick.map; break;
     case MapKind::bump: material.bump_table = quick.map; break;
     case MapKind::colour: material.albedo = quick.map; break;
-    default: set_height(material, quick.map, across, notes);
+    default: set_height(material, quick.map, picture.info, across, notes);
     }
 }
 
@@ -81,11 +81,17 @@ SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& note
         // Turned towards the camera: the plane faces it, and the hole of the torus is seen.
         if (quick.shape.starts_with("plane")) mesh.placement.rotate_deg.x = 90;
         if (quick.shape.starts_with("torus")) mesh.placement.rotate_deg.x = 40;
-        set_map(material, quick, diagonal(box), notes);
+        const auto picture = read_picture(quick.map);
+        entries.pictures[quick.map] = picture;
+        set_map(material, quick, *picture, diagonal(box), notes);
     } else {
         mesh.file = quick.mesh;
         mesh.own_materials = quick.material.empty();
     }
+    const auto& shade = material.relief.shade;
+    if (material.relief.file.empty() && shade && shade->shade != Shade::plain)
+        throw Error(Refusal::usage, "`material` " + quick.material + ": shade=" + name(*shade) +
+                                        " shows a height, and there is none; add height=FILE");
     entries.materials.push_back(std::move(material));
     entries.meshes.push_back(std::move(mesh));
     return entries;

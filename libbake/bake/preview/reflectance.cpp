@@ -2,16 +2,20 @@
 #include "bake/light/diffusion.h"
 
 namespace bake {
-namespace {
 
 LobeKind highlight(Reflectance::Model model) noexcept {
     switch (model) {
     case Reflectance::Model::phong: return LobeKind::phong;
     case Reflectance::Model::normalised_blinn: return LobeKind::normalised_blinn;
     case Reflectance::Model::normalised_phong: return LobeKind::normalised_phong;
-    default: return LobeKind::blinn;
+    case Reflectance::Model::ggx: return LobeKind::ggx;
+    case Reflectance::Model::dielectric: return LobeKind::dielectric;
+    case Reflectance::Model::blinn: break;
     }
+    return LobeKind::blinn;
 }
+
+namespace {
 
 void add(Bsdf& bsdf, const Lobe& lobe) noexcept {
     if (lobe.weight != Vec3f(0)) bsdf.lobes[bsdf.count++] = lobe;

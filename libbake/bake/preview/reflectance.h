@@ -24,6 +24,9 @@ struct Reflectance {
     float translucency = 1; ///< share of the diffuse reflection that spreads
 };
 
+/// The lobe of the highlight; none of a dielectric.
+LobeKind highlight(Reflectance::Model model) noexcept;
+
 /// `tint` multiplies ambient and diffuse.
 Bsdf make_bsdf(const Reflectance& reflectance, const Vec3f& tint = Vec3f(1)) noexcept;
 

@@ -1,8 +1,9 @@
 #include "bake/preview/relief_method.h"
 #include "bake/base/error.h"
 #include "bake/base/memory.h"
+#include "bake/preview/widen.h"
 #include "bake/relief/displace/displace.h"
-#include "bake/relief/map/normal_map.h"
+#include "bake/relief/map/residual_map.h"
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -14,9 +15,16 @@ namespace {
 
 constexpr int most_levels = 10;
 constexpr std::pair<std::string_view, Shade> words[] = {
-    {"plain", Shade::plain},   {"roughness", Shade::roughness}, {"constant-scale", Shade::constant_scale},
-    {"blinn", Shade::blinn},   {"exact", Shade::exact},         {"bump", Shade::bump},
-    {"normal", Shade::normal}, {"displace", Shade::displace},   {"displace+normal", Shade::displace_normal},
+    {"plain", Shade::plain},
+    {"roughness", Shade::roughness},
+    {"constant-scale", Shade::constant_scale},
+    {"blinn", Shade::blinn},
+    {"exact", Shade::exact},
+    {"bump", Shade::bump},
+    {"bump+roughness", Shade::bump_roughness},
+    {"normal", Shade::normal},
+    {"displace", Shade::displace},
+    {"displace+normal", Shade::displace_normal},
 };
 
 bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
@@ -41,41 +49,42 @@ double slope_variance(const HeightTexture& height, const ReliefOptions& options,
     return sum / (double(slopes.size()) / 2);
 }
 
-/// The highlight of a surface whose normals vary, in Beckmann's terms: alpha^2 = 2 / (n + 2) is twice the variance of a
-/// slope, and variances add (Olano and Baker, LEAN Mapping, I3D 2010). The flux of the highlight stays.
+/// See widen.h.
 void widen(Material& material, double variance) {
-    Reflectance& r = material.reflectance;
-    if (r.model == Reflectance::Model::ggx) {
-        const double alpha = double(r.roughness) * r.roughness; // alpha is the width of a slope here as well
-        r.roughness = float(std::min(1.0, std::pow(alpha * alpha + 2 * variance, 0.25)));
-        return;
-    }
     using Model = Reflectance::Model;
-    const bool phong = r.model == Model::phong || r.model == Model::normalised_phong;
-    const double per = phong ? 4 : 1; // (r.v)^n is as wide as (n.h)^(4 n)
-    const double n = r.shininess, alpha2 = 2 / (per * n + 2) + 2 * variance;
-    const double wider = std::max(0.0, 2 / alpha2 - 2) / per;
-    // The normalised models keep their flux by themselves.
-    if (r.model == Model::blinn) r.specular *= float((wider + 2) / (n + 2));
-    if (r.model == Model::phong) r.specular *= float((wider + 1) / (n + 1));
-    r.shininess = float(wider);
+    Reflectance& r = material.reflectance;
+    if (r.model == Model::dielectric) return;
+    const LobeKind kind = highlight(r.model);
+    const Lobe lobe = widened({.kind = kind, .weight = r.specular, .exponent = r.shininess, .roughness = r.roughness},
+                              float(variance));
+    r.specular = lobe.weight, r.shininess = lobe.exponent, r.roughness = lobe.roughness;
 }
 
-NormalMapOptions map_options(const ReliefOptions& options, const HeightTexture& height, Space space) {
+/// Of the slopes that the cubic spline has.
+std::shared_ptr<const Mips> spline_mips(const HeightTexture& height, const ReliefOptions& options) {
+    BumpTableOptions table = table_options(options);
+    table.filter = Filter::c2;
+    return slope_mips(bump_table(height, table), options.height.wrap_u == Wrap::repeat);
+}
+
+NormalMapOptions map_options(const ReliefOptions& options, const HeightTexture& height) {
     NormalMapOptions map;
     map.width = height.values.width(), map.height = height.values.height();
     map.height_options = options.height;
     map.filter = options.filter;
-    map.space = space;
     return map;
 }
 
-Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const ReliefOptions& options, Space space) {
-    const NormalMapOptions map = map_options(options, height, space);
-    const BakeTarget target = make_bake_target(mesh, "the mesh", map.width, map.height);
+/// Tangent-space normals of the height on a mesh; relative to `displaced`, if given.
+Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const ReliefOptions& options,
+                      const Mesh* displaced = nullptr) {
+    const NormalMapOptions map = map_options(options, height);
+    const auto target_of = [&](const Mesh& of) { return make_bake_target(of, "the mesh", map.width, map.height); };
+    const BakeTarget target = target_of(mesh);
     const HeightField field(height, map.height_options, map.filter, map.width, map.height);
     NormalMapReport report;
-    Image<float> normals = normal_map(field, target, map, report);
+    Image<float> normals = displaced ? residual_map(field, target, target_of(*displaced), map, report)
+                                     : normal_map(field, target, map, report);
     for (std::size_t i = 0; i < normals.size(); ++i) normals.data()[i] = 2 * normals.data()[i] - 1;
     return std::make_shared<const Image<float>>(std::move(normals));
 }
@@ -87,17 +96,26 @@ std::uint64_t scene_bytes(const DisplaceCount& count) noexcept {
     return count.corners * per_corner + (count.corners - 2 * count.faces) * per_triangle + count.points * 12;
 }
 
+/// The same with tangents, and what baking a map for it takes.
+std::uint64_t mapped_bytes(const DisplaceCount& count) noexcept {
+    const std::uint64_t per_corner = 2 * sizeof(Vec4f) + 3 * sizeof(Vec3f);
+    return scene_bytes(count) + count.corners * per_corner + (count.corners - 2 * count.faces) * 16;
+}
+
 std::unique_ptr<Shape> displaced_shape(const Shape& shape, const HeightTexture& height, const ReliefOptions& options,
                                        int levels) {
-    const BaseSurface base{Mesh(shape.mesh)};
+    std::shared_ptr<const BaseSurface> base = shape.smooth;
+    if (!base) base = std::make_shared<const BaseSurface>(Mesh(shape.mesh));
     Relief relief{.values = Image<float>(height.values.width(), height.values.height(), 1), .vector = {}};
     std::copy_n(height.values.data(), height.values.size(), relief.values.data());
     relief.height = options.height;
     DisplaceOptions displacement;
     displacement.rates.levels = levels;
     displacement.taken = process_memory().resident;
-    displacement.later.push_back({"", scene_bytes});
-    return make_shape(displace(base, relief, displacement).mesh, {.flat = shape.surface.flat});
+    const bool mapped = options.method.shade == Shade::displace_normal;
+    displacement.later.push_back({"", mapped ? mapped_bytes : scene_bytes});
+    // A map of normals stands for all of them: facets are not seen.
+    return make_shape(displace(*base, relief, displacement).mesh, {.flat = shape.surface.flat && !mapped});
 }
 
 /// By levels, or by as many as memory allows.
@@ -152,6 +170,8 @@ ReliefModel with_relief(const Material& material, const Shape& shape, const Heig
     const auto by_height = [&](NormalMethod method) {
         m.height = std::make_shared<const HeightSampler<float>>(height.values, Interpolation::c2, options.height);
         m.height_method = method;
+        if (options.mips && options.height.wrap_u == options.height.wrap_v && options.height.wrap_u != Wrap::mirror)
+            m.height_mips = spline_mips(height, options);
     };
     switch (options.method.shade) {
     case Shade::plain: break;
@@ -163,13 +183,15 @@ ReliefModel with_relief(const Material& material, const Shape& shape, const Heig
     case Shade::blinn: by_height(NormalMethod::blinn); break;
     case Shade::exact: by_height(NormalMethod::exact); break;
     case Shade::bump:
+    case Shade::bump_roughness:
+        m.always_moments = options.method.shade == Shade::bump_roughness;
         m.bump_table = std::make_shared<const Image<float>>(bump_table(height, table_options(options)));
         break;
-    case Shade::normal: m.normal_map = baked_normals(shape.mesh, height, options, Space::tangent); break;
+    case Shade::normal: m.normal_map = baked_normals(shape.mesh, height, options); break;
     case Shade::displace: displace_shape(model, shape, height, options); break;
     case Shade::displace_normal:
-        m.object_normals = baked_normals(shape.mesh, height, options, Space::object);
         displace_shape(model, shape, height, options);
+        m.normal_map = baked_normals(shape.mesh, height, options, &model.shape->mesh);
     }
     return model;
 }

@@ -15,9 +15,10 @@ enum class Shade {
     blinn,           ///< NormalMethod::blinn
     exact,           ///< NormalMethod::exact
     bump,            ///< looks up a table of slopes: bump_table()
+    bump_roughness,  ///< the same; what lookups average away widens the highlight, whatever filter the scene has
     normal,          ///< looks up a tangent-space map of exact normals: normal_map()
     displace,        ///< a displaced mesh: displace()
-    displace_normal, ///< a displaced mesh with a map of the exact normals
+    displace_normal, ///< a displaced mesh with a map of the exact normals relative to it: residual_map()
 };
 
 struct ShadeMethod {
@@ -25,13 +26,13 @@ struct ShadeMethod {
     int levels = 4; ///< displace: every edge becomes 2^levels; negative: as many as memory allows
 };
 
-/// "plain", "roughness", "constant-scale", "lecture" (the same), "blinn", "exact", "bump", "normal", "displace:N" and
-/// "displace+normal:N" with N segments per edge, a power of two up to 1024, or "max". Nothing for any other word.
+/// "plain", "roughness", "constant-scale", "lecture" (the same), "blinn", "exact", "bump",
+/// "bump+roughness", "normal", "displace:N" and "displace+normal:N" with N segments per edge, a power of two up to 1024, or "max". Nothing for any other word.
 std::optional<ShadeMethod> parse_shade(const std::string& word);
 std::string name(const ShadeMethod& method);
 /// For messages.
 inline constexpr const char* shade_names = "\"plain\", \"roughness\", \"constant-scale\", \"blinn\", \"exact\", "
-                                           "\"bump\", \"normal\", \"displace:16\" or another "
+                                           "\"bump\", \"bump+roughness\", \"normal\", \"displace:16\" or another "
                                            "power of two, \"displace:max\", \"displace+normal:16\"";
 
 /// What the values of a height mean on one shape.
@@ -39,6 +40,7 @@ struct ReliefOptions {
     ShadeMethod method;
     HeightOptions height;
     Filter filter = Filter::automatic; ///< of bump and normal; the others take slopes from the cubic spline
+    bool mips = true;                  ///< whether methods that take slopes from the height need them for filtering
 };
 
 /// A material with the relief, and the shape that it belongs on.

@@ -23,9 +23,10 @@ struct Halves {
 Halves render_halves(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr,
                      Progress* progress = nullptr);
 
-/// An estimate of the mean square of x - y over all values that noise does not bias: the mean of (x.a - y.a) (x.b - y.b), which are
-/// independent of each other. The mean of the squares of a single pair would be too large by the sum of the variances. It may
-/// come out below 0. x and y may use the same seed, which makes them more alike and the estimate better. The four pictures have the same size.
+/// An estimate of the mean square of x - y over all values that noise does not bias: the mean of (x.a - y.a) (x.b -
+/// y.b), which are independent of each other. The mean of the squares of a single pair would be too large by the sum of
+/// the variances. It may come out below 0. x and y may use the same seed, which makes them more alike and the estimate
+/// better. The four pictures have the same size.
 double mean_square_difference(const Halves& x, const Halves& y) noexcept;
 
 } // namespace bake

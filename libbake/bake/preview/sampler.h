@@ -1,8 +1,8 @@
 // Numbers of a pixel's samples: points of a Sobol sequence, scrambled differently for each pixel and each pair of numbers.
 //
-// Burley, Practical Hash-based Owen Scrambling, Journal of Computer Graphics Techniques 9(4), 2020. The first 2^k samples of
-// a pixel have one point in every elementary interval of area 2^-k, so that the error of a smooth mean falls faster than
-// that of random numbers. Two samplers with different seeds are independent.
+// Burley, Practical Hash-based Owen Scrambling, Journal of Computer Graphics Techniques 9(4), 2020. The first 2^k
+// samples of a pixel have one point in every elementary interval of area 2^-k, so that the error of a smooth mean falls
+// faster than that of random numbers. Two samplers with different seeds are independent.
 #pragma once
 #include "bake/base/vec.h"
 #include <cstdint>

@@ -76,6 +76,7 @@ void build(Scene& scene) {
     }
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
+    add_mips(scene.materials, scene.settings.filter);
     if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
         complete(scene.sky_levels, scene.sky.cube);
 }

@@ -48,7 +48,8 @@ struct RenderSettings {
     bool shadows = true; ///< whether meshes shadow lights and sky, and are seen by glossy and diffuse reflections
     SkyLighting sky_light = SkyLighting::sampled;
     Terminator terminator = Terminator::off;
-    std::uint32_t seed = 0;        ///< pictures of different seeds have independent noise
+    TextureFilter filter = TextureFilter::moments; ///< of textures; set before build()
+    std::uint32_t seed = 0;                        ///< pictures of different seeds have independent noise
     std::optional<float> exposure; ///< in stops, for pictures written in 8 or 16 bits; none: automatic_exposure()
     Tone tone = Tone::srgb;
 };

@@ -7,11 +7,15 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/material.h"
 #include "bake/mesh/origin.h"
+#include "bake/preview/counted_twice.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/gltf_objects.h"
 #include "bake/preview/shape_mesh.h"
+#include "bake/preview/smooth_mesh.h"
+#include "bake/relief/height/picture_height.h"
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace bake {
@@ -69,7 +73,7 @@ std::shared_ptr<const SurfaceMaps> load_maps(const MaterialEntry& entry, Texture
     return any ? std::make_shared<const SurfaceMaps>(std::move(maps)) : nullptr;
 }
 
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache,
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache, const PictureFiles& known,
                                         std::vector<std::string>& notes) {
     if (entry.relief.file.empty() && entry.relief.shade && entry.relief.shade->shade != Shade::plain)
         throw Error(Refusal::unreadable, "\"shade\" shows a height, and there is none; add height = {file = ...}");
@@ -79,68 +83,99 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     material->reflect = entry.reflect;
     if (!entry.albedo.empty())
         material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,
-                                  [&] { return read_albedo(entry.albedo, entry.albedo_space, &notes); });
+                                  [&] { return read_albedo(entry.albedo, entry.albedo_space, &notes, known); });
     if (!entry.bump_table.empty())
-        material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table,
-                                      [&] { return read_bump_table(entry.bump_table, entry.bump_scale, &notes); });
+        material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table, [&] {
+            return read_bump_table(entry.bump_table, entry.bump_scale, &notes, known);
+        });
     if (!entry.normal_map.empty())
         material->normal_map = cached(
             cache,
             (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
-            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes); });
+            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes, known); });
     material->maps = load_maps(entry, cache, notes);
     return material;
 }
 
 /// Shapes by their file or name and all options of reading.
-using ShapeCache = std::map<std::tuple<std::string, std::string, int, int, bool, bool, int, float, float>, Shape*>;
+using ShapeCache = std::map<std::tuple<std::string, std::string, int, int, bool, bool, int, int, float, float>, Shape*>;
 
 /// Heights by their file.
 using HeightCache = std::map<std::string, std::shared_ptr<const HeightTexture>>;
 
+/// Materials and shapes with the relief of a material on a shape, by both.
+using ReliefCache = std::map<std::pair<const Shape*, int>, std::pair<const Material*, Shape*>>;
 /// glTF files with their own materials, by all options of reading.
 using GltfCache = std::map<std::tuple<std::string, bool, bool, float, float>, std::vector<GltfObject>>;
 
 /// What meshes share.
 struct Loaded {
+    const SceneEntries& entries;
     ShapeCache shapes;
     HeightCache heights;
+    ReliefCache reliefs;
+    std::set<std::pair<const Shape*, const Material*>> compared; ///< by note_relief()
     GltfCache gltf;
     std::map<std::string, std::vector<GltfLight>> lights; ///< of glTF files
 };
 
-/// Places the mesh with the relief of its material, which is baked for this shape.
-void add_relief(const ReliefEntry& relief, bool repeats, const Placement& placement, const Material& material,
-                Shape& shape, HeightCache& heights, Scene& scene) {
-    auto& height = heights[relief.file];
+/// The material with its relief, which is baked for this shape, and the shape that it is for.
+std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool repeats, const Material& material,
+                                               Shape& shape, Loaded& loaded, Scene& scene) {
+    auto& height = loaded.heights[relief.file];
     if (!height) {
-        height = std::make_shared<const HeightTexture>(read_height(relief.file));
+        const auto picture = picture_file(loaded.entries.pictures, relief.file);
+        height =
+            std::make_shared<const HeightTexture>(picture_height(relief.file, copied(picture->image), picture->info));
         for (const std::string& note : height->info.notes) scene.notes.push_back(relief.file + ": " + note);
     }
-    const ReliefOptions options = relief_options(relief, height->info, diagonal(bounds(shape.mesh)));
+    ReliefOptions options = relief_options(relief, height->info, diagonal(bounds(shape.mesh)));
+    options.mips = scene.settings.filter != TextureFilter::off;
     const Shade shade = options.method.shade;
     if ((shade == Shade::normal || shade == Shade::displace_normal) && repeats)
         throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
                                              " bakes a map, and the uvs repeat; give a "
                                              "repeat of 1, or another method such as \"exact\"");
-    if (shade == Shade::bump && relief.wrap != Wrap::repeat)
-        throw Error(Refusal::unsuitable, "\"shade\" bump looks up a table that repeats; give the height the wrap "
-                                         "\"repeat\", or take another method such as \"blinn\"");
+    if ((shade == Shade::bump || shade == Shade::bump_roughness) && relief.wrap != Wrap::repeat)
+        throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
+                                             " looks up a table that repeats; give the height the wrap "
+                                             "\"repeat\", or take another method such as \"blinn\"");
     ReliefModel model = with_relief(material, shape, *height, options);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
                               " segments per edge, the most that memory allows");
     scene.materials.push_back(std::make_unique<Material>(std::move(model.material)));
     if (model.shape) scene.shapes.push_back(std::move(model.shape));
-    add_instance(scene, model.segments > 0 ? *scene.shapes.back() : shape, *scene.materials.back(), placement);
+    return {scene.materials.back().get(), model.segments > 0 ? scene.shapes.back().get() : &shape};
 }
 
-Mesh read_entry(const MeshEntry& entry, Scene& scene) {
-    if (!entry.shape.empty()) return shape_mesh(entry.shape, entry.columns, entry.rows);
+/// The mesh of an entry, with its uvs times `repeat`.
+SmoothMesh read_entry(const MeshEntry& entry, const Vec2f& repeat, Scene& scene) {
+    const auto repeated = [&](Mesh mesh) {
+        for (Vec2f& uv : mesh.uvs) uv *= repeat;
+        return mesh;
+    };
+    if (!entry.shape.empty()) return {repeated(shape_mesh(entry.shape, entry.columns, entry.rows)), nullptr};
     Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
     for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
     move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
-    return mesh;
+    mesh = repeated(std::move(mesh));
+    if (entry.subdivide) return limit_mesh(std::move(mesh), *entry.subdivide, entry.file, entry.columns);
+    return {std::move(mesh), nullptr};
+}
+
+bool displaces(const ReliefEntry& relief) noexcept {
+    if (relief.file.empty() || !relief.shade) return false;
+    return relief.shade->shade == Shade::displace || relief.shade->shade == Shade::displace_normal;
+}
+
+/// Notes, once, relief of a map or height that the mesh has already.
+void note_relief(const MeshEntry& entry, const Material& material, const Shape& shape, Loaded& loaded, Scene& scene) {
+    if (entry.file.empty() || !has_relief(material) || !loaded.compared.insert({&shape, &material}).second) return;
+    if (!counted_twice(common_relief(material, shape))) return;
+    scene.notes.push_back(entry.file + ": has the relief of material \"" + material.name +
+                          "\" already, so that its slopes count twice; bake the map with --residual-of " + entry.file +
+                          ", or show the mesh without it");
 }
 
 bool is_gltf(const MeshEntry& entry) { return entry.shape.empty() && mesh_format(entry.file) == MeshFormat::gltf; }
@@ -165,7 +200,10 @@ bool load_gltf(const MeshEntry& entry, Loaded& loaded, Scene& scene) {
             scene.notes.push_back(entry.file + ": its own materials name their sets of uvs; \"uv-set\" is for others");
         found->second = load_gltf_objects(entry.file, {entry.flat, entry.flip_v, entry.repeat}, scene);
     }
-    for (const GltfObject& part : found->second) add_instance(scene, *part.shape, *part.material, entry.placement);
+    for (const GltfObject& part : found->second) {
+        add_instance(scene, *part.shape, *part.material, entry.placement);
+        note_relief(entry, *part.material, *part.shape, loaded, scene);
+    }
     return !found->second.empty();
 }
 
@@ -180,18 +218,27 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
     if (entry.material >= 0) repeat *= entries.materials[entry.material].repeat;
     if (!textured) repeat = Vec2f(1); // so that meshes with and without textures share their shape
     Shape*& shape = loaded.shapes[{entry.file, entry.shape, entry.columns, entry.rows, entry.flat, entry.flip_v,
-                                   entry.uv_set, repeat.x, repeat.y}];
+                                   entry.uv_set, entry.subdivide ? 1 + int(*entry.subdivide) : 0, repeat.x, repeat.y}];
     if (!shape) {
-        Mesh mesh = read_entry(entry, scene);
-        for (Vec2f& uv : mesh.uvs) uv *= repeat;
-        scene.shapes.push_back(make_shape(std::move(mesh), {.flat = entry.flat}));
+        SmoothMesh smooth = read_entry(entry, repeat, scene);
+        scene.shapes.push_back(make_shape(std::move(smooth.mesh), {.flat = entry.flat}));
         shape = scene.shapes.back().get();
+        if (!entry.flat) shape->smooth = std::move(smooth.surface);
     }
+    // The shape has its uvs once.
+    if (!entry.shape.empty() && displaces(relief) && repeat == Vec2f(1) && !entry.flat && !shape->smooth)
+        shape->smooth = shape_surface(entry.shape, entry.columns, entry.rows);
     if (textured && shape->mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
                                              material.name + "\" need; unwrap the mesh or remove the textures");
-    if (relief.file.empty()) add_instance(scene, *shape, material, entry.placement);
-    else add_relief(relief, repeat != Vec2f(1), entry.placement, material, *shape, loaded.heights, scene);
+    if (relief.file.empty()) {
+        add_instance(scene, *shape, material, entry.placement);
+        return note_relief(entry, material, *shape, loaded, scene);
+    }
+    auto& [shown, on] = loaded.reliefs[{shape, entry.material}]; // instances share what is baked
+    if (!shown) std::tie(shown, on) = bake_relief(relief, repeat != Vec2f(1), material, *shape, loaded, scene);
+    add_instance(scene, *on, *shown, entry.placement);
+    if (on == shape) note_relief(entry, *shown, *on, loaded, scene);
 }
 
 Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
@@ -256,9 +303,10 @@ Scene load(const SceneEntries& entries) {
     TextureCache textures;
     scene.materials.push_back(std::make_unique<Material>()); // plain grey, material -1
     for (const MaterialEntry& entry : entries.materials)
-        scene.materials.push_back(
-            at_line(entries, entry.line, [&] { return load_material(entry, textures, scene.notes); }));
-    Loaded loaded;
+        scene.materials.push_back(at_line(
+            entries, entry.line, [&] { return load_material(entry, textures, entries.pictures, scene.notes); }));
+    Loaded loaded{
+        .entries = entries, .shapes = {}, .heights = {}, .reliefs = {}, .compared = {}, .gltf = {}, .lights = {}};
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] {
             load_mesh(entries, entry, loaded, scene);

@@ -3,6 +3,7 @@
 #include "bake/preview/camera_entry.h"
 #include "bake/preview/relief_entry.h"
 #include "bake/preview/scene.h"
+#include "bake/surface/subdivision/types.h"
 #include <optional>
 
 namespace bake {
@@ -24,14 +25,15 @@ struct MaterialEntry {
 };
 
 struct MeshEntry {
-    std::string file;          ///< empty if `shape` is given
-    std::string name;          ///< for instances; may be empty
-    std::string shape;         ///< see shape_mesh()
-    int columns = 0, rows = 0; ///< of a shape, see shape_mesh()
-    Vec2f repeat{1};           ///< factor on the uvs
-    int material = -1;         ///< index in materials; -1 is plain grey
-    bool own_materials = true; ///< a glTF that has materials is shown with them instead
-    bool lights = true;        ///< the lights of a glTF shine in the scene
+    std::string file;                ///< empty if `shape` is given
+    std::string name;                ///< for instances; may be empty
+    std::string shape;               ///< see shape_mesh()
+    int columns = 0, rows = 0;       ///< of a shape, see shape_mesh()
+    std::optional<Scheme> subdivide; ///< the file is a cage, and its limit is shown; columns: segments of an edge
+    Vec2f repeat{1};                 ///< factor on the uvs
+    int material = -1;               ///< index in materials; -1 is plain grey
+    bool own_materials = true;       ///< a glTF that has materials is shown with them instead
+    bool lights = true;              ///< the lights of a glTF shine in the scene
     Placement placement;
     bool flat = false;
     bool flip_v = false; ///< see MeshOptions
@@ -74,8 +76,9 @@ struct SceneEntries {
     std::vector<MaterialEntry> materials;
     std::vector<MeshEntry> meshes;
     std::optional<GroundEntry> ground;
-    bool labels = false; ///< the built-in test sky (label_sky()), instead of `sky`
-    bool studio = false; ///< without lights and sky: three lights placed relative to the camera instead of one
+    bool labels = false;   ///< the built-in test sky (label_sky()), instead of `sky`
+    PictureFiles pictures; ///< files that are read already
+    bool studio = false;   ///< without lights and sky: three lights placed relative to the camera instead of one
 };
 
 /// The camera that is taken; an entry that shows the whole scene if there is none.

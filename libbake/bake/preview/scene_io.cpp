@@ -14,8 +14,8 @@ namespace bake {
 namespace {
 
 void read_render(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"size", "spp", "bounces", "diffuse-bounces", "shadows", "sky-light", "terminator", "seed",
-                    "exposure", "tone", "background"});
+    allow_only(in, {"size", "spp", "bounces", "diffuse-bounces", "shadows", "sky-light", "terminator", "texture-filter",
+                    "seed", "exposure", "tone", "background"});
     RenderSettings& s = scene.settings;
     if (const toml::node* size = in.table.get("size")) {
         if (size->is_number()) {
@@ -39,6 +39,9 @@ void read_render(const Section& in, SceneEntries& scene) {
                              {"rotate", Terminator::rotate},
                              {"estevez", Terminator::estevez},
                              {"chiang", Terminator::chiang}});
+    read_choice<TextureFilter>(
+        in, "texture-filter", s.filter,
+        {{"off", TextureFilter::off}, {"mips", TextureFilter::mips}, {"moments", TextureFilter::moments}});
     int seed = 0;
     read(in, "seed", seed, 0, 1'000'000'000);
     s.seed = std::uint32_t(seed);
@@ -167,7 +170,7 @@ namespace {
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
     allow_only(in, {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat",
-                    "flip-v", "uv-set", "repeat", "lights"});
+                    "flip-v", "uv-set", "subdivide", "repeat", "lights"});
     MeshEntry m;
     read_mesh_source(in, m);
     read_mesh_name(in, scene, m);

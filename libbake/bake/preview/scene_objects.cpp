@@ -129,9 +129,21 @@ void read_mesh_source(const Section& in, MeshEntry& mesh) {
     if (file && shape) refuse(in, *in.table.get("shape"), "\"file\" and \"shape\" are two meshes; give one of them");
     mesh.line = line_of(*in.table.get(file ? "file" : "shape"));
     if (shape) mesh.shape = shape_beside(in.file, mesh.shape);
+    if (const toml::node* cage = in.table.get("subdivide")) {
+        if (shape) refuse(in, *cage, "\"subdivide\" is of a \"file\"; a shape is smooth already");
+        std::optional<Scheme> scheme;
+        read_choice<std::optional<Scheme>>(
+            in, "subdivide", scheme, {{"none", std::nullopt}, {"catmark", Scheme::catmark}, {"loop", Scheme::loop}});
+        mesh.subdivide = scheme;
+    }
     const toml::node* segments = in.table.get("segments");
     if (!segments) return;
-    if (file) refuse(in, *segments, "\"segments\" is of a \"shape\"; a file has its own faces");
+    if (file && !mesh.subdivide)
+        refuse(in, *segments, "\"segments\" is of a \"shape\" or of \"subdivide\"; a file has its own faces");
+    if (file) {
+        mesh.columns = checked_integer(in, *segments, "segments", 1, 64);
+        return;
+    }
     if (segments->is_number()) {
         mesh.columns = mesh.rows = checked_integer(in, *segments, "segments", 1, 1024);
         return;

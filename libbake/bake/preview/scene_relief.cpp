@@ -39,14 +39,9 @@ void read_relief(const Section& in, ReliefEntry& relief) {
             refuse(height, *node, "\"file\" is missing; give a height picture");
         read_amplitude(height, relief);
         if (float midlevel = 0; table->get("midlevel")) read(height, "midlevel", midlevel), relief.midlevel = midlevel;
-        read_choice<Filter>(height, "filter", relief.filter,
-                            {{"auto", Filter::automatic},
-                             {"central", Filter::central},
-                             {"sobel", Filter::sobel},
-                             {"scharr", Filter::scharr},
-                             {"order4", Filter::order4},
-                             {"order6", Filter::order6},
-                             {"c2", Filter::c2}});
+        std::vector<std::pair<std::string_view, Filter>> filters = {{"auto", Filter::automatic}};
+        for (const Filter filter : all_filters) filters.emplace_back(name(filter), filter);
+        read_choice<Filter>(height, "filter", relief.filter, std::span(filters));
         read_choice<Wrap>(height, "wrap", relief.wrap,
                           {{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}, {"mirror", Wrap::mirror}});
     }

@@ -3,6 +3,7 @@
 #include "bake/base/vec.h"
 #include "bake/environment/file/radiance.h"
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <toml++/toml.h>
@@ -51,7 +52,7 @@ void read_colour_space(const Section& in, std::string_view key, ColourSpace& val
 
 template <class Value>
 void read_choice(const Section& in, std::string_view key, Value& value,
-                 std::initializer_list<std::pair<std::string_view, Value>> choices) {
+                 std::span<const std::pair<std::string_view, Value>> choices) {
     std::string word;
     if (!read(in, key, word)) return;
     std::string known;
@@ -63,6 +64,11 @@ void read_choice(const Section& in, std::string_view key, Value& value,
         known += (known.empty() ? "" : ", ") + in_quotes(name);
     }
     refuse(in, *in.table.get(key), in_quotes(key) + " is " + in_quotes(word) + "; give one of " + known);
+}
+template <class Value>
+void read_choice(const Section& in, std::string_view key, Value& value,
+                 std::initializer_list<std::pair<std::string_view, Value>> choices) {
+    read_choice<Value>(in, key, value, std::span(choices.begin(), choices.size()));
 }
 
 } // namespace bake

@@ -5,11 +5,14 @@
 
 namespace bake {
 
+class BaseSurface;
+
 /// Owns its mesh. Must not be moved, because the surface points to the mesh.
 struct Shape {
     Mesh mesh;
     MeshSurface surface;
-    std::vector<Vec4f> tangents; ///< per corner; empty before add_tangents()
+    std::vector<Vec4f> tangents;               ///< per corner; empty before add_tangents()
+    std::shared_ptr<const BaseSurface> smooth; ///< what the mesh shows, for displacement; null: the mesh itself
 };
 
 /// `options` can select flat shading (facet normals).

@@ -36,10 +36,10 @@ double wrapped(double u, MapWrap wrap, bool nearest, int n) noexcept {
     return wrap == MapWrap::repeat ? u : std::clamp(u, 0.5 / n, 1 - 0.5 / n);
 }
 
-Vec3f lookup(const SurfaceMap& map, const Shape& shape, const ShapePoint& at) noexcept {
+Vec3f lookup(const SurfaceMap& map, const Shape& shape, const ShapePoint& at,
+             const Footprint& footprint = {}) noexcept {
+    if (map.is_plain()) return lookup3(map.texture, uv_at(shape, at), footprint);
     const Vec2f uv = map.uvs < 0 ? uv_at(shape, at) : Vec2f(attribute_at(shape, at, map.uvs, 0));
-    const bool plain = map.wrap_u == MapWrap::repeat && map.wrap_v == MapWrap::repeat && !map.nearest;
-    if (plain) return lookup3(*map.texture, uv);
     return lookup3(*map.texture, Vec2f(Vec2d(wrapped(double(uv.x), map.wrap_u, map.nearest, map.texture->width()),
                                              wrapped(double(uv.y), map.wrap_v, map.nearest, map.texture->height()))));
 }
@@ -82,26 +82,26 @@ Texture read_alpha(const std::string& file) {
     return opaque ? nullptr : std::make_shared<const Image<float>>(std::move(alpha));
 }
 
-Bsdf mapped_bsdf(const SurfaceMaps& maps, Reflectance r, const Vec3f& tint, const Shape& shape,
-                 const ShapePoint& at) noexcept {
+Bsdf mapped_bsdf(const SurfaceMaps& maps, Reflectance r, const Vec3f& tint, const Shape& shape, const ShapePoint& at,
+                 const Footprint& footprint) noexcept {
     Vec3f base = tint;
-    if (maps.base) base *= lookup(maps.base, shape, at);
+    if (maps.base) base *= lookup(maps.base, shape, at, footprint);
     if (maps.vertex_colours >= 0) base *= Vec3f(attribute_at(shape, at, maps.vertex_colours, 1));
     if (maps.unlit) {
         Bsdf shown;
         shown.emission = r.diffuse * base;
         return shown;
     }
-    if (maps.specular) r.specular *= lookup(maps.specular, shape, at);
-    if (maps.shininess) r.shininess *= lookup(maps.shininess, shape, at).x;
+    if (maps.specular) r.specular *= lookup(maps.specular, shape, at, footprint);
+    if (maps.shininess) r.shininess *= lookup(maps.shininess, shape, at, footprint).x;
     const bool shared = maps.roughness && maps.metallic.same_as(maps.roughness); // as glTF has them
     if (maps.roughness) {
-        const Vec3f value = lookup(maps.roughness, shape, at);
+        const Vec3f value = lookup(maps.roughness, shape, at, footprint);
         r.roughness *= value.y;
         if (shared) r.metallic *= value.z;
     }
-    if (maps.metallic && !shared) r.metallic *= lookup(maps.metallic, shape, at).z;
-    if (maps.emission) r.emission *= lookup(maps.emission, shape, at);
+    if (maps.metallic && !shared) r.metallic *= lookup(maps.metallic, shape, at, footprint).z;
+    if (maps.emission) r.emission *= lookup(maps.emission, shape, at, footprint);
     Bsdf bsdf = make_bsdf(r, base);
     if (maps.occlusion) bsdf.ambient *= occlusion_at(maps, shape, at);
     return bsdf;

@@ -18,6 +18,10 @@ struct SurfaceMap {
     bool nearest = false; ///< the texel that holds the uv, not interpolated
 
     explicit operator bool() const noexcept { return bool(texture); }
+    /// Lies on the shape's uvs, repeats and interpolates.
+    bool is_plain() const noexcept {
+        return uvs < 0 && wrap_u == MapWrap::repeat && wrap_v == MapWrap::repeat && !nearest;
+    }
     bool same_as(const SurfaceMap& other) const noexcept {
         return texture.get() == other.texture.get() && uvs == other.uvs && wrap_u == other.wrap_u &&
                wrap_v == other.wrap_v && nearest == other.nearest;
@@ -54,9 +58,9 @@ struct SurfaceMaps {
 /// The alpha of a picture, in three equal channels; null if it has none or is opaque. Throws as read_image().
 Texture read_alpha(const std::string& file);
 
-/// The reflectance at a point; `tint` multiplies ambient and diffuse.
+/// The reflectance at a point; `tint` multiplies ambient and diffuse. Plain maps are looked up over the footprint.
 Bsdf mapped_bsdf(const SurfaceMaps& maps, Reflectance reflectance, const Vec3f& tint, const Shape& shape,
-                 const ShapePoint& at) noexcept;
+                 const ShapePoint& at, const Footprint& footprint = {}) noexcept;
 
 /// Factor on ambient light and on what diffuse terms reflect of the sky, in [0, 1].
 float occlusion_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at) noexcept;

@@ -2,7 +2,15 @@
 
 namespace bake {
 
-Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexcept {
+namespace {
+
+bool has_textures(const Material& material) noexcept {
+    return material.albedo || material.maps || has_relief(material);
+}
+
+} // namespace
+
+Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone) noexcept {
     const Instance& instance = scene.instances[hit.mesh];
     const Shape& shape = *instance.shape;
     const ShapePoint where{hit.triangle, hit.b1, hit.b2};
@@ -17,7 +25,15 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     if (s.surface == Vec3f(0)) s.surface = s.facet;
     s.n = s.surface;
     const bool relief = has_relief(*instance.material);
-    if (relief) s.n = unit_or_zero(instance.normals * shading_normal(*instance.material, shape, where));
+    Lookup lookup{.filter = scene.settings.filter, .normals = instance.normals};
+    if (has_textures(*instance.material))
+        lookup.footprint =
+            footprint_at(shape, instance.linear, where, s.facet, direction, cone.width + cone.spread * hit.t);
+    if (relief) {
+        const MeanNormal mean = mean_normal(*instance.material, shape, where, lookup);
+        s.n = unit_or_zero(instance.normals * mean.n);
+        s.variance = mean.variance;
+    }
     if (s.n == Vec3f(0)) s.n = s.surface;
     float outward = 1;
     if (glm::dot(s.facet, s.v) < 0) {
@@ -27,8 +43,10 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) n
     }
     s.light_at = s.at;
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
-    s.bsdf = bsdf_at(*instance.material, shape, where);
+    s.bsdf = bsdf_at(*instance.material, shape, where, lookup, s.variance);
     s.reflect = instance.material->reflect;
+    s.cone = s.reflect == Vec3f(0) ? RayCone{cone.width + cone.spread * hit.t, cone.spread}
+                                   : mirrored_cone(shape, instance.linear, where, s.facet, direction, cone, hit.t);
     if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.

@@ -6,12 +6,14 @@ namespace bake {
 
 /// In world space; facet, surface and n are unit vectors on the side of the viewer.
 struct Surfel {
-    HitPoint at;       ///< origin of mirror rays
-    HitPoint light_at; ///< origin of shadow rays, on the smooth surface
-    Vec3f facet{0};    ///< of the triangle
-    Vec3f surface{0};  ///< interpolated, without relief
-    Vec3f n{0};        ///< with relief
-    Vec3f v{0};        ///< unit, towards the viewer
+    HitPoint at;        ///< origin of mirror rays
+    HitPoint light_at;  ///< origin of shadow rays, on the smooth surface
+    Vec3f facet{0};     ///< of the triangle
+    Vec3f surface{0};   ///< interpolated, without relief
+    Vec3f n{0};         ///< with relief
+    Vec3f v{0};         ///< unit, towards the viewer
+    RayCone cone;       ///< of mirror rays
+    float variance = 0; ///< of the slopes around n that lookups averaged away; the bsdf has it already
     Bsdf bsdf;
     float occlusion = 1;         ///< factor on what diffuse terms reflect of the sky
     Vec3f reflect{0};            ///< factor on the radiance from the mirror direction
@@ -20,7 +22,7 @@ struct Surfel {
     bool mirrored_below = false; ///< the same for the mirror direction and the surface
 };
 
-/// `direction`: of the ray that hit.
-Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction) noexcept;
+/// `direction`: of the ray that hit, with unit length; `cone`: around it.
+Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone = {}) noexcept;
 
 } // namespace bake

@@ -33,48 +33,24 @@ void tell(const std::string& file, const ImageInfo& info, std::vector<std::strin
 
 Texture shared(Image<float>&& image) { return std::make_shared<const Image<float>>(std::move(image)); }
 
-int wrap(int i, int n) noexcept { return i < 0 ? i + n : i >= n ? i - n : i; }
-
-/// Where uv falls among the texel centres of an axis of n texels: two neighbours and the way between them.
-struct Span {
-    int low, high;
-    float between;
-};
-
-Span span_of(double u, int n) noexcept {
-    const double repeated = std::isfinite(u) ? u - std::floor(u) : 0.0;
-    const double at = repeated * n - 0.5;
-    const double low = std::floor(at);
-    return {wrap(int(low), n), wrap(int(low) + 1, n), float(at - low)};
-}
-
-template <class Vec> Vec lookup(const Image<float>& image, const Vec2f& uv) noexcept {
-    const Span x = span_of(uv.x, image.width());
-    const Span y = span_of(1.0 - double(uv.y), image.height()); // row 0 is the top, where v = 1
-    const auto texel = [&](int column, int row) {
-        Vec value;
-        for (int c = 0; c < Vec::length(); ++c) value[c] = image.row(row)[std::size_t(column) * Vec::length() + c];
-        return value;
-    };
-    const Vec upper = (1 - x.between) * texel(x.low, y.low) + x.between * texel(x.high, y.low);
-    const Vec lower = (1 - x.between) * texel(x.low, y.high) + x.between * texel(x.high, y.high);
-    return (1 - y.between) * upper + y.between * lower;
-}
-
 } // namespace
 
-Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std::string>* notes) {
-    ImageInfo info;
-    Image<float> image = read_image(file, &info);
+Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std::string>* notes,
+                    const PictureFiles& known) {
+    const auto picture = picture_file(known, file);
+    ImageInfo info = picture->info;
+    Image<float> image = copied(picture->image);
     require_finite(image, file);
     linearise(image, space, info);
     tell(file, info, notes);
     return shared(image.channels() >= 3 ? pick<3>(image, {0, 1, 2}) : pick<3>(image, {0, 0, 0}));
 }
 
-Texture read_bump_table(const std::string& file, float scale, std::vector<std::string>* notes) {
-    ImageInfo info;
-    const Image<float> image = read_image(file, &info);
+Texture read_bump_table(const std::string& file, float scale, std::vector<std::string>* notes,
+                        const PictureFiles& known) {
+    const auto picture = picture_file(known, file);
+    const ImageInfo& info = picture->info;
+    const Image<float>& image = picture->image;
     tell(file, info, notes);
     const auto refuse = [&](const std::string& why) { throw Error(Refusal::unsuitable, file + ": " + why); };
     const bool integers = is_integer(info.type);
@@ -100,10 +76,11 @@ Texture read_bump_table(const std::string& file, float scale, std::vector<std::s
     return shared(std::move(table));
 }
 
-Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx,
-                        std::vector<std::string>* notes) {
-    ImageInfo info;
-    const Image<float> image = read_image(file, &info);
+Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx, std::vector<std::string>* notes,
+                        const PictureFiles& known) {
+    const auto picture = picture_file(known, file);
+    const ImageInfo& info = picture->info;
+    const Image<float>& image = picture->image;
     tell(file, info, notes);
     if (image.channels() < 2)
         throw Error(Refusal::unsuitable,
@@ -125,7 +102,21 @@ Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool d
     return shared(std::move(normals));
 }
 
-Vec2f lookup2(const Image<float>& image, const Vec2f& uv) noexcept { return lookup<Vec2f>(image, uv); }
-Vec3f lookup3(const Image<float>& image, const Vec2f& uv) noexcept { return lookup<Vec3f>(image, uv); }
+Vec2f lookup2(const Image<float>& image, const Vec2f& uv) noexcept {
+    const auto value = bilinear<2>(image, uv);
+    return {value[0], value[1]};
+}
+
+Vec3f lookup3(const Image<float>& image, const Vec2f& uv) noexcept {
+    const auto value = bilinear<3>(image, uv);
+    return {value[0], value[1], value[2]};
+}
+
+Vec3f lookup3(const Texture& texture, const Vec2f& uv, const Footprint& footprint) noexcept {
+    if (!texture.mips) return lookup3(*texture, uv);
+    const Taps taps = taps_of(*texture.mips, uv, footprint);
+    const auto value = mean_over<3>(*texture.mips, taps, [&](const Vec2f& at) { return bilinear<3>(*texture, at); });
+    return {value[0], value[1], value[2]};
+}
 
 } // namespace bake

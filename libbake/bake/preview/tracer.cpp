@@ -2,6 +2,7 @@
 #include "bake/preview/light_terms.h"
 #include "bake/preview/surfel.h"
 #include "bake/preview/translucency.h"
+#include "bake/preview/widen.h"
 #include <cmath>
 
 namespace bake {
@@ -21,7 +22,7 @@ struct Path {
     Sampler& sampler;
     RenderStats& stats;
 
-    Radiance along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
+    Radiance along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept;
 
 private:
     bool is_visible(const Surfel& s, const LightSample<float>& to) noexcept;
@@ -114,9 +115,7 @@ void Path::add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Ra
     const bool glossy = bounces > 0 && f.specular != Vec3f(0);
     const bool diffuse = diffuse_bounces > 0 && f.diffuse != Vec3f(0);
     if (!glossy && !diffuse) return;
-    Sampler own = sampler.branch(); // a mirror ray of the same hit may follow
-    Path path{scene, own, stats};
-    const Vec3f light = factor / drawn.pdf * path.along(ray, bounces - 1, diffuse_bounces - 1, nullptr).total();
+    const Vec3f light = factor / drawn.pdf * along(ray, s.cone, bounces - 1, diffuse_bounces - 1, nullptr).total();
     if (diffuse) sum.diffuse += f.diffuse * light;
     if (glossy) sum.specular += f.specular * light;
 }
@@ -128,23 +127,27 @@ void Path::add_filtered_sky(const Surfel& s, Radiance& sum) noexcept {
 
 /// Light that enters elsewhere and leaves the body here.
 void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces, Radiance& sum) noexcept {
-    const LightEntry entry = draw_light_entry(scene, s, hit, sampler, stats.rays);
-    if (!entry.hit) return;
-    const Surfel there = entry_surfel(scene, entry, s);
-    Radiance light;
-    add_lights(there, light, nullptr);
-    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
-    if (sky_lights(SkyLighting::sampled)) {
-        add_sky_sample(there, light, nullptr);
-        add_bsdf_sample(there, 0, diffuse_bounces, light);
+    const LightEntries entries = draw_light_entries(scene, s, hit, sampler, stats.rays);
+    const Vec3f leaves = cover(s.bsdf, s.n, s.v);
+    for (int i = 0; i < entries.count; ++i) {
+        const LightEntry& entry = entries.entry[std::size_t(i)];
+        const Surfel there = entry_surfel(scene, entry, s);
+        Radiance light;
+        add_lights(there, light, nullptr);
+        if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(there, light);
+        if (sky_lights(SkyLighting::sampled)) {
+            add_sky_sample(there, light, nullptr);
+            add_bsdf_sample(there, 0, diffuse_bounces, light);
+        }
+        sum.diffuse += entry.factor * leaves * light.diffuse;
     }
-    sum.diffuse += entry.factor * cover(s.bsdf, s.n, s.v) * light.diffuse;
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
-    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, s.n, s.facet)};
+    const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.next2()) : s.n;
+    const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, n, s.facet)};
     if (bounces <= 0) return sky_radiance(scene.sky, ray.direction);
-    return along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
 /// Glass: reflects or refracts, by chance.
@@ -154,25 +157,33 @@ Vec3f Path::through(const Surfel& s, int bounces, int diffuse_bounces) noexcept 
     if (drawn.factor == Vec3f(0)) return Vec3f(0);
     const Ray ray{offset_origin(s.at, glm::dot(drawn.l, s.facet) < 0 ? -s.facet : s.facet), drawn.l};
     if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction);
-    return drawn.factor * along(ray, bounces - 1, diffuse_bounces, nullptr).total();
+    return drawn.factor * along(ray, s.cone, bounces - 1, diffuse_bounces, nullptr).total();
 }
 
-Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
+Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces, FirstHit* first) noexcept {
     ++stats.rays;
     const Hit hit = scene.bvh->intersect(ray);
     if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction)};
-    const Surfel s = make_surfel(scene, hit, ray.direction);
+    const Surfel s = make_surfel(scene, hit, ray.direction, cone);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum, first);
     const bool glass = is_glass(s.bsdf), mirror = s.reflect != Vec3f(0);
     const bool sky = !glass && s.bsdf.count > 0 && sky_lights(SkyLighting::sampled);
-    if (sky_lights(SkyLighting::irradiance)) add_filtered_sky(s, sum);
-    if (s.bsdf.translucent != Vec3f(0)) add_translucent(s, hit, diffuse_bounces, sum);
+    if (sky_lights(SkyLighting::irradiance)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::filtered_sky);
+        add_filtered_sky(s, sum);
+    }
+    if (s.bsdf.translucent != Vec3f(0)) {
+        const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::from_inside);
+        add_translucent(s, hit, diffuse_bounces, sum);
+    }
     // Beyond the first hit one of two branches is followed, so that the time does not double with every bounce.
     const bool choose = !first && sky && mirror;
     const float choice = choose ? sampler.next() : 0, part = choose ? 0.5f : 1.0f;
     if (glass) sum.reflected += through(s, bounces, diffuse_bounces);
     if (sky) add_sky_sample(s, sum, first);
+    // Where two branches are followed, the numbers of the mirror's do not depend on how many the other one takes.
+    Sampler branch = sampler.branch();
     if (sky && (!choose || choice < part)) {
         const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::sky_by_surface);
         Radiance drawn;
@@ -180,10 +191,12 @@ Radiance Path::along(const Ray& ray, int bounces, int diffuse_bounces, FirstHit*
         sum.diffuse += drawn.diffuse / part, sum.specular += drawn.specular / part;
     }
     if (mirror && (!choose || choice >= part))
-        sum.reflected += s.reflect * mirrored(s, bounces, diffuse_bounces) / part;
+        sum.reflected += s.reflect *
+                         Path{scene, sky && !choose ? branch : sampler, stats}.mirrored(s, bounces, diffuse_bounces) /
+                         part;
     if (!first) return sum;
 
-    first->hit = hit, first->depth = hit.t * glm::length(ray.direction);
+    first->hit = hit, first->cone = cone, first->depth = hit.t * glm::length(ray.direction);
     first->position = s.at.p + scene.origin, first->facet = s.facet, first->normal = s.n;
     const Instance& instance = scene.instances[hit.mesh];
     first->uv = uv_at(*instance.shape, {hit.triangle, hit.b1, hit.b2});
@@ -205,9 +218,10 @@ RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
 }
 
 Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
-                  FirstHit* first) noexcept {
+                  FirstHit* first, const RayCone& cone) noexcept {
     FirstHit unused;
-    return Path{scene, sampler, stats}.along(ray, bounces, scene.settings.diffuse_bounces, first ? first : &unused);
+    return Path{scene, sampler, stats}.along(ray, cone, bounces, scene.settings.diffuse_bounces,
+                                             first ? first : &unused);
 }
 
 } // namespace bake

@@ -31,6 +31,7 @@ struct Radiance {
 /// What a primary ray hits.
 struct FirstHit {
     Hit hit;
+    RayCone cone;      ///< around the primary ray
     float depth = 0;   ///< distance from the origin of the ray
     Vec3f position{0}; ///< in the scene's own coordinates
     Vec3f facet{0}, normal{0}, albedo{0};
@@ -44,8 +45,8 @@ struct FirstHit {
 ///   emission + ambient A + sum over visible lights (see evaluate()) + light of the sky + reflect * radiance of the mirror ray.
 /// Surfaces are two-sided: seen from behind, normals are flipped towards the viewer. What happens to normals that relief
 /// tilts away, settings.terminator says; mirror rays stay above the facet (mirror_above()). Adds to `stats`; describes
-/// the hit in `first` when given.
+/// the hit in `first` when given. `cone` is what the ray stands for: textures are filtered over it.
 Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
-                  FirstHit* first = nullptr) noexcept;
+                  FirstHit* first = nullptr, const RayCone& cone = {}) noexcept;
 
 } // namespace bake

@@ -5,11 +5,9 @@
 namespace bake {
 namespace {
 
-constexpr int most_hits = 32;    ///< along one probe
+constexpr int most_hits = 32;    ///< along one probe, of any mesh
 constexpr float reach = 26.8f;   ///< in units of d: 1e-4 of the light goes farther
 constexpr float nearest = 1e-6f; ///< in units of d: the profile is taken as constant below
-
-float mean(const Vec3f& c) noexcept { return (c.x + c.y + c.z) / 3; }
 
 /// Profiles of the channels that spread.
 struct Profiles {
@@ -26,22 +24,6 @@ struct Profiles {
         float sum = 0;
         for (int i = 0; i < count; ++i) sum += diffusion_profile(d[i], std::max(r, nearest * d[i]));
         return sum / float(count);
-    }
-};
-
-/// Points found so far, of which one is kept, in proportion to its weight.
-struct Reservoir {
-    LightEntry kept;
-    float total = 0, u = 0; ///< u: evenly distributed in [0, 1)
-
-    void add(const Hit& hit, const Vec3f& factor) noexcept {
-        const float weight = mean(factor);
-        if (!(weight > 0) || !std::isfinite(weight)) return;
-        total += weight;
-        const float share = weight / total;
-        if (u < share) kept = {hit, factor / weight}, u /= share;
-        else u = (u - share) / (1 - share);
-        u = std::min(u, 1 - 0x1p-24f);
     }
 };
 
@@ -70,7 +52,7 @@ struct Probes {
         return out;
     }
 
-    void cast(int axis, float channel, const Vec2f& u, Reservoir& found, std::int64_t& rays) const noexcept {
+    void cast(int axis, float channel, const Vec2f& u, LightEntries& found, std::int64_t& rays) const noexcept {
         const int c = std::min(int(channel * float(profiles.count)), profiles.count - 1);
         const float r = sample_diffusion(profiles.d[c], u.x), turn = 2 * float(pi) * u.y;
         if (!(r < radius)) return;
@@ -79,12 +61,16 @@ struct Probes {
         Ray ray{s.at.p + r * (std::cos(turn) * x + std::sin(turn) * y) + half * axes[std::size_t(axis)],
                 -axes[std::size_t(axis)], 0, 2 * half};
         std::uint32_t before = Hit::none;
+        const int most = found.count + LightEntries::most_per_probe;
         for (int i = 0; i < most_hits; ++i) {
             ++rays;
             const Hit hit = scene.bvh->intersect(ray);
             if (!hit) return;
             const HitPoint at = scene.bvh->point(hit);
-            if (hit.mesh == mesh && hit.triangle != before) found.add(hit, factor(at));
+            const bool on_body = hit.mesh == mesh && hit.triangle != before;
+            const Vec3f share = on_body && found.count < most ? factor(at) : Vec3f(0);
+            if (share != Vec3f(0) && std::isfinite(share.x + share.y + share.z))
+                found.entry[std::size_t(found.count++)] = {hit, share};
             before = hit.mesh == mesh ? hit.triangle : Hit::none;
             ray.t_min = std::max(std::nextafter(hit.t, ray.t_max), hit.t + at.offset);
             if (!(ray.t_min < ray.t_max)) return;
@@ -94,22 +80,23 @@ struct Probes {
 
 } // namespace
 
-LightEntry draw_light_entry(const Scene& scene, const Surfel& s, const Hit& at, Sampler& sampler,
-                            std::int64_t& rays) noexcept {
+LightEntries draw_light_entries(const Scene& scene, const Surfel& s, const Hit& at, Sampler& sampler,
+                                std::int64_t& rays) noexcept {
     const Frame frame(s.surface);
     const Profiles profiles(s.bsdf.spread);
     const Probes probes{scene, s, at.mesh, profiles, {frame.x, frame.y, frame.z}, reach * profiles.largest()};
-    if (!(probes.radius > 64 * s.at.offset)) return {at, s.bsdf.translucent};
-    const Vec2f choice = sampler.next2();
-    Reservoir found;
-    found.u = choice.y;
+    LightEntries found;
+    if (!(probes.radius > 64 * s.at.offset)) {
+        found.entry[0] = {at, s.bsdf.translucent}, found.count = 1;
+        return found;
+    }
+    const float choice = sampler.next();
     for (int axis = 0; axis < 3; ++axis) {
         // The axes draw different channels, so that three of them have one draw each.
-        const float channel = choice.x + float(axis) / 3;
+        const float channel = choice + float(axis) / 3;
         probes.cast(axis, channel - std::floor(channel), sampler.next2(), found, rays);
     }
-    found.kept.factor *= found.total;
-    return found.kept;
+    return found;
 }
 
 Surfel entry_surfel(const Scene& scene, const LightEntry& entry, const Surfel& s) noexcept {

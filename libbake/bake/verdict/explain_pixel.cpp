@@ -10,7 +10,12 @@ namespace bake {
 namespace {
 
 std::vector<double> list(const Vec3d& v) { return {v.x, v.y, v.z}; }
-std::vector<double> list(const Vec3f& v) { return list(Vec3d(v)); }
+std::vector<double> list(const Vec3f& v) {
+    // One by one: of a vector that is rounded to float and back, gcc 12 leaves out the rounding at -O3.
+    std::vector<double> values;
+    for (int c = 0; c < 3; ++c) values.push_back(double(v[c]));
+    return values;
+}
 
 /// What one light adds, over all samples of the pixel.
 struct LightSum {
@@ -26,11 +31,11 @@ struct PixelShading {
     Ray ray;                                             ///< of that sample
     FirstHit first;                                      ///< of that sample
     Vec3d total{0}, emitted{0}, behind{0}, reflected{0}; ///< sums
-    std::vector<LightSum> lights;                        ///< the scene's, the sky, the sky by the surface
+    std::vector<LightSum> lights;                        ///< the scene's, and LightTerm::others
 };
 
 std::size_t place_of(const Scene& scene, int light) {
-    return light >= 0 ? std::size_t(light) : scene.lights.size() + (light == LightTerm::sky ? 0 : 1);
+    return light >= 0 ? std::size_t(light) : scene.lights.size() + std::size_t(-1 - light);
 }
 
 PixelShading shade(const Scene& scene, int x, int y) {
@@ -38,7 +43,7 @@ PixelShading shade(const Scene& scene, int x, int y) {
     const CameraFrame frame = camera_frame(scene.camera);
     PixelShading pixel;
     pixel.samples = std::max(1, settings.spp);
-    pixel.lights.resize(scene.lights.size() + 2);
+    pixel.lights.resize(scene.lights.size() + LightTerm::others);
     std::vector<LightTerm> terms;
     terms.reserve(pixel.lights.size());
     RenderStats stats;
@@ -150,6 +155,10 @@ RouteStep material_step(const Surfel& s) {
     }
     step.entries.push_back({"ambient", list(s.bsdf.ambient), "factor on ambient light"});
     step.entries.push_back({"emission", list(s.bsdf.emission), ""});
+    if (s.bsdf.translucent != Vec3f(0))
+        step.entries.push_back({"translucent", list(s.bsdf.translucent), "reflectance of the light from inside"});
+    if (s.occlusion != 1)
+        step.entries.push_back({"occlusion", {double(s.occlusion)}, "factor on the sky's diffuse light"});
     step.entries.push_back({"reflect", list(s.reflect), "factor on the mirror ray"});
     return step;
 }
@@ -189,12 +198,21 @@ RouteStep light_step(const Scene& scene, const Surfel& s, const PixelShading& pi
         if (pixel.lights[i].met == 0) continue;
         add_light(step, s, pixel.lights[i], format("%s %zu", name(scene.lights[i].kind), i + 1), share);
     }
-    const LightSum &bright = pixel.lights[scene.lights.size()], &drawn = pixel.lights[scene.lights.size() + 1];
-    if (bright.met + drawn.met == 0) return step;
-    const Vec3d diffuse = bright.diffuse + drawn.diffuse, specular = bright.specular + drawn.specular;
-    step.entries.push_back(
-        {"sky: diffuse", list(diffuse * share), format("sees it by %d of %d rays", bright.lit, bright.met)});
-    step.entries.push_back({"sky: specular", list(specular * share), "glossy reflections of meshes included"});
+    const auto of = [&](int light) -> const LightSum& { return pixel.lights[place_of(scene, light)]; };
+    const LightSum &bright = of(LightTerm::sky), &drawn = of(LightTerm::sky_by_surface);
+    const LightSum &filtered = of(LightTerm::filtered_sky), &inside = of(LightTerm::from_inside);
+    if (bright.met + drawn.met > 0) {
+        const Vec3d diffuse = bright.diffuse + drawn.diffuse, specular = bright.specular + drawn.specular;
+        step.entries.push_back(
+            {"sky: diffuse", list(diffuse * share), format("%d of %d rays see it", bright.lit, bright.met)});
+        step.entries.push_back({"sky: specular", list(specular * share), "glossy reflections of meshes included"});
+    }
+    if (filtered.met > 0) {
+        step.entries.push_back({"filtered sky: diffuse", list(filtered.diffuse * share), "without shadows"});
+        step.entries.push_back({"filtered sky: specular", list(filtered.specular * share), "without shadows"});
+    }
+    if (inside.met > 0)
+        step.entries.push_back({"from inside: diffuse", list(inside.diffuse * share), "enters elsewhere"});
     return step;
 }
 
@@ -234,7 +252,7 @@ std::vector<RouteStep> explain_pixel(const Scene& scene, int x, int y, float exp
     const PixelShading pixel = shade(scene, x, y);
     std::vector<RouteStep> route = {camera_step(scene, x, y, pixel), hit_step(scene, pixel)};
     if (pixel.first.hit) {
-        const Surfel s = make_surfel(scene, pixel.first.hit, pixel.ray.direction);
+        const Surfel s = make_surfel(scene, pixel.first.hit, pixel.ray.direction, pixel.first.cone);
         route.push_back(normal_step(s));
         route.push_back(material_step(s));
         route.push_back(light_step(scene, s, pixel));

@@ -87,8 +87,8 @@ std::vector<std::string> note_doubts(const CommonArgs& common, const HeightInput
 }
 
 HeightOptions height_options(const HeightInput& input, const ImageInfo& file, const Whole& whole) {
-    const Length by_default = is_float(file) ? Length{1, false} : Length{0.01, true};
-    return {.amplitude = input.amplitude.value_or(by_default).in_units(whole.length),
+    return {.amplitude =
+                input.amplitude ? input.amplitude->in_units(whole.length) : default_amplitude(file, whole.length),
             .midlevel = input.midlevel.value_or(default_midlevel(file)),
             .wrap_u = input.wrap_u(),
             .wrap_v = input.wrap_v()};

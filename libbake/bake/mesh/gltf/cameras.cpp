@@ -3,11 +3,17 @@
 #include "bake/mesh/gltf/document.h"
 #include "bake/mesh/gltf/node_tree.h"
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace bake {
 namespace {
 
 using nlohmann::json;
+
+/// The member of an object, or null if there is none.
+json member(const json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : json();
+}
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
     throw Error(Refusal::unreadable, path + ": " + why + "; export the file again");
@@ -40,25 +46,24 @@ std::vector<GltfCamera> read_gltf_cameras(const std::string& path) {
     const GltfDocument document = read_gltf_document(path);
     std::vector<GltfCamera> out;
     try {
-        const json root = json::parse(document.json);
-        const json nodes = member(root, "nodes"), cameras = json::parse(document.cameras);
-        const std::vector<GltfSourceNode> tree = node_tree(nodes);
-        const std::vector<Transform> world = place_nodes(tree, all_roots(tree), path).world;
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            const json index = member(nodes[i], "camera");
-            if (!index.is_number_integer()) continue;
-            if (!cameras.is_array() || !(index >= 0 && index < cameras.size()))
+        const json cameras = json::parse(document.cameras);
+        const GltfNodeTree tree = read_node_tree(document.json, path);
+        const std::vector<Transform> world = place_nodes(tree.nodes, tree.roots, path).world;
+        for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+            if (!tree.camera[i]) continue;
+            const std::int64_t index = *tree.camera[i];
+            if (!cameras.is_array() || !(index >= 0 && std::size_t(index) < cameras.size()))
                 refuse(path, "its node " + std::to_string(i) + " names a camera that does not exist");
-            const json& camera = cameras[index.get<std::size_t>()];
+            const json& camera = cameras[std::size_t(index)];
             GltfCamera& to = out.emplace_back();
-            for (const json* named : {&nodes[i], &camera})
-                if (const json name = member(*named, "name"); to.name.empty() && name.is_string()) to.name = name;
+            to.name = tree.nodes[i].name;
+            if (const json name = member(camera, "name"); to.name.empty() && name.is_string()) to.name = name;
             if (to.name.empty()) to.name = "camera_" + std::to_string(i);
             read_view(camera, to, path);
             place(world[i], to, path);
         }
     } catch (const json::exception&) {
-        refuse(path, "has nodes or cameras that are not as glTF 2.0 asks");
+        refuse(path, "has cameras that are not as glTF 2.0 asks");
     }
     return out;
 }

@@ -341,6 +341,7 @@ GltfDocument read_gltf_document(const std::string& path) {
     };
     each("buffers", [&](const json& object, std::size_t i) { read_buffer(object, i, chunks, path, out); });
     each("images", [&](const json& object, std::size_t i) { read_image(object, i, path, out); });
+    for_elements(parsed, "materials", [&](const json&) { out.has_materials = true; });
     if (const auto cameras = parsed.find("cameras"); cameras != parsed.end()) out.cameras = cameras->dump();
     if (const json::json_pointer lights("/extensions/KHR_lights_punctual/lights"); parsed.contains(lights))
         out.lights = parsed[lights].dump();

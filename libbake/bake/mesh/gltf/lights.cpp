@@ -1,15 +1,19 @@
 #include "bake/mesh/gltf/lights.h"
-#include "bake/base/error.h"
-#include "bake/base/text_line.h"
 #include "bake/mesh/gltf/document.h"
 #include "bake/mesh/gltf/node_tree.h"
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace bake {
 namespace {
 
 using nlohmann::json;
+
+/// The member of an object, or null if there is none.
+json member(const json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : json();
+}
 
 constexpr double largest = 1e15; // squares are in the range of float
 
@@ -68,26 +72,20 @@ bool place(const Transform& world, GltfLight& to) {
 std::vector<GltfLight> read_gltf_lights(const std::string& path, std::vector<std::string>& notes) {
     const GltfDocument document = read_gltf_document(path);
     std::vector<GltfLight> out;
-    try {
-        const json lights = json::parse(document.lights);
-        if (!lights.is_array() || lights.empty()) return out;
-        const json root = json::parse(document.json), nodes = member(root, "nodes");
-        std::vector<GltfSourceNode> tree = node_tree(nodes);
-        for (std::size_t i = 0; i < tree.size(); ++i) {
-            const json index = member(member(member(nodes[i], "extensions"), "KHR_lights_punctual"), "light");
-            if (!index.is_number_integer()) continue;
-            if (index >= 0 && index < lights.size()) tree[i].mesh = index.get<int>(); // place_nodes() places meshes
-            else notes.push_back("node " + std::to_string(i) + " names a light that does not exist: left out");
-        }
-        for (const GltfPlacement& at : place_nodes(tree, shown_roots(root, tree), path).placed) {
-            GltfLight light;
-            const std::size_t index = std::size_t(tree[at.node].mesh);
-            if (read_light(lights[index], light) && place(at.to_world, light)) out.push_back(light);
-            else notes.push_back("light " + std::to_string(index) + " is not as KHR_lights_punctual asks: left out");
-        }
-    } catch (const json::exception&) {
-        throw Error(Refusal::unreadable,
-                    path + ": has nodes or lights that are not as glTF 2.0 asks; export the file again");
+    const json lights = json::parse(document.lights); // dumped by read_gltf_document()
+    if (!lights.is_array() || lights.empty()) return out;
+    GltfNodeTree tree = read_node_tree(document.json, path);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        if (!tree.light[i]) continue;
+        const std::int64_t index = *tree.light[i];
+        if (index >= 0 && std::size_t(index) < lights.size()) tree.nodes[i].mesh = int(index); // meshes are placed
+        else notes.push_back("node " + std::to_string(i) + " names a light that does not exist: left out");
+    }
+    for (const GltfPlacement& at : place_nodes(tree.nodes, tree.shown, path).placed) {
+        GltfLight light;
+        const auto index = std::size_t(tree.nodes[at.node].mesh);
+        if (read_light(lights[index], light) && place(at.to_world, light)) out.push_back(light);
+        else notes.push_back("light " + std::to_string(index) + " is not as KHR_lights_punctual asks: left out");
     }
     return out;
 }

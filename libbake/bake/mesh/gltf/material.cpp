@@ -1,7 +1,6 @@
 #include "bake/mesh/gltf/material.h"
 #include "bake/base/error.h"
 #include "bake/mesh/gltf/document.h"
-#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
 namespace bake {
@@ -120,11 +119,6 @@ std::vector<GltfMaterial> gltf_materials(const tinygltf::Model& model, std::size
     return out;
 }
 
-bool has_gltf_materials(const std::string& path) {
-    const GltfDocument document = read_gltf_document(path);
-    if (document.json.find("\"materials\"") == std::string::npos) return false;
-    const nlohmann::json root = nlohmann::json::parse(document.json); // dumped by read_gltf_document()
-    return root.contains("materials") && root["materials"].is_array() && !root["materials"].empty();
-}
+bool has_gltf_materials(const std::string& path) { return read_gltf_document(path).has_materials; }
 
 } // namespace bake

@@ -1,19 +1,19 @@
-// The nodes of a glTF file, read from its JSON for what the meshes do not need: cameras and lights.
+// The nodes of a glTF file, read for cameras and lights alone.
 #pragma once
 #include "bake/mesh/gltf/nodes.h"
-#include <nlohmann/json.hpp>
+#include <cstdint>
 
 namespace bake {
 
-/// The member of an object, or null if there is none.
-nlohmann::json member(const nlohmann::json& object, const char* key);
+struct GltfNodeTree {
+    std::vector<GltfSourceNode> nodes; ///< names, children, transforms and visibility, without meshes and skins
+    std::vector<std::optional<std::int64_t>> camera,
+        light;              ///< of each node: the number that it names, which may not exist
+    std::vector<int> roots; ///< the nodes that are not children
+    std::vector<int> shown; ///< the roots of the default scene, or `roots` if the file has no scene
+};
 
-/// Children, transforms and visibility of the nodes, without meshes and skins. Throws json::exception for values that are no
-/// numbers.
-std::vector<GltfSourceNode> node_tree(const nlohmann::json& nodes);
-/// The nodes that are not children.
-std::vector<int> all_roots(const std::vector<GltfSourceNode>& nodes);
-/// The roots of the default scene; all_roots() if the file has no scene.
-std::vector<int> shown_roots(const nlohmann::json& root, const std::vector<GltfSourceNode>& nodes);
+/// From the JSON of a GltfDocument. Throws Error{Refusal::unreadable} for nodes and scenes that are not as glTF asks.
+GltfNodeTree read_node_tree(const std::string& json, const std::string& path);
 
 } // namespace bake

@@ -19,6 +19,8 @@ bool is_signed_integer(const ImageInfo& info) noexcept {
 
 double default_midlevel(const ImageInfo& info) noexcept { return is_float(info) || is_signed_integer(info) ? 0 : 0.5; }
 
+double default_amplitude(const ImageInfo& info, double whole) noexcept { return is_float(info) ? 1 : 0.01 * whole; }
+
 bool is_cut(const ImageInfo& info) noexcept {
     const int read = bits_as_read(info.type);
     return read > 0 && info.bits > read;

@@ -13,6 +13,10 @@ bool is_signed_integer(const ImageInfo& info) noexcept;
 /// and 0.5 for unsigned integers.
 double default_midlevel(const ImageInfo& info) noexcept;
 
+/// Height of white above black unless the user gives one: the values of floats are lengths, the range of integers is 1 % of
+/// `whole`, the size of what the height is on.
+double default_amplitude(const ImageInfo& info, double whole) noexcept;
+
 /// The reader of the format gives fewer bits than the file has, as that of 16-bit DDS does.
 bool is_cut(const ImageInfo& info) noexcept;
 /// The format's compression changes values.

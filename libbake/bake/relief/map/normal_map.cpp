@@ -103,11 +103,10 @@ Image<float> normal_map(const HeightField& field, const Vec2d& extent, const Nor
     return map;
 }
 
-Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
-                        NormalMapReport& report, Progress* progress) {
+Image<float> bake_texels(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                         Image<unsigned char>& owned, NormalMapReport& report, Progress* progress) {
     const int width = field.width(), height = field.height();
     Image<float> map(width, height, 3);
-    Image<unsigned char> owned(width, height, 1);
     std::atomic<std::int64_t> degenerate{0}, folded{0};
     for_rows(
         height, 16,
@@ -135,10 +134,22 @@ Image<float> normal_map(const HeightField& field, const BakeTarget& target, cons
             }
     report.degenerate = degenerate;
     report.folded = folded;
-    const std::int64_t texels = std::int64_t(width) * height;
-    const bool full = report.covered + report.border - report.degenerate == texels;
-    report.padded = full ? 0 : pad_texels(map, owned, options.padding);
-    report.empty = texels - report.covered - report.border + report.degenerate - report.padded;
+    return map;
+}
+
+void pad_rest(Image<float>& map, const Image<unsigned char>& owned, int padding, NormalMapReport& report) {
+    const std::int64_t texels = std::int64_t(map.width()) * map.height();
+    const auto own =
+        std::int64_t(std::count_if(owned.data(), owned.data() + owned.size(), [](unsigned char o) { return o != 0; }));
+    report.padded = own == texels ? 0 : pad_texels(map, owned, padding);
+    report.empty = texels - own - report.padded;
+}
+
+Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                        NormalMapReport& report, Progress* progress) {
+    Image<unsigned char> owned(field.width(), field.height(), 1);
+    Image<float> map = bake_texels(field, target, options, owned, report, progress);
+    pad_rest(map, owned, options.padding, report);
     return map;
 }
 

@@ -19,6 +19,7 @@ struct NormalMapReport {
     std::int64_t padded = 0;     ///< empty texels filled from the nearest chart
     std::int64_t empty = 0;      ///< texels left at the flat normal
     std::int64_t degenerate = 0; ///< texels without a normal of their own (pole, chart without area): flat
+    std::int64_t uncovered = 0;  ///< residual_map(): texels of the base that the displaced mesh does not cover
     std::int64_t folded = 0; ///< texels where the displaced surface is inside out (folds()): blinn replaces exact there
 };
 
@@ -53,5 +54,11 @@ Image<float> normal_map(const HeightField& field, const Vec2d& extent, const Nor
 /// The normal map of a height on a mesh: three channels, encoded.
 Image<float> normal_map(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
                         NormalMapReport& report, Progress* progress = nullptr);
+
+/// The two steps of that function. First the texels: `owned` says which have a normal of their own; the others are flat.
+Image<float> bake_texels(const HeightField& field, const BakeTarget& target, const NormalMapOptions& options,
+                         Image<unsigned char>& owned, NormalMapReport& report, Progress* progress = nullptr);
+/// Then the texels around those that have one.
+void pad_rest(Image<float>& map, const Image<unsigned char>& owned, int padding, NormalMapReport& report);
 
 } // namespace bake

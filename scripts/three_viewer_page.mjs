@@ -1,0 +1,122 @@
+// The page of scripts/three_viewer: loads a glTF file and a sky of six faces as any application of three.js would, and
+// reads back floats.
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+
+const renderer = new THREE.WebGLRenderer();
+renderer.toneMapping = THREE.NoToneMapping;
+if (!renderer.extensions.has('EXT_color_buffer_float')) throw new Error('this browser does not render to floats');
+const url = file => '/job/' + file.split('/').map(encodeURIComponent).join('/');
+
+/// EXRLoader gives the lowest row first; a face of a cube map has its upper row first.
+function upside_down({ image, type }) {
+  const { data, width, height } = image;
+  const row = data.length / height;
+  const turned = new data.constructor(data.length);
+  for (let y = 0; y < height; ++y) turned.set(data.subarray(y * row, (y + 1) * row), (height - 1 - y) * row);
+  return new THREE.DataTexture(turned, width, height, THREE.RGBAFormat, type);
+}
+
+async function load_sky(files) {
+  if (!files) return null;
+  if (!files[0].endsWith('.exr')) return new THREE.CubeTextureLoader().loadAsync(files.map(url));
+  const faces = await Promise.all(files.map(file => new EXRLoader().loadAsync(url(file))));
+  const cube = new THREE.CubeTexture(faces.map(upside_down));
+  cube.type = faces[0].type;
+  cube.colorSpace = THREE.LinearSRGBColorSpace;
+  cube.minFilter = cube.magFilter = THREE.LinearFilter;
+  cube.generateMipmaps = false;
+  cube.needsUpdate = true;
+  return cube;
+}
+
+function camera_of({ position, target, up = [0, 1, 0], fov_deg = 40 }, [width, height], scene) {
+  const box = new THREE.Box3().setFromObject(scene);
+  const ball = box.getBoundingSphere(new THREE.Sphere());
+  const away = ball.center.distanceTo(new THREE.Vector3(...position));
+  const near = Math.max(away - ball.radius, ball.radius / 1000);
+  const camera = new THREE.PerspectiveCamera(fov_deg, width / height, near * 0.99, (away + ball.radius) * 1.01);
+  camera.position.set(...position);
+  camera.up.set(...up);
+  camera.lookAt(...target);
+  return camera;
+}
+
+/// The normal with which the material is shaded, in world space, instead of radiance.
+function show_normals(material) {
+  material.onBeforeCompile = shader => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <opaque_fragment>',
+      'gl_FragColor = vec4( normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz ), 1.0 );');
+  };
+  material.customProgramCacheKey = () => 'normals';
+  material.blending = THREE.NoBlending;
+}
+
+function change(material, { color, metalness, roughness }) {
+  if (color !== undefined) material.color.setRGB(...color, THREE.LinearSRGBColorSpace);
+  if (metalness !== undefined) material.metalness = metalness;
+  if (roughness !== undefined) material.roughness = roughness;
+}
+
+/// RGBA floats of size x size samples per pixel, averaged; rows from the top down.
+function render(scene, camera, [width, height], samples) {
+  const wide = width * samples, high = height * samples;
+  const target = new THREE.WebGLRenderTarget(wide, high, { type: THREE.FloatType });
+  renderer.setRenderTarget(target);
+  renderer.setClearColor(0x000000, 0);
+  renderer.clear();
+  renderer.render(scene, camera);
+  const fine = new Float32Array(wide * high * 4);
+  renderer.readRenderTargetPixels(target, 0, 0, wide, high, fine);
+  renderer.setRenderTarget(null);
+  target.dispose();
+  const out = new Float32Array(width * height * 4);
+  for (let y = 0; y < high; ++y)
+    for (let x = 0; x < wide; ++x) {
+      const from = ((high - 1 - y) * wide + x) * 4; // OpenGL's rows begin at the bottom
+      const to = (Math.floor(y / samples) * width + Math.floor(x / samples)) * 4;
+      for (let c = 0; c < 4; ++c) out[to + c] += fine[from + c] / (samples * samples);
+    }
+  return out;
+}
+
+async function png(values, [width, height], exposure) {
+  const srgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
+  const levels = new Uint8ClampedArray(values.length);
+  for (let i = 0; i < values.length; ++i)
+    levels[i] = i % 4 === 3 ? 255 : Math.round(255 * srgb(Math.min(Math.max(values[i] * 2 ** exposure, 0), 1)));
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext('2d').putImageData(new ImageData(levels, width, height), 0, 0);
+  return new Uint8Array(await (await canvas.convertToBlob({ type: 'image/png' })).arrayBuffer());
+}
+
+function base64(bytes) {
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  return btoa(text);
+}
+
+let sky, sky_files; // one sky serves all outputs of a job
+
+/// One output of the job, its file as base64.
+window.show = async (job, output) => {
+  if (JSON.stringify(job.sky) !== sky_files) {
+    sky_files = JSON.stringify(job.sky);
+    sky = await load_sky(job.sky);
+  }
+  const scene = new THREE.Scene();
+  scene.add((await new GLTFLoader().loadAsync(url(job.model))).scene);
+  scene.environment = sky;
+  if (output.background) scene.background = sky;
+  scene.updateMatrixWorld(true);
+  scene.traverse(object => {
+    for (const material of [object.material ?? []].flat()) {
+      if (output.what === 'normals') show_normals(material);
+      change(material, output.material ?? {});
+    }
+  });
+  const values = render(scene, camera_of(job.camera, job.size, scene), job.size, output.samples ?? 1);
+  const bytes = output.file.endsWith('.png') ? await png(values, job.size, output.exposure ?? 0) : new Uint8Array(values.buffer);
+  return base64(bytes);
+};
