@@ -8,9 +8,9 @@
 //    "size": [512, 512],
 //    "outputs": [
 //      {"what": "normals", "file": "n.f32"},         world-space shading normals
-//      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true,   samples^2 per pixel; with the sky behind
-//       "material": {"color": [0.8, 0.8, 0.8], "metalness": 1, "roughness": 0.5}},           replaces these values of all materials
-//      {"what": "radiance", "file": "r.png", "exposure": -1}]}                   in stops; sRGB-encoded
+//      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true},   samples^2 per pixel; with the sky behind
+//      {"what": "radiance", "file": "r.png", "exposure": -1,   in stops, sRGB-encoded
+//       "model": "other.glb", "camera": {...}}]}   instead of those of the job
 //
 // .f32: R, G, B, A as 32-bit floats, low byte first, rows from the top down; A is the share of samples on the model, or 1
 // with a background. No tone mapping, no shadows, no lights but the sky.
