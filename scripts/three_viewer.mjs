@@ -22,7 +22,13 @@ import { fileURLToPath } from 'node:url';
 const packages = process.env.NODE_PATH;
 const { chromium } = createRequire(join(packages, 'of_this_folder.js'))('playwright-core');
 const job_file = resolve(process.argv[2] ?? '');
-const job = JSON.parse(readFileSync(job_file, 'utf8'));
+let job;
+try {
+  job = JSON.parse(readFileSync(job_file, 'utf8'));
+} catch (fault) {
+  console.error(`three_viewer: ${job_file}: ${fault.message}`);
+  process.exit(2);
+}
 
 // The page reads all its files through this function: there is no server and no network.
 const origin = 'http://viewer.invalid';
