@@ -82,7 +82,7 @@ struct Measured {
 Measured render_by(const Scene& scene, Method method, int spp, std::uint32_t seed) {
     const int n = scene.settings.width;
     Measured out{std::vector<Vec3f>(std::size_t(n) * n)};
-    const CameraFrame frame = camera_frame(scene.camera);
+    const CameraFrame frame = camera_frame(scene);
     out.seconds = bench::seconds([&] {
         for_rows(n, 1, [&](std::int64_t begin, std::int64_t end) {
             for (int y = int(begin); y < int(end); ++y)
@@ -164,7 +164,7 @@ void measure_levels(const std::string& file, const std::string& sky, const char*
     const std::vector<Vec3f> sampled = render_by(scene, Method::mis, spp, 5).picture;
     complete(levels, scene.sky.cube);
     std::vector<Vec3f> filtered, right;
-    const CameraFrame frame = camera_frame(scene.camera);
+    const CameraFrame frame = camera_frame(scene);
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, size, size);

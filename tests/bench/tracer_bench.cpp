@@ -81,7 +81,7 @@ Cube gradient_sky() {
 /// An Embree scene of its own, with the triangles of one mesh.
 class Bare {
 public:
-    explicit Bare(const Scene& scene) : frame_(camera_frame(scene.camera)) {
+    explicit Bare(const Scene& scene) : frame_(camera_frame(scene)) {
         const Shape& shape = *scene.shapes[0];
         positions_.assign(shape.mesh.positions.begin(), shape.mesh.positions.end());
         positions_.emplace_back(0); // Embree loads 16 bytes at a time

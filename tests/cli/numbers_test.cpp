@@ -48,9 +48,9 @@ std::vector<std::string> not_numbers(const std::string& type) {
         values.insert(values.end(), {"nan", ""});
     };
     if (is_one_of(type, {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME",
-                         "KEY", "NAME[:KEY"}))
+                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]"}))
         return {};
-    if (is_one_of(type, {"W,H", "U,V"})) fill("1,", "");
+    if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
     else if (type == "X,Y,W,H") fill("0,0,4,", "");
     else if (type == "A,B,...") {

@@ -123,7 +123,11 @@ TEST_SUITE("cli") {
         test::check_refused(folder, {"displace", "second.glb", "--height", bricks, "--uv-set", "3", "-o", "d.ply"}, 4,
                             "set 3");
 
-        test::write_file(folder / "s.toml", "mesh = [{file = \"second.glb\", uv-set = 3}]\n");
+        test::write_file(folder / "s.toml", "material = [{name = \"m\"}]\n"
+                                            "mesh = [{file = \"second.glb\", material = \"m\", uv-set = 3}]\n");
         test::check_refused(folder, {"render", "s.toml", "-o", "s.png", "--size", "8"}, 4, "set 3");
+        test::write_file(folder / "own.toml", "mesh = [{file = \"second.glb\", uv-set = 3}]\n");
+        CHECK(says(test::run_bake(folder, {"render", "own.toml", "-o", "s.png", "--size", "8"}).err,
+                   "its own materials name their sets of uvs"));
     }
 } // cli

@@ -166,7 +166,7 @@ Scene any_scene(std::uint32_t seed) {
     RenderSettings& s = scene.settings;
     s.width = 1 + dice.below(4), s.height = 1 + dice.below(4), s.spp = 1 + dice.below(2);
     s.bounces = dice.below(4), s.diffuse_bounces = dice.below(3), s.shadows = !dice.one_in(8);
-    s.sky_light = dice.one_in(10) ? SkyLighting::irradiance : SkyLighting(dice.below(2)),
+    s.sky_light = dice.one_in(200) ? SkyLighting::irradiance : SkyLighting(dice.below(2)),
     s.terminator = Terminator(dice.below(5)), s.seed = seed;
     return scene;
 }

@@ -13,7 +13,8 @@ std::function<std::string()> progress_text(const Passes& passes, const SamplingA
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         const double spp = double(passes.samples_done()) / double(passes.pixel_count());
         const double rate = seconds > 0 ? double(passes.rays_done()) / seconds : 0;
-        std::string line = format("%.4g of at most %d spp, %.2f M rays/s", spp, passes.spp(), rate * 1e-6);
+        std::string line = format("%.4g of %s%d spp, %.2f M rays/s", spp,
+                                  args.noise || args.time_limit ? "at most " : "", passes.spp(), rate * 1e-6);
         double share = args.noise ? 0 : spp / passes.spp();
         double left = share > 0 ? seconds / share - seconds : -1;
         if (args.time_limit) {

@@ -130,11 +130,16 @@ BsdfTerm term(const Bsdf& bsdf, const BsdfView& view, const Vec3f& l) noexcept {
     return out;
 }
 
+Vec3f sample_cosine(const Vec2f& u) noexcept {
+    const float sine = std::sqrt(u.x), turn = 2 * float(pi) * u.y;
+    return {sine * std::cos(turn), sine * std::sin(turn), std::sqrt(1 - u.x)};
+}
+
 Vec3f sample_direction(const Lobe& lobe, const SeenLobe& seen, bool multiple, const BsdfView& view,
                        const Vec2f& u) noexcept {
     const Frame frame(view.n);
     if (multiple) return frame.world(sample_ggx_loss(seen.row.alpha, u));
-    if (lobe.kind == LobeKind::lambert) return frame.world(sample_cosine_power(1, u));
+    if (lobe.kind == LobeKind::lambert) return frame.world(sample_cosine(u));
     if (lobe.kind == LobeKind::ggx) {
         Vec3f v = frame.local(view.raised);
         v.z = std::max(v.z, least_n_v);
@@ -165,13 +170,30 @@ BsdfSample sample_dielectric(const Lobe& lobe, const BsdfView& view, float proba
 
 } // namespace
 
+namespace {
+
+/// The commonest material, for which a view of all lobes takes longer than the rest.
+bool is_lambert(const Bsdf& bsdf) noexcept {
+    return bsdf.count == 1 && bsdf.lobes[0].kind == LobeKind::lambert && !bsdf.lobes[0].covered;
+}
+BsdfTerm lambert(const Bsdf& bsdf, float n_l) noexcept {
+    const float cosine = n_l * one_over_pi;
+    return {{bsdf.lobes[0].weight * cosine, Vec3f(0)}, mean(bsdf.lobes[0].weight) > 0 ? cosine : 0};
+}
+
+} // namespace
+
 BsdfValue evaluate(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
-    if (!(glm::dot(n, l) > 0)) return {};
+    const float n_l = glm::dot(n, l);
+    if (!(n_l > 0)) return {};
+    if (is_lambert(bsdf)) return lambert(bsdf, n_l).value;
     return term(bsdf, view_of(bsdf, n, v), l).value;
 }
 
 BsdfTerm evaluate_with_pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
-    if (!(glm::dot(n, l) > 0)) return {};
+    const float n_l = glm::dot(n, l);
+    if (!(n_l > 0)) return {};
+    if (is_lambert(bsdf)) return lambert(bsdf, n_l);
     BsdfView view = view_of(bsdf, n, v);
     add_choices(bsdf, view);
     return term(bsdf, view, l);
@@ -182,6 +204,12 @@ float pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noex
 }
 
 BsdfSample sample(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v, float choice, const Vec2f& u) noexcept {
+    if (is_lambert(bsdf)) {
+        const Vec3f l = unit_or_zero(Frame(n).world(sample_cosine(u)));
+        const BsdfTerm all = lambert(bsdf, std::max(0.f, glm::dot(n, l)));
+        if (!(all.pdf > 1e-30f)) return {};
+        return {l, bsdf.lobes[0].weight, all.pdf, false, false, all.value};
+    }
     BsdfView view = view_of(bsdf, n, v);
     add_choices(bsdf, view);
     const auto [picked, multiple] = pick(view, choice);

@@ -13,10 +13,11 @@ float roughness_of(const Lobe& lobe, float exponent) noexcept {
     return std::min(1.f, std::sqrt(std::sqrt(2 / (blinn + 2))));
 }
 
-/// A wide lobe of ggx is brightest nearer to the normal than the mirror direction is.
+/// The mean direction of a lobe of ggx, which lies between the mirror direction and the normal. The share of the normal is a
+/// fit to integrals of the lobe at 45 degrees, within .05; at grazing angles it is up to .2 larger.
 Vec3f lobe_axis(const BsdfView& view, float roughness) noexcept {
-    const float alpha = roughness * roughness;
-    return unit_or_zero(glm::mix(mirrored(view.raised, view.n), view.n, alpha));
+    const float alpha = roughness * roughness, share = alpha * roughness * (1.5f - 0.5f * alpha);
+    return unit_or_zero(glm::mix(mirrored(view.raised, view.n), view.n, share));
 }
 
 } // namespace

@@ -58,8 +58,7 @@ void read_sky_levels(const Section& in, SkyEntry& sky) {
     if (specular && !is_face_pattern(sky.specular))
         refuse(in, *pattern, "\"specular\" has no %s, which stands for the face; give such as \"ggx_%s.exr\"");
     if (specular && !alphas)
-        refuse(in, *pattern,
-               "\"specular-roughness\" is missing; give the values of --roughness with which the file was made");
+        refuse(in, *pattern, "\"specular-roughness\" is missing; give the list of alphas with which the file was made");
     if (!alphas) return;
     if (!specular) refuse(in, *alphas, "\"specular-roughness\" is of \"specular\", which is missing; give its file");
     const toml::array* list = alphas->as_array();

@@ -103,7 +103,7 @@ Surfel entry_surfel(const Scene& scene, const LightEntry& entry, const Surfel& s
     const Instance& instance = scene.instances[entry.hit.mesh];
     const Vec3f outside =
         instance.normals * normal_at(*instance.shape, {entry.hit.triangle, entry.hit.b1, entry.hit.b2});
-    Surfel out = make_surfel(scene, entry.hit, s.inside ? outside : -outside);
+    Surfel out = make_surfel(scene, entry.hit, unit_or_zero(s.inside ? outside : -outside));
     out.bsdf = {};
     out.bsdf.count = 1;
     return out;

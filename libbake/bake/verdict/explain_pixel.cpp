@@ -40,7 +40,7 @@ std::size_t place_of(const Scene& scene, int light) {
 
 PixelShading shade(const Scene& scene, int x, int y) {
     const RenderSettings& settings = scene.settings;
-    const CameraFrame frame = camera_frame(scene.camera);
+    const CameraFrame frame = camera_frame(scene);
     PixelShading pixel;
     pixel.samples = std::max(1, settings.spp);
     pixel.lights.resize(scene.lights.size() + LightTerm::others);
@@ -79,7 +79,7 @@ RouteStep camera_step(const Scene& scene, int x, int y, const PixelShading& pixe
     step.entries.push_back({"picture", {double(scene.settings.width), double(scene.settings.height)}, "pixels"});
     step.entries.push_back(
         {"samples", {double(pixel.samples)}, format("the ray is that of number %d", pixel.shown + 1)});
-    step.entries.push_back({"origin", list(pixel.ray.origin), ""});
+    step.entries.push_back({"origin", list(pixel.ray.origin + scene.origin), ""});
     step.entries.push_back({"direction", list(pixel.ray.direction), "unit"});
     return step;
 }

@@ -84,8 +84,10 @@ TEST_SUITE("stability") {
     }
 
     TEST_CASE("read_gltf_lights: nodes that are no nodes are refused") {
-        for (const std::string nodes : {R"({"children":["a"]})", R"({"translation":[1e300,0,0]})",
-                                        R"({"children":[7]})", R"({"translation":["a",0,0]})"}) {
+        const std::vector<std::string> faults = {R"({"children":["a"]})", R"({"children":[7]})",
+                                                 R"({"translation":["a",0,0]})",
+                                                 node(0, R"(,"translation":[1e300,0,0])")};
+        for (const std::string& nodes : faults) {
             CAPTURE(nodes);
             bool refused = false;
             try {
