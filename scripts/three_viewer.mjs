@@ -8,9 +8,9 @@
 //    "size": [512, 512],
 //    "outputs": [
 //      {"what": "normals", "file": "n.f32"},         world-space shading normals
-//      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true,   samples^2 per pixel; with the sky behind
-//       "material": {"color": [0.8, 0.8, 0.8], "metalness": 1, "roughness": 0.5}},           replaces these values of all materials
-//      {"what": "radiance", "file": "r.png", "exposure": -1}]}                   in stops; sRGB-encoded
+//      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true},   samples^2 per pixel; with the sky behind
+//      {"what": "radiance", "file": "r.png", "exposure": -1,   in stops, sRGB-encoded
+//       "model": "other.glb", "camera": {...}}]}   instead of those of the job
 //
 // .f32: R, G, B, A as 32-bit floats, low byte first, rows from the top down; A is the share of samples on the model, or 1
 // with a background. No tone mapping, no shadows, no lights but the sky.
@@ -22,7 +22,13 @@ import { fileURLToPath } from 'node:url';
 const packages = process.env.NODE_PATH;
 const { chromium } = createRequire(join(packages, 'of_this_folder.js'))('playwright-core');
 const job_file = resolve(process.argv[2] ?? '');
-const job = JSON.parse(readFileSync(job_file, 'utf8'));
+let job;
+try {
+  job = JSON.parse(readFileSync(job_file, 'utf8'));
+} catch (fault) {
+  console.error(`three_viewer: ${job_file}: ${fault.message}`);
+  process.exit(2);
+}
 
 // The page reads all its files through this function: there is no server and no network.
 const origin = 'http://viewer.invalid';

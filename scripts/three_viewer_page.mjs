@@ -53,13 +53,7 @@ function show_normals(material) {
   material.blending = THREE.NoBlending;
 }
 
-function change(material, { color, metalness, roughness }) {
-  if (color !== undefined) material.color.setRGB(...color, THREE.LinearSRGBColorSpace);
-  if (metalness !== undefined) material.metalness = metalness;
-  if (roughness !== undefined) material.roughness = roughness;
-}
-
-/// RGBA floats of size x size samples per pixel, averaged; rows from the top down.
+/// RGBA floats of samples x samples per pixel, averaged; rows from the top down.
 function render(scene, camera, [width, height], samples) {
   const wide = width * samples, high = height * samples;
   const target = new THREE.WebGLRenderTarget(wide, high, { type: THREE.FloatType });
@@ -97,26 +91,19 @@ function base64(bytes) {
   return btoa(text);
 }
 
-let sky, sky_files; // one sky serves all outputs of a job
+let sky = null; // one sky serves all outputs of a job
 
 /// One output of the job, its file as base64.
 window.show = async (job, output) => {
-  if (JSON.stringify(job.sky) !== sky_files) {
-    sky_files = JSON.stringify(job.sky);
-    sky = await load_sky(job.sky);
-  }
+  const normals = output.what === 'normals';
+  sky ??= normals ? null : await load_sky(job.sky); // its filtering takes seconds
   const scene = new THREE.Scene();
-  scene.add((await new GLTFLoader().loadAsync(url(job.model))).scene);
+  scene.add((await new GLTFLoader().loadAsync(url(output.model ?? job.model))).scene);
   scene.environment = sky;
   if (output.background) scene.background = sky;
   scene.updateMatrixWorld(true);
-  scene.traverse(object => {
-    for (const material of [object.material ?? []].flat()) {
-      if (output.what === 'normals') show_normals(material);
-      change(material, output.material ?? {});
-    }
-  });
-  const values = render(scene, camera_of(job.camera, job.size, scene), job.size, output.samples ?? 1);
+  if (normals) scene.traverse(object => [object.material ?? []].flat().forEach(show_normals));
+  const values = render(scene, camera_of(output.camera ?? job.camera, job.size, scene), job.size, output.samples ?? 1);
   const bytes = output.file.endsWith('.png') ? await png(values, job.size, output.exposure ?? 0) : new Uint8Array(values.buffer);
   return base64(bytes);
 };

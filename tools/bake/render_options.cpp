@@ -84,7 +84,7 @@ void add_render_options(CLI::App& sub, RenderArgs& args) {
     add_examples(sub, "  bake render meshes/scene.toml -o picture.png\n"
                       "  bake render meshes/scene.toml -o picture.exr --size 1920x1080 --spp 16\n"
                       "  bake render meshes/scene.toml -o layers.exr --layers\n"
-                      "  bake render meshes/scene.toml -o smooth.png --noise 0.02\n"
+                      "  bake render meshes/scene.toml -o smooth.png --size 240 --noise 0.05\n"
                       "  bake render meshes/scene.toml -o soon.png --time-limit 2 --preview\n"
                       "  bake render meshes/scene.toml --pixel 120,80\n"
                       "A mesh or a map needs no scene file; it is lit and framed automatically:\n"

@@ -113,6 +113,7 @@ std::unique_ptr<Shape> displaced_shape(const Shape& shape, const HeightTexture& 
     displacement.rates.levels = levels;
     displacement.taken = process_memory().resident;
     const bool mapped = options.method.shade == Shade::displace_normal;
+    if (mapped) displacement.seam = Seam::average; // the map does not know of blended heights
     displacement.later.push_back({"", mapped ? mapped_bytes : scene_bytes});
     // A map of normals stands for all of them: facets are not seen.
     return make_shape(displace(*base, relief, displacement).mesh, {.flat = shape.surface.flat && !mapped});
