@@ -135,12 +135,12 @@ TEST_SUITE("real" * doctest::skip(no_shared_data())) {
         };
         const auto errors = [&](const Image<float>& of) { return oracle::map_errors(of, coarse, 0, full_normal); };
         std::vector<double> with_map = errors(map), without = errors(flat_map(size));
-        // Not the mean: at borders of charts, texels of the two meshes are at different points.
-        const auto middle = std::ptrdiff_t(with_map.size() * 3 / 4);
+        // Not the mean: near borders of charts, which are many, texels of the two meshes are at different points.
+        const auto middle = std::ptrdiff_t(with_map.size() / 2);
         std::nth_element(with_map.begin(), with_map.begin() + middle, with_map.end());
         std::nth_element(without.begin(), without.begin() + middle, without.end());
-        MESSAGE("three of four texels: " << with_map[middle] << " degrees with the map, " << without[middle]
-                                         << " without");
+        MESSAGE("every second texel: " << with_map[middle] << " degrees with the map, " << without[middle]
+                                       << " without");
         CHECK(with_map[middle] < 0.1);
         CHECK(without[middle] > 3 * with_map[middle]);
     }
