@@ -55,8 +55,10 @@ TEST_SUITE("unit") {
             };
             // The camera looks along y and z, so that columns are apart by the short axis and rows by the long one.
             const auto [here, print] = hit(100.5, 100.5);
-            CHECK(glm::length(hit(101.5, 100.5).first - here) == doctest::Approx(glm::length(print.minor)).epsilon(0.01));
-            CHECK(glm::length(hit(100.5, 101.5).first - here) == doctest::Approx(glm::length(print.major)).epsilon(0.01));
+            CHECK(glm::length(hit(101.5, 100.5).first - here) ==
+                  doctest::Approx(glm::length(print.minor)).epsilon(0.01));
+            CHECK(glm::length(hit(100.5, 101.5).first - here) ==
+                  doctest::Approx(glm::length(print.major)).epsilon(0.01));
             const auto centre = [&](int spp) {
                 const auto at = [&](double x, double y) { return primary_ray(frame, x, y, 200, 200); };
                 return pixel_cone(at(100, 100), at(101, 100), at(100, 101), spp);

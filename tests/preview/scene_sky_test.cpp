@@ -61,8 +61,8 @@ TEST_SUITE("unit") {
             entries(material + "subsurface = [1, 0.5, 0.25]\ntranslucency = 0.75\n").materials.at(0).reflectance;
         CHECK(three.subsurface == Vec3f(1, 0.5f, 0.25f));
         CHECK(three.translucency == 0.75f);
-        CHECK(refusal(material + "translucency = 0.5\n").find(":3: [[material]] \"translucency\" has no \"subsurface\"") !=
-              std::string::npos);
+        CHECK(refusal(material + "translucency = 0.5\n")
+                  .find(":3: [[material]] \"translucency\" has no \"subsurface\"") != std::string::npos);
         CHECK(refusal(material + "subsurface = -1\n").find(":3: ") != std::string::npos);
         CHECK(refusal(material + "subsurface = 1\ntranslucency = 2\n").find(":4: ") != std::string::npos);
     }

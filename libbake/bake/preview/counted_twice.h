@@ -7,7 +7,7 @@ namespace bake {
 /// How much the normals that the relief of a material adds vary over a shape as the shape's own normals do.
 struct CommonRelief {
     double correlation = 0; ///< -1 to 1, of the differences between neighbouring corners; 0 if one of the two is flat
-    double share = 0;       ///< how large the shape's differences are for those of the relief, by least squares with weights
+    double share = 0; ///< how large the shape's differences are for those of the relief, by least squares with weights
 };
 
 /// About 20 000 triangles are looked at. The shape must have tangents if the material has a normal map.

@@ -16,9 +16,8 @@ void put3(const Vec3d& value, float* to) noexcept {
 
 Passes::Passes(const Scene& scene, const RenderSettings& settings, const PassOptions& options)
     : scene_(scene), settings_(settings), options_(options), halves_(options.halves || options.noise > 0),
-      part_(settings.part.value_or(PixelRect{0, 0, settings.width, settings.height})),
-      frame_(camera_frame(scene)), grid_(make_tiles(part_.width, part_.height)),
-      start_(std::chrono::steady_clock::now()) {
+      part_(settings.part.value_or(PixelRect{0, 0, settings.width, settings.height})), frame_(camera_frame(scene)),
+      grid_(make_tiles(part_.width, part_.height)), start_(std::chrono::steady_clock::now()) {
     settings_.spp = std::max(1, settings_.spp);
     if (halves_) settings_.spp += settings_.spp % 2;
     const std::size_t pixels = std::size_t(part_.width) * part_.height;
