@@ -165,6 +165,10 @@ bool has_relief(const Material& material) noexcept {
     return material.height || material.object_normals || material.bump_table || material.normal_map;
 }
 
+bool has_textures(const Material& material) noexcept {
+    return material.albedo || material.maps || has_relief(material);
+}
+
 MeanNormal mean_normal(const Material& material, const Shape& shape, const ShapePoint& at,
                        const Lookup& lookup) noexcept {
     const Vec3f normal = normal_at(shape, at);

@@ -43,6 +43,8 @@ Bsdf bsdf_at(const Material& material, const Shape& shape, const ShapePoint& at,
 
 /// Whether shading normals differ from those of the mesh.
 bool has_relief(const Material& material) noexcept;
+/// Whether anything is looked up at a point.
+bool has_textures(const Material& material) noexcept;
 
 /// The outward unit shading normal in object space; zero where the mesh has no normal.
 /// Bump table: the surface-gradient normal for the slopes (b_u, b_v) and height 0 on the jet of the smooth surface.

@@ -25,7 +25,8 @@ template <class RayAt, class Add>
 void add_samples(const Scene& scene, const RenderSettings& settings, int x, int y, const SampleRange& range,
                  RenderStats& stats, RayAt&& ray_at, Add&& add, std::vector<LightTerm>* terms = nullptr) {
     const std::uint32_t seeds[2] = {settings.seed, second_seed(settings.seed)};
-    const RayCone cone = pixel_cone(ray_at({0.5, 0.5}), ray_at({1.5, 0.5}), ray_at({0.5, 1.5}), settings.spp);
+    RayCone cone;
+    if (scene.textured) cone = pixel_cone(ray_at({0.5, 0.5}), ray_at({1.5, 0.5}), ray_at({0.5, 1.5}), settings.spp);
     for (int i = range.begin; i < range.end; ++i) {
         Sampler sampler(x, y, range.halves ? i / 2 : i, seeds[range.halves ? i % 2 : 0]);
         const Ray ray = ray_at(pixel_sample(settings.spp, sampler));

@@ -1,4 +1,5 @@
 #include "bake/preview/sampler.h"
+#include <array>
 
 namespace bake {
 namespace {
@@ -22,12 +23,21 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) noexcept {
     return reversed(x);
 }
 
-/// The second dimension of Sobol's sequence: column k of its matrix is row k of Pascal's triangle modulo 2.
+/// For each byte of an index and each value of it, what it contributes to the second dimension of Sobol's sequence: column k of
+/// the matrix is row k of Pascal's triangle modulo 2.
+constexpr auto second_columns = [] {
+    std::array<std::array<std::uint32_t, 256>, 4> sums{};
+    std::uint32_t column = 1u << 31;
+    for (std::array<std::uint32_t, 256>& of_byte : sums)
+        for (std::uint32_t bit = 1; bit < 256; bit <<= 1, column ^= column >> 1)
+            for (std::uint32_t value = 0; value < 256; ++value)
+                if (value & bit) of_byte[value] ^= column;
+    return sums;
+}();
+
 std::uint32_t second_dimension(std::uint32_t index) noexcept {
-    std::uint32_t x = 0;
-    for (std::uint32_t column = 1u << 31; index; index >>= 1, column ^= column >> 1)
-        if (index & 1) x ^= column;
-    return x;
+    return second_columns[0][index & 255] ^ second_columns[1][index >> 8 & 255] ^ second_columns[2][index >> 16 & 255] ^
+           second_columns[3][index >> 24];
 }
 
 float unit(std::uint32_t bits) noexcept { return float(bits >> 8) * 0x1p-24f; }
@@ -58,8 +68,9 @@ Sampler Sampler::branch() const noexcept { return {hash(pixel_ ^ hash(~std::uint
 std::uint32_t second_seed(std::uint32_t seed) noexcept { return std::uint32_t(hash(std::uint64_t(1) << 32 | seed)); }
 
 Vec2d pixel_sample(int spp, Sampler& sampler) noexcept {
-    const Vec2f at = sampler.next2();
-    return spp <= 1 ? Vec2d(0.5) : Vec2d(at);
+    if (spp > 1) return Vec2d(sampler.next2());
+    sampler.skip();
+    return Vec2d(0.5);
 }
 
 } // namespace bake

@@ -19,6 +19,8 @@ public:
     /// The next pair of numbers. Calls have to come in the same order for every sample of a pixel.
     Vec2f next2() noexcept;
     float next() noexcept { return next2().x; }
+    /// Leaves out a pair.
+    void skip() noexcept { ++pair_; }
     /// Numbers for a path that splits off here, independent of all that this sampler gives. However many the path takes,
     /// those that follow here keep their place in the sequence, and with it their even distribution.
     Sampler branch() const noexcept;

@@ -77,6 +77,8 @@ void build(Scene& scene) {
     scene.bvh.emplace(meshes);
     scene.sky_light = SkyLight(scene.sky);
     add_mips(scene.materials, scene.settings.filter);
+    scene.textured = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                 [](const auto& material) { return has_textures(*material); });
     if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
         complete(scene.sky_levels, scene.sky.cube);
 }

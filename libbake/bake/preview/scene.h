@@ -66,6 +66,7 @@ struct Scene {
     RenderSettings settings;
     std::vector<std::string> notes; ///< of reading the files, with their names
     SkyLight sky_light;             ///< set by build()
+    bool textured = false;          ///< set by build(): a material looks something up, so that rays need their cones
     SkyLevels sky_levels;           ///< completed by build() for SkyLighting::irradiance
     /// Set by build(): the positions of the Bvh, and the rays of radiance(), are relative to this point. It is 0 unless the
     /// meshes lie farther from 0 than they extend, where floats would be too coarse for them.

@@ -2,14 +2,6 @@
 
 namespace bake {
 
-namespace {
-
-bool has_textures(const Material& material) noexcept {
-    return material.albedo || material.maps || has_relief(material);
-}
-
-} // namespace
-
 Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone) noexcept {
     const Instance& instance = scene.instances[hit.mesh];
     const Shape& shape = *instance.shape;
@@ -45,8 +37,9 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, c
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where, lookup, s.variance);
     s.reflect = instance.material->reflect;
-    s.cone = s.reflect == Vec3f(0) ? RayCone{cone.width + cone.spread * hit.t, cone.spread}
-                                   : mirrored_cone(shape, instance.linear, where, s.facet, direction, cone, hit.t);
+    s.cone = s.reflect == Vec3f(0) || !scene.textured
+                 ? RayCone{cone.width + cone.spread * hit.t, cone.spread}
+                 : mirrored_cone(shape, instance.linear, where, s.facet, direction, cone, hit.t);
     if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.

@@ -22,6 +22,17 @@ TEST_SUITE("unit") {
         CHECK(used.find("KHR_materials_unlit") != std::string::npos);
     }
 
+    TEST_CASE("glTF materials: one of which only the name is known is written as diffuse, not as the format's metal") {
+        const bake_tests::TemporaryFolder folder;
+        Gltf gltf;
+        gltf.mesh = bake_tests::rich_triangles(2, 2);
+        REQUIRE(!gltf.mesh.materials.empty());
+        write_gltf(folder.file("a.gltf"), gltf);
+        const std::vector<GltfMaterial> back = read_gltf(folder.file("a.gltf")).materials;
+        CHECK(back.size() == gltf.mesh.materials.size());
+        for (const GltfMaterial& material : back) CHECK(material.metallic == 0);
+    }
+
     TEST_CASE("has_gltf_materials: by the list alone") {
         const bake_tests::TemporaryFolder folder;
         const auto has = [&](const std::string& members) {

@@ -372,8 +372,9 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
     std::uint32_t uv_sets = mesh.corner_uv.empty() ? 0 : 1;
     for (const Semantic& s : semantics) uv_sets += s.flip_v ? 1 : 0;
     std::vector<GltfMaterial> materials = gltf.materials;
+    // A material of which only the name is known: the format's own default is metal, which is dark in most viewers.
     for (std::size_t i = materials.size(); i < mesh.materials.size(); ++i)
-        materials.push_back({.name = mesh.materials[i]});
+        materials.push_back({.name = mesh.materials[i], .metallic = 0});
     add_materials(layout, materials, images, uv_sets);
     layout.root["buffers"][0]["byteLength"] = layout.bytes;
     done.bytes = binary ? write_glb(path, layout) : write_beside(path, layout, images);
