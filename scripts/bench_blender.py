@@ -3,6 +3,7 @@
 import MESH.obj                          prints SECONDS of the operator alone: no start, no textures read
 bump MESH.obj HEIGHT.exr AMPLITUDE SIZE OUT.exr     the same of the bake operator
 displace CAGE.obj HEIGHT LEVELS AMPLITUDE OUT.obj   prints SECONDS from import to export, of the modifiers alone, quads
+render MESH.obj SIZE                     SECONDS of one sample per pixel in Cycles, without import, export and BVH, peak MiB
 cage cube|suzanne OUT.obj                writes one of Blender's own primitives, with uvs
 """
 import resource
@@ -95,6 +96,41 @@ def displace(cage, height, levels, amplitude, out):
     return f"{time.perf_counter() - begin:.4f} {modifiers:.4f} {export:.4f} {quads} {peak:.0f}"
 
 
+def render(mesh, size):
+    """A diffuse and glossy mesh under one sun, direct light alone. The picture of one sample is rendered twice: with
+    persistent data the second time has neither export nor building of the BVH."""
+    import math
+    from mathutils import Vector
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
+    scene.cycles.max_bounces = 0
+    scene.cycles.samples = 1
+    scene.render.use_persistent_data = True
+    scene.render.resolution_x = scene.render.resolution_y = int(size)
+    item = imported(mesh)[1]
+    item.data.polygons.foreach_set("use_smooth", [True] * len(item.data.polygons))
+    light = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+    light.data.angle = 0
+    light.rotation_mode = "QUATERNION"
+    light.rotation_quaternion = Vector((-1, -2, -1.5)).to_track_quat("-Z", "Y")
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = (0, 2.4, 2.4)
+    camera.rotation_mode = "QUATERNION"
+    camera.rotation_quaternion = Vector((0, -1, -1)).to_track_quat("-Z", "Y")
+    camera.data.sensor_fit = "VERTICAL"
+    camera.data.angle_y = math.radians(45)
+    for thing in (light, camera):
+        scene.collection.objects.link(thing)
+    scene.camera = camera
+    bpy.ops.render.render()
+    begin = time.perf_counter()
+    bpy.ops.render.render()
+    seconds = time.perf_counter() - begin
+    return f"{seconds:.4f} {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f}"
+
+
 def exported(out):
     """By the writer of that ending: OBJ's is in C++ and the fastest of them; Debian's Blender has no Alembic and no USD."""
     if out.endswith(".obj"):
@@ -116,5 +152,5 @@ def cage(shape, out):
     return 0
 
 
-jobs = {"import": lambda mesh: imported(mesh)[0], "bump": bump, "displace": displace, "cage": cage}
+jobs = {"import": lambda mesh: imported(mesh)[0], "bump": bump, "displace": displace, "render": render, "cage": cage}
 print("SECONDS", jobs[job](*args))

@@ -99,7 +99,7 @@ TEST_SUITE("cli") {
                       "name one of these formats in --from: ball, probe, octahedral");
         check_refused(folder, {"bump-table", "square.png", "--channel", "a", "-o", "a.exr"}, 4, "another --channel");
         check_refused(folder,
-                      {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "400M", "-o", "a.ply"}, 4,
+                      {"displace", torus, "--height", dots, "--levels", "6", "--max-memory", "700M", "-o", "a.ply"}, 4,
                       "raise --max-memory, or set --levels to 5");
         const Run check = run_bake(folder, {"check", (own_meshes() / "trouble/mirrored_uvs.obj").string(), "--json"});
         CHECK(check.out.find('`') == std::string::npos);
