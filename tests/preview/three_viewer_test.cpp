@@ -47,15 +47,16 @@ struct Baked {
                    Gltf{mesh, {material}, {{"normal", "image/png", "", {map.begin(), map.end()}}}, {}, {}});
     }
 
-    /// A scene of the file with further lines for [render]. The sky lights it without shadows, as in three.js.
+    /// A scene of the file with further lines for [render]. The sky lights it without shadows, and textures are
+    /// looked up without mips, as in three.js.
     Scene scene(const std::string& file, const std::string& render) const {
         const auto triple = [](const Vec3f& v) {
             return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + "]\n";
         };
-        write_file(folder / "scene.toml", "[render]\nshadows = false\nbounces = 0\nsize = " + std::to_string(size) +
-                                              "\n" + render + "[camera]\nfov-deg = 35\nposition = " + triple(position) +
-                                              "target = " + triple(target) +
-                                              "[sky]\nfaces = \"sky_%s.png\"\n[[mesh]]\nfile = \"" + file + "\"\n");
+        write_file(folder / "scene.toml",
+                   "[render]\nshadows = false\nbounces = 0\ntexture-filter = \"off\"\nsize = " + std::to_string(size) +
+                       "\n" + render + "[camera]\nfov-deg = 35\nposition = " + triple(position) + "target = " +
+                       triple(target) + "[sky]\nfaces = \"sky_%s.png\"\n[[mesh]]\nfile = \"" + file + "\"\n");
         return load(read_scene(folder / "scene.toml"));
     }
 };
