@@ -3,7 +3,7 @@
 import MESH.obj                          prints SECONDS of the operator alone: no start, no textures read
 bump MESH.obj HEIGHT.exr AMPLITUDE SIZE OUT.exr     the same of the bake operator
 displace CAGE.obj HEIGHT LEVELS AMPLITUDE OUT.obj   prints SECONDS from import to export, of the modifiers alone, quads
-render MESH.obj SIZE                     SECONDS of one sample per pixel in Cycles, without import, export and BVH, peak MiB
+render MESH.obj SIZE                     SECONDS of one sample per pixel in Cycles, without import, export and BVH
 cage cube|suzanne OUT.obj                writes one of Blender's own primitives, with uvs
 """
 import resource
@@ -127,8 +127,7 @@ def render(mesh, size):
     bpy.ops.render.render()
     begin = time.perf_counter()
     bpy.ops.render.render()
-    seconds = time.perf_counter() - begin
-    return f"{seconds:.4f} {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f}"
+    return time.perf_counter() - begin
 
 
 def exported(out):
