@@ -2,7 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
 #include "bake/environment/file/environment_io.h"
-#include "bake/environment/resample/resample.h"
+#include "bake/environment/file/sky_cube.h"
 #include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/material.h"
@@ -249,12 +249,7 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     EnvironmentReport report;
     Environment sky = read_environment(inputs, options, &report);
     for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
-    if (!sky.is_cube() || sky.edge_samples)
-        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
-                           {Samples::one});
-    for (Image<float>& face : sky.cube.faces)
-        if (face.channels() != 3) face = to_rgb(face);
-    return std::move(sky.cube);
+    return sky_cube(std::move(sky));
 }
 
 void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {
