@@ -39,9 +39,13 @@ Vec3f glossy_light(const SkyLevels& levels, const Cube& sky, const Vec3f& d, flo
 } // namespace
 
 void complete(SkyLevels& levels, const Cube& sky) {
-    if (levels.irradiance.empty()) levels.irradiance = irradiance(sky);
-    if (!levels.glossy.empty()) return;
-    levels.alphas.clear();
+    if (levels.irradiance.empty() || levels.own_irradiance) {
+        levels.irradiance = irradiance(sky);
+        levels.own_irradiance = true;
+    }
+    if (!levels.glossy.empty() && !levels.own_glossy) return;
+    levels.glossy.clear(), levels.alphas.clear();
+    levels.own_glossy = true;
     for (int i = 0; i <= steps; ++i) {
         const double roughness = double(i) / steps, alpha = roughness * roughness;
         levels.alphas.push_back(float(alpha));
