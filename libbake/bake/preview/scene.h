@@ -74,7 +74,7 @@ struct Scene {
     std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
-/// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
+/// Adds to the shape what the material needs: tangents for a normal map, derivatives for a height or a bump table. Throws Error{Refusal::unsuitable} for a scale of 0 along an
 /// axis.
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement = {});
 /// Builds the Bvh and the light of the sky. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world

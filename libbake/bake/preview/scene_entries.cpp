@@ -140,6 +140,7 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
         throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
                                              " looks up a table that repeats; give the height the wrap "
                                              "\"repeat\", or take another method such as \"blinn\"");
+    if (shade == Shade::roughness || shade == Shade::constant_scale) add_derivatives(shape.surface); // for their mean
     ReliefModel model = with_relief(material, shape, *height, options);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
@@ -221,7 +222,7 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
                                    entry.uv_set, entry.subdivide ? 1 + int(*entry.subdivide) : 0, repeat.x, repeat.y}];
     if (!shape) {
         SmoothMesh smooth = read_entry(entry, repeat, scene);
-        scene.shapes.push_back(make_shape(std::move(smooth.mesh), {.flat = entry.flat}));
+        scene.shapes.push_back(make_shape(std::move(smooth.mesh), {.flat = entry.flat, .derivatives = false}));
         shape = scene.shapes.back().get();
         if (!entry.flat) shape->smooth = std::move(smooth.surface);
     }
