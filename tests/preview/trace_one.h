@@ -9,7 +9,7 @@ inline PrimaryHit trace_one(const Scene& scene, const Ray& ray, int bounces, con
     std::array<PrimaryRay, packet_size> rays;
     std::array<PrimaryHit, packet_size> hits;
     rays[0].ray = ray, rays[0].sampler = sampler;
-    trace(scene, rays, 1, bounces, hits);
+    trace(scene, rays, 1, bounces, true, hits);
     return hits[0];
 }
 

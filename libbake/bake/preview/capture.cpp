@@ -19,22 +19,25 @@ Cube capture(const Scene& scene, const Vec3f& position, int size, RenderStats* s
     std::vector<RenderStats> counts(std::size_t(6) * blocks);
     if (progress) progress->start("capture", std::int64_t(6) * blocks);
     const auto add_row = [&](CubeFace face, int y, RenderStats& count) {
-        const auto ray_at = [&](const Vec2d& at) {
+        const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) {
             const CubePoint<double> point{face, at.x / size, at.y / size};
-            Ray ray;
-            ray.origin = position - scene.origin;
-            ray.direction = Vec3f(glm::normalize(world_to_cube(cube_direction(point)))); // cube to world: the same flip
-            return ray;
+            const Vec3d d = world_to_cube(cube_direction(point)); // cube to world: the same flip
+            const double cosine = 1 / glm::length(d);             // the face is at distance 1
+            to.ray.origin = position - scene.origin;
+            to.ray.direction = Vec3f(cosine * d);
+            to.cone = perspective_cone(2.0f / float(size), float(cosine), settings.spp);
         };
         for (int x = 0; x < size; x += block_edge) {
             PixelBlock block = block_at(x, y, size, size);
             block.sampler_row = int(face) * size;
             std::array<Vec3d, packet_size> sums{};
-            add_samples(scene, settings, block, {0, settings.spp}, ray_at,
-                        [&](int lane, int, const Ray&, const Radiance* value, const PrimaryHit& hit) {
-                            if (value) sums[std::size_t(lane)] += Vec3d(value->total());
-                            count += hit.stats;
-                        });
+            add_samples(
+                scene, settings, block, {0, settings.spp}, set_ray,
+                [&](int lane, int, const Ray&, const Radiance* value, const PrimaryHit& hit) {
+                    if (value) sums[std::size_t(lane)] += Vec3d(value->total());
+                    count += hit.stats;
+                },
+                false);
             for (int lane = 0; lane < packet_size; ++lane)
                 if (block.inside >> lane & 1)
                     for (int c = 0; c < 3; ++c)

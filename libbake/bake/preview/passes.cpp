@@ -61,9 +61,7 @@ void Passes::measure(Tile& tile) const noexcept {
 }
 
 void Passes::render_block(const PixelBlock& block, const Tile& tile, int samples, RenderStats& stats) {
-    const auto ray_at = [&](const Vec2d& at) {
-        return primary_ray(frame_, at.x, at.y, settings_.width, settings_.height);
-    };
+    const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) { set_camera_ray(frame_, settings_, at, to); };
     const auto add = [&](int lane, int i, const Ray&, const Radiance* value, const PrimaryHit& hit) {
         const int column = block.column(lane) - part_.x, row = block.row(lane) - part_.y;
         if (!contains(tile.rect, column, row)) return; // of another part of the picture
@@ -76,7 +74,7 @@ void Passes::render_block(const PixelBlock& block, const Tile& tile, int samples
         if (i == 0) layers.set_first(hit.first, materials_);
         layers.rays += double(hit.stats.rays);
     };
-    add_samples(scene_, settings_, block, {tile.samples, samples, halves_}, ray_at, add);
+    add_samples(scene_, settings_, block, {tile.samples, samples, halves_}, set_ray, add, options_.layers);
 }
 
 void Passes::render_tile(std::size_t index, int samples, const TileDone& done) {

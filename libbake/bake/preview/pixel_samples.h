@@ -41,18 +41,11 @@ inline PixelBlock block_at(int x, int y, int width, int height) noexcept {
     return block;
 }
 
-/// For each pixel of a block, the cone of its samples. ray_at: see add_samples().
-template <class RayAt>
-void set_cones(const PixelBlock& block, int spp, std::span<PrimaryRay, packet_size> rays, RayAt&& ray_at) {
-    constexpr int edge = block_edge + 1; // with the pixels to the right and below
-    std::array<Ray, edge * edge> centres;
-    for (int j = 0; j < edge; ++j)
-        for (int i = 0; i < edge; ++i)
-            centres[std::size_t(edge * j + i)] = ray_at(Vec2d(block.x + i + 0.5, block.y + j + 0.5));
-    for (int lane = 0; lane < packet_size; ++lane) {
-        const Ray* const centre = &centres[std::size_t(lane / block_edge * edge + lane % block_edge)];
-        rays[std::size_t(lane)].cone = pixel_cone(centre[0], centre[1], centre[edge], spp);
-    }
+/// Sets the ray and the cone of a point of a camera's picture, in pixels.
+inline void set_camera_ray(const CameraFrame& frame, const RenderSettings& settings, const Vec2d& at,
+                           PrimaryRay& to) noexcept {
+    to.ray = primary_ray(frame, at.x, at.y, settings.width, settings.height);
+    to.cone = camera_cone(frame, to.ray, settings.height, settings.spp);
 }
 
 /// Receives what each light adds to the samples of one pixel of a block.
@@ -61,28 +54,27 @@ struct RecordedPixel {
     std::vector<LightTerm>* terms = nullptr; ///< emptied for each sample
 };
 
-/// Calls add(lane, i, ray, radiance, hit) for sample i of each pixel inside the block, in order; ray_at(p) is the ray
-/// through the point p of the picture, in pixels. Samples that are not finite are counted in hit.stats and arrive as null
-/// pointers.
-template <class RayAt, class Add>
+/// Calls add(lane, i, ray, radiance, hit) for sample i of each pixel inside the block, in order; set_ray(p, to)
+/// sets to.ray and to.cone for the point p of the picture, in pixels. Samples that are not finite are counted in hit.stats and arrive as null
+/// pointers. `details`: see trace().
+template <class SetRay, class Add>
 void add_samples(const Scene& scene, const RenderSettings& settings, const PixelBlock& block, const SampleRange& range,
-                 RayAt&& ray_at, Add&& add, const RecordedPixel& recorded = {}) {
+                 SetRay&& set_ray, Add&& add, bool details, const RecordedPixel& recorded = {}) {
     const std::uint32_t seeds[2] = {settings.seed, second_seed(settings.seed)};
     std::array<PrimaryRay, packet_size> rays;
-    if (scene.textured) set_cones(block, settings.spp, rays, ray_at);
     for (int i = range.begin; i < range.end; ++i) {
         std::array<PrimaryHit, packet_size> hits;
         for (int lane = 0; lane < packet_size; ++lane) {
             PrimaryRay& ray = rays[std::size_t(lane)];
             const int x = block.column(lane), y = block.row(lane);
             ray.sampler = Sampler(x, y + block.sampler_row, range.halves ? i / 2 : i, seeds[range.halves ? i % 2 : 0]);
-            ray.ray = ray_at(Vec2d(x, y) + pixel_sample(settings.spp, ray.sampler));
+            set_ray(Vec2d(x, y) + pixel_sample(settings.spp, ray.sampler), ray);
         }
         if (recorded.terms) {
             recorded.terms->clear();
             hits[std::size_t(recorded.lane)].first.terms = recorded.terms;
         }
-        trace(scene, rays, block.inside, settings.bounces, hits);
+        trace(scene, rays, block.inside, settings.bounces, details, hits);
         for (int lane = 0; lane < packet_size; ++lane) {
             if (!(block.inside >> lane & 1)) continue;
             PrimaryHit& hit = hits[std::size_t(lane)];

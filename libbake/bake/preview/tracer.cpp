@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <new>
+#include <type_traits>
 
 namespace bake {
 namespace {
@@ -218,13 +220,21 @@ void Path::add_rest(const Surfel& s, const Hit& hit, int bounces, int diffuse_bo
                          part;
 }
 
+/// A surfel that is made in place: it is too large to be cleared or copied without cost.
+union LaterSurfel {
+    Surfel made;
+    LaterSurfel() noexcept {}
+};
+static_assert(std::is_trivially_destructible_v<Surfel>);
+
 /// The primary rays of a packet that hit something, prepared for shading.
 struct Block {
     const Scene& scene;
     std::span<PrimaryRay, packet_size> rays;
     std::span<PrimaryHit, packet_size> results;
     std::array<Hit, packet_size> hits;
-    std::array<Surfel, packet_size> surfels;
+    std::array<LaterSurfel, packet_size> surfels;
+    const Surfel& surfel(int lane) const noexcept { return surfels[std::size_t(lane)].made; }
     PacketMask hit = 0;
 
     Path path(int i) const noexcept { return {scene, rays[std::size_t(i)].sampler, results[std::size_t(i)].stats}; }
@@ -233,7 +243,7 @@ struct Block {
     }
     void find_hits(PacketMask active) noexcept;
     void add_light(const Light<float>& light) noexcept;
-    void describe(int i) noexcept;
+    void describe(int lane, bool details) noexcept;
 };
 
 void Block::find_hits(PacketMask active) noexcept {
@@ -250,8 +260,9 @@ void Block::find_hits(PacketMask active) noexcept {
             continue;
         }
         hit |= PacketMask(1) << lane;
-        surfels[i] = make_surfel(scene, hits[i], rays[i].ray.direction, rays[i].cone);
-        result.radiance.emitted = surfels[i].bsdf.emission + surfels[i].bsdf.ambient * scene.ambient;
+        const Surfel& s =
+            *new (&surfels[i].made) Surfel(make_surfel(scene, hits[i], rays[i].ray.direction, rays[i].cone));
+        result.radiance.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient;
     }
 }
 
@@ -262,10 +273,10 @@ void Block::add_light(const Light<float>& light) noexcept {
     PacketMask lit = 0;
     for_hits([&](int lane) {
         const std::size_t i = std::size_t(lane);
-        parts[i] = path(lane).light_part(surfels[i], light);
+        parts[i] = path(lane).light_part(surfel(lane), light);
         if (!parts[i].some()) return;
         lit |= PacketMask(1) << lane;
-        if (scene.settings.shadows) shadows[i] = shadow_ray(surfels[i], parts[i].to);
+        if (scene.settings.shadows) shadows[i] = shadow_ray(surfel(lane), parts[i].to);
     });
     const PacketMask hidden = scene.settings.shadows && lit != 0 ? scene.bvh->occluded(shadows, lit) : 0;
     for_hits([&](int lane) {
@@ -286,20 +297,22 @@ void Block::add_light(const Light<float>& light) noexcept {
     });
 }
 
-void Block::describe(int lane) noexcept {
+void Block::describe(int lane, bool details) noexcept {
     const std::size_t i = std::size_t(lane);
-    const Surfel& s = surfels[i];
+    const Surfel& s = surfel(lane);
     FirstHit& first = results[i].first;
     RenderStats& stats = results[i].stats;
-    first.hit = hits[i], first.cone = rays[i].cone, first.depth = hits[i].t * glm::length(rays[i].ray.direction);
-    first.position = s.at.p + scene.origin, first.facet = s.facet, first.normal = s.n;
-    first.uv = uv_at(*scene.instances[hits[i].mesh].shape, {hits[i].triangle, hits[i].b1, hits[i].b2});
-    first.albedo = albedo(s.bsdf);
-    if (!scene.lights.empty()) first.lit /= float(scene.lights.size());
     ++stats.hits;
     stats.tilted += s.tilted, stats.mirrored_below += s.mirrored_below, stats.lit_below += first.repaired;
     first.repaired |= s.tilted || s.mirrored_below;
     stats.repaired += first.repaired;
+    first.hit = hits[i];
+    if (!details) return;
+    first.cone = rays[i].cone, first.depth = hits[i].t * glm::length(rays[i].ray.direction);
+    first.position = s.at.p + scene.origin, first.facet = s.facet, first.normal = s.n;
+    first.uv = uv_at(*scene.instances[hits[i].mesh].shape, {hits[i].triangle, hits[i].b1, hits[i].b2});
+    first.albedo = albedo(s.bsdf);
+    if (!scene.lights.empty()) first.lit /= float(scene.lights.size());
 }
 
 } // namespace
@@ -311,16 +324,16 @@ RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
     return *this;
 }
 
-void trace(const Scene& scene, std::span<PrimaryRay, packet_size> rays, PacketMask active, int bounces,
+void trace(const Scene& scene, std::span<PrimaryRay, packet_size> rays, PacketMask active, int bounces, bool details,
            std::span<PrimaryHit, packet_size> results) noexcept {
-    Block block{scene, rays, results, {}, {}};
+    Block block{scene, rays, results};
     block.find_hits(active);
     for (const Light<float>& light : scene.lights) block.add_light(light);
     block.for_hits([&](int lane) {
         const std::size_t i = std::size_t(lane);
-        block.path(lane).add_rest(block.surfels[i], block.hits[i], bounces, scene.settings.diffuse_bounces,
+        block.path(lane).add_rest(block.surfel(lane), block.hits[i], bounces, scene.settings.diffuse_bounces,
                                   results[i].radiance, &results[i].first);
-        block.describe(lane);
+        block.describe(lane, details);
     });
 }
 

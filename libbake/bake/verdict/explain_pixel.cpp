@@ -48,9 +48,7 @@ PixelShading shade(const Scene& scene, int x, int y) {
     terms.reserve(pixel.lights.size());
     const PixelBlock block = block_at(x, y, settings.width, settings.height);
     const int ours = (y - block.y) * block_edge + x - block.x;
-    const auto ray_at = [&](const Vec2d& at) {
-        return primary_ray(frame, at.x, at.y, settings.width, settings.height);
-    };
+    const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) { set_camera_ray(frame, settings, at, to); };
     const auto add = [&](int lane, int i, const Ray& ray, const Radiance* value, const PrimaryHit& hit) {
         if (lane != ours) return;
         if (i == 0 || (!pixel.first.hit && hit.first.hit)) pixel.shown = i, pixel.ray = ray, pixel.first = hit.first;
@@ -67,7 +65,7 @@ PixelShading shade(const Scene& scene, int x, int y) {
             sum.diffuse += Vec3d(term.diffuse), sum.specular += Vec3d(term.specular);
         }
     };
-    add_samples(scene, settings, block, {0, pixel.samples}, ray_at, add, {ours, &terms});
+    add_samples(scene, settings, block, {0, pixel.samples}, set_ray, add, true, {ours, &terms});
     pixel.first.terms = nullptr;
     return pixel;
 }
