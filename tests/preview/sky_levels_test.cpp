@@ -43,9 +43,7 @@ Vec3d mean_at(const Scene& scene, double x, double y, int spp) {
     Vec3d sum(0);
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, 64, 64);
     for (int i = 0; i < spp; ++i) {
-        Sampler sampler(int(x), int(y), i, 1);
-        RenderStats stats;
-        sum += Vec3d(radiance(scene, ray, 0, sampler, stats).total());
+        sum += Vec3d(trace_one(scene, ray, 0, Sampler(int(x), int(y), i, 1)).radiance.total());
     }
     return sum / double(spp);
 }

@@ -30,9 +30,8 @@ double seen(const Scene& scene, double x, double y, int spp) {
     double sum = 0;
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, 64, 64);
     for (int i = 0; i < spp; ++i) {
-        Sampler sampler(int(x), int(y), i, scene.settings.seed);
-        RenderStats stats;
-        sum += radiance(scene, ray, scene.settings.bounces, sampler, stats).total().y;
+        const Sampler sampler(int(x), int(y), i, scene.settings.seed);
+        sum += trace_one(scene, ray, scene.settings.bounces, sampler).radiance.total().y;
     }
     return sum / spp;
 }

@@ -45,6 +45,11 @@ struct Hit {
     explicit operator bool() const noexcept { return mesh != none; }
 };
 
+/// As many rays as Bvh traces at once.
+inline constexpr int packet_size = 16;
+/// One bit for each ray of a packet, the lowest for the first.
+using PacketMask = std::uint32_t;
+
 /// Position of a hit, computed from the triangle, so that its error does not grow with the length of the ray.
 struct HitPoint {
     Vec3f p;
@@ -66,6 +71,12 @@ public:
     Hit intersect(const Ray& ray) const noexcept;
     /// True if the ray hits anything; faster than intersect.
     bool occluded(const Ray& ray) const noexcept;
+    /// The same for the rays of a packet whose bits in `active` are set; the others hit nothing. Two or three times as fast as
+    /// one by one for rays that start and end close to each other. Where two triangles are equally near, which of them is
+    /// hit can depend on the other rays of the packet.
+    void intersect(std::span<const Ray, packet_size> rays, PacketMask active,
+                   std::span<Hit, packet_size> hits) const noexcept;
+    PacketMask occluded(std::span<const Ray, packet_size> rays, PacketMask active) const noexcept;
     /// Position of `hit`, which must come from this Bvh.
     HitPoint point(const Hit& hit) const noexcept;
     std::size_t triangle_count() const noexcept;
