@@ -96,6 +96,9 @@ void build(Scene& scene) {
     add_mips(scene.materials, scene.settings.filter);
     scene.textured = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const auto& material) { return has_textures(*material); });
+    scene.sky.halvings.clear();
+    if (scene.settings.filter != TextureFilter::off) add_halvings(scene.sky);
+    scene.textured = scene.textured || !scene.sky.halvings.empty();
     if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
         complete(scene.sky_levels, scene.sky.cube);
 }
