@@ -140,6 +140,22 @@ TEST_SUITE("unit") {
         CHECK_THROWS_AS(read_glossy(folder / "none_%s.exr", 2), Error);
     }
 
+    TEST_CASE("sky levels: what was computed for one sky is computed again for another one; given levels stay") {
+        SkyLevels levels;
+        complete(levels, constant_cube(Vec3f(1)));
+        complete(levels, constant_cube(Vec3f(2)));
+        CHECK(levels.irradiance[CubeFace::px].at(0, 0) == doctest::Approx(2 * pi));
+        CHECK(levels.glossy.size() == levels.alphas.size());
+        CHECK(levels.glossy.back()[CubeFace::px].at(0, 0) == doctest::Approx(2));
+        SkyLevels given;
+        given.irradiance = constant_cube(Vec3f(5));
+        given.glossy.push_back(constant_cube(Vec3f(6))), given.alphas = {0.5f};
+        complete(given, constant_cube(Vec3f(1)));
+        complete(given, constant_cube(Vec3f(2)));
+        CHECK(given.irradiance[CubeFace::px].at(0, 0) == 5);
+        CHECK(given.glossy.size() == 1);
+    }
+
     TEST_CASE("sky levels: between two levels light is mixed by roughness; rougher than the last it is the last") {
         SkyLevels levels;
         levels.irradiance = constant_cube(Vec3f(0));

@@ -164,7 +164,7 @@ void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces,
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
     const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.next2()) : s.n;
     const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, n, s.facet)};
-    if (bounces <= 0) return sky_radiance(scene.sky, ray.direction);
+    if (bounces <= 0) return sky_radiance(scene.sky, ray.direction, s.cone.spread);
     return along(ray, s.cone, bounces - 1, diffuse_bounces).total();
 }
 
@@ -174,14 +174,14 @@ Vec3f Path::through(const Surfel& s, int bounces, int diffuse_bounces) noexcept 
     const BsdfSample drawn = sample(s.bsdf, s.inside ? -s.n : s.n, s.v, choice, sampler.next2());
     if (drawn.factor == Vec3f(0)) return Vec3f(0);
     const Ray ray{offset_origin(s.at, glm::dot(drawn.l, s.facet) < 0 ? -s.facet : s.facet), drawn.l};
-    if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction);
+    if (bounces <= 0) return drawn.factor * sky_radiance(scene.sky, ray.direction, s.cone.spread);
     return drawn.factor * along(ray, s.cone, bounces - 1, diffuse_bounces).total();
 }
 
 Radiance Path::along(const Ray& ray, const RayCone& cone, int bounces, int diffuse_bounces) noexcept {
     ++stats.rays;
     const Hit hit = scene.bvh->intersect(ray);
-    if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction)};
+    if (!hit) return {.emitted = sky_radiance(scene.sky, ray.direction, cone.spread)};
     const Surfel s = make_surfel(scene, hit, ray.direction, cone);
     Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
     add_lights(s, sum);
@@ -256,7 +256,7 @@ void Block::find_hits(PacketMask active) noexcept {
         PrimaryHit& result = results[i];
         ++result.stats.rays;
         if (!hits[i]) {
-            result.radiance.emitted = sky_radiance(scene.sky, rays[i].ray.direction);
+            result.radiance.emitted = sky_radiance(scene.sky, rays[i].ray.direction, rays[i].cone.spread);
             continue;
         }
         hit |= PacketMask(1) << lane;

@@ -127,26 +127,30 @@ template <bool seen> void Bvh::Impl::Buffers::filter(const RTCFilterFunctionNArg
     }
 }
 
-Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
+Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) refuse_device();
     impl_->scene = rtcNewScene(impl_->device);
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    const bool quick = tree == BvhTree::quick;
+    const RTCBuildQuality quality = quick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
+    rtcSetSceneFlags(impl_->scene,
+                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (quick ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE)));
+    rtcSetSceneBuildQuality(impl_->scene, quality);
     impl_->meshes.resize(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         Impl::Buffers& own = impl_->meshes[i];
-        own.positions.assign(meshes[i].positions.begin(), meshes[i].positions.end());
+        own.positions = std::move(meshes[i].positions);
+        const std::size_t count = own.positions.size();
         own.positions.push_back(Vec3f(0));
-        own.triangles.assign(meshes[i].triangles.begin(), meshes[i].triangles.end());
+        own.triangles = std::move(meshes[i].triangles);
         if (own.triangles.empty()) continue;
         const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, own.positions.data(), 0,
-                                   sizeof(Vec3f), meshes[i].positions.size());
+                                   sizeof(Vec3f), count);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, own.triangles.data(), 0,
                                    sizeof(own.triangles[0]), own.triangles.size());
-        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-        own.passes_seen = meshes[i].passes_seen, own.passes_light = meshes[i].passes_light;
+        rtcSetGeometryBuildQuality(geometry, quality);
+        own.passes_seen = std::move(meshes[i].passes_seen), own.passes_light = std::move(meshes[i].passes_light);
         own.number = std::uint32_t(i);
         rtcSetGeometryUserData(geometry, &own);
         if (own.passes_seen) rtcSetGeometryIntersectFilterFunction(geometry, Impl::Buffers::filter<true>);
