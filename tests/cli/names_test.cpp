@@ -34,6 +34,7 @@ TEST_SUITE("cli") {
         const std::vector<std::vector<std::string>> lines = {
             {"check", png, obj},
             {"check", obj, "--against", obj},
+            {"compare", png, png},
             {"normal-map", obj, "--height", png, "--amplitude", "200%", "--size", "32", "-o", out_png},
             {"bump-table", png, "-o", out_png},
             {"explain", obj, "--height", png, "--uv", "0.5,0.5"},

@@ -70,6 +70,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
 std::vector<std::string> complete(const std::string& verb, const std::string& flag) {
     const std::map<std::string, std::vector<std::string>> lines = {
         {"check", {torus, "--against", torus}},
+        {"compare", {dots, dots}},
         {"bump-table", {dots, "-o", "a.exr"}},
         {"normal-map", {torus, "--height", dots, "-o", "a.png"}},
         {"explain", {torus, "--height", dots}},

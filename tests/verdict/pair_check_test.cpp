@@ -168,4 +168,22 @@ TEST_SUITE("unit") {
         CHECK(check_pair(one, blue).flat);
         CHECK(check_pair(one, blue).inward == 1);
     }
+
+    TEST_CASE("check_normals: the first map takes the place of the height") {
+        const Image<float> a = wave_normals(96, 10);
+        const PairCheck same = check_normals(a, a);
+        CHECK(same.corr_x == doctest::Approx(1));
+        CHECK(same.scale == doctest::Approx(1));
+        CHECK(same.green_decided);
+        CHECK_FALSE(same.directx);
+        CHECK_FALSE(same.inverted);
+        CHECK(check_normals(a, wave_normals(96, 10, true)).directx);
+        CHECK(check_normals(wave_normals(96, 10, true), a).directx);
+        CHECK_FALSE(check_normals(wave_normals(96, 10, true), wave_normals(96, 10, true)).directx);
+        const PairCheck inverted = check_normals(a, wave_normals(96, -10));
+        CHECK(inverted.inverted);
+        CHECK_FALSE(inverted.directx);
+        CHECK(check_normals(a, wave_normals(96, 20)).scale == doctest::Approx(2));
+        CHECK(check_normals(a, wave_normals(96, 0)).flat);
+    }
 }

@@ -40,6 +40,7 @@ Verb bump_table_verb;
 Verb normal_map_verb;
 Verb displace_verb;
 Verb check_verb;
+Verb compare_verb;
 Verb surface_verb;
 Verb render_verb;
 Verb explain_verb;

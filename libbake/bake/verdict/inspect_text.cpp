@@ -2,21 +2,10 @@
 #include "bake/base/text.h"
 #include "bake/relief/height/sample_type.h"
 #include "bake/verdict/inspect.h"
+#include "bake/verdict/report_text.h"
 
 namespace bake {
 namespace {
-
-std::string row(const std::string& name, const std::string& value) {
-    return format("  %-14s ", printable(name).c_str()) + printable(value) + "\n";
-}
-
-std::string endings(const Findings& findings) {
-    std::string text;
-    for (const std::string& note : findings.notes) text += row("note", note);
-    for (const std::string& warning : findings.warnings) text += "  warning: " + printable(warning) + "\n";
-    if (findings.warnings.empty()) text += "  nothing wrong\n";
-    return text;
-}
 
 std::string plural(std::size_t count, const char* one, const char* many) {
     return format("%zu %s", count, count == 1 ? one : many);

@@ -177,6 +177,15 @@ PairCheck check_pair(const Image<float>& height, const Image<float>& normals) {
     return check;
 }
 
+PairCheck check_normals(const Image<float>& normals, const Image<float>& other) {
+    PairCheck check, ignored;
+    check.width = normals.width();
+    check.height = normals.height();
+    const Image<float> a = smooth(normal_slopes(normals, ignored)), b = smooth(normal_slopes(other, check));
+    decide(moments(a, b, 0), moments(a, b, 1), check);
+    return check;
+}
+
 std::optional<PairRecipe> pair_recipe(const PairCheck& c, double height_aspect) {
     if (c.flat || c.corr < pair_tells) return {};
     PairRecipe recipe{.amplitude = c.scale / c.width, .invert = c.inverted, .directx = c.directx};

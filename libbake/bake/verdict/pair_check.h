@@ -33,6 +33,11 @@ inline constexpr double pair_tells = 0.3;
 /// of the smaller one. Values must be finite.
 PairCheck check_pair(const Image<float>& height, const Image<float>& normals);
 
+/// The same of two normal maps of one size, which are decoded, with y as stored: the first one takes the place of the height.
+/// So `inverted` says that the slopes along u are opposed, and `directx` that the green of the two points opposite ways.
+/// `normal_length`, `not_unit` and `inward` are those of the second.
+PairCheck check_normals(const Image<float>& normals, const Image<float>& other);
+
 /// What bakes the normal map from the height: the values of options of normal_map() on a rectangle 1 wide.
 struct PairRecipe {
     double amplitude = 0; ///< widths of the picture
