@@ -37,11 +37,16 @@ TEST_SUITE("cli") {
             const std::vector<std::string> all = verbs();
             CHECK(std::find(all.begin(), all.end(), name) != all.end());
         }
+        std::string general; // what a verb without examples of its own would show
         for (const std::vector<std::string>& arguments : calls) {
             const Run help = run_bake(folder, arguments);
             CHECK(help.code == 0);
             CHECK(help.err == "");
-            CHECK(help.out.find("Examples:\n  bake ") != std::string::npos);
+            const std::size_t examples = help.out.find("Examples:\n  bake ");
+            REQUIRE(examples != std::string::npos);
+            const std::string own = help.out.substr(examples);
+            if (arguments[0] == "--help") general = own;
+            else CHECK_MESSAGE(own != general, "add_examples() is missing in " << arguments[0]);
             CHECK(help.out.find("Usage: bake ") != std::string::npos);
         }
         const Run help = run_bake(folder, {"bump-table", "--help"});
@@ -264,7 +269,14 @@ TEST_SUITE("cli") {
             {"surface", torus, "-o", "s.ply"},
             {"surface", "--shape", "sphere", "--maps-out", "m", "--size", "8"},
             {"cubemap", "labels", "--size", "16", "-o", "c.exr"},
+            {"compare", dots, dots},
             {"render", "scene.toml", "-o", "r.png", "--size", "16x16", "--spp", "1"}};
+        for (const std::string& verb : verbs()) {
+            const bool writes =
+                std::any_of(writers.begin(), writers.end(), [&](const auto& w) { return w[0] == verb; });
+            CHECK_MESSAGE((writes || verb == "check" || verb == "explain"),
+                          "add a command line of " << verb << " here");
+        }
         for (std::vector<std::string> arguments : writers) {
             CAPTURE(arguments[0]);
             const Run loud = run_bake(folder, arguments);

@@ -40,8 +40,8 @@ struct BsdfSample {
     BsdfValue value;       ///< of evaluate() for l; 0 if singular
 };
 /// A direction of light for the viewer `v`. `choice` in [0, 1) picks a lobe in proportion to its estimated albedo, u in
-/// [0, 1) the direction. Across a dielectric border radiance over the squared index of refraction is carried, which does not
-/// change in refraction: what leaves a glass body has the factor it would have with radiance itself.
+/// [0, 1) the direction. Across a dielectric border paths carry L / n^2, which refraction does not change (L is radiance, n the
+/// index of refraction). After a path has entered and left a glass body, the factor is the one of L itself.
 BsdfSample sample(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v, float choice, const Vec2f& u) noexcept;
 
 /// Density of the directions of sample() per solid angle, without the singular lobes. Its integral is at most 1, as some
@@ -55,7 +55,7 @@ struct BsdfTerm {
 };
 BsdfTerm evaluate_with_pdf(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept;
 
-/// What the ggx lobes leave, of light from below them, to the viewer; 1 without covered lobes.
+/// Transmittance of the ggx lobes towards the viewer, for light that the lobes under them reflect; 1 without such lobes.
 Vec3f cover(const Bsdf& bsdf, const Vec3f& n, const Vec3f& v) noexcept;
 
 /// The material of glTF 2.0, appendix B: ggx with the reflectance mix(0.04, base, metallic) over lambert of

@@ -35,8 +35,8 @@ public:
                 const Vec3f& direction, float width) noexcept;
     /// Zero for a corner without uv.
     Footprint footprint() const noexcept;
-    /// By how much a mirror widens the spread of the cone. Convex surfaces do: by the change of the interpolated normal over
-    /// the cone's width. Concave ones count as flat.
+    /// By how much a mirror widens the spread of the cone. On convex surfaces it grows by the change of the interpolated normal
+    /// across the cone. Concave surfaces are treated as flat, so that a cone never becomes narrower.
     float mirror_spread() const noexcept;
 
 private:

@@ -19,8 +19,9 @@ struct PassOptions {
     /// average. Samples of one sequence are not independent of each other, so that their variance says nothing of the
     /// error of their mean.
     double noise = 0;
-    double seconds = 0; ///< no pass after the first goes on for longer after the constructor; 0: no limit
-    int first = 0;      ///< samples of the first pass; 0: 1, or 2 with halves
+    double seconds =
+        0; ///< after the constructor. The first pass always completes; later passes stop at the limit. 0: no limit
+    int first = 0; ///< samples of the first pass; 0: 1, or 2 with halves
 };
 
 struct PixelBlock;
@@ -29,8 +30,8 @@ struct PixelBlock;
 using TileDone = std::function<void(const PixelRect& tile, const std::vector<float>& values)>;
 
 /// After any pass, picture() has for a pixel of n > 1 samples the very bytes that a picture of n samples per pixel has
-/// (with halves: another one with halves), and they do not depend on the number of threads. With a limit on the seconds n is a
-/// matter of chance.
+/// (with `halves`: a picture of n samples that is also rendered with `halves`). They do not depend on the number of threads. With a
+/// time limit, n varies from run to run.
 class Passes {
 public:
     /// The scene is built and outlives the object.

@@ -50,9 +50,8 @@ struct SurfaceMaps {
     float opacity = 1; ///< factor on alpha
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
-    bool one_sided =
-        false; ///< not seen from behind, the side on which corners are clockwise; its shadows are of both sides
-    bool unlit = false; ///< emits its base colour and reflects nothing
+    bool one_sided = false; ///< back faces (whose corners are clockwise) are invisible to the camera, but cast shadows
+    bool unlit = false;     ///< emits its base colour and reflects nothing
 };
 
 /// The alpha of a picture, in three equal channels; null if it has none or is opaque. Throws as read_image().

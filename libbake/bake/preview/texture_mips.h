@@ -1,5 +1,5 @@
-// Textures at every resolution, so that one lookup gives the mean over what a sample covers; of slopes the second moments
-// too, because the slopes that a mean loses make a surface rougher.
+// Textures at every resolution, so that one lookup gives the mean over what a sample covers. For slopes the second moments are
+// stored too: the variance that averaging removes is added to the roughness.
 //
 // Olano and Baker, LEAN Mapping, I3D 2010: slopes and their squares can be averaged, normals cannot.
 #pragma once

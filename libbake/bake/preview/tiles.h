@@ -33,8 +33,7 @@ inline constexpr int least_adaptive_samples = 16;
 /// Sets Tile::more where the noise is above the limit.
 ///
 /// A tile is noisy if the standard error of its pixels, the root of the mean variance over the pixels, is above `noise`
-/// times the mean radiance of the tile, or of a tenth of that of the picture where the tile is darker. A tile goes on
-/// while it, or one of its eight neighbours, is noisy.
+/// times the larger of the mean radiance of the tile and a tenth of the mean radiance of the picture. A tile goes on while it, or one of its eight neighbours, is noisy.
 ///
 /// To stop where the estimate happens to be small, biases the result: samples that miss a small bright light give both a
 /// small value and a small error. Hence the least number of samples, the error of 256 pixels instead of one, and the

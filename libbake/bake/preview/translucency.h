@@ -1,4 +1,4 @@
-// Where the light enters that leaves a translucent body at a point: probe rays through the neighbourhood of the point.
+// Samples the points at which light enters a translucent body that leaves it at a given point, by probe rays.
 //
 // King, Kulla, Conty, Fajardo, BSSRDF Importance Sampling, SIGGRAPH 2013 Talks: a distance is drawn from the profile, in a
 // plane, and a ray is cast across the plane. Planes across three axes, the normal and two tangents, are probed, and

@@ -149,6 +149,39 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("projection: the middle of the picture, or of each disc, is an axis") {
+        for (const SkyFormatEntry& format : projected_formats()) {
+            CAPTURE(std::string(format.name));
+            const int w = 240, h = height_of(format, w), discs = std::max(1, format.discs);
+            for (int disc = 0; disc < discs; ++disc) {
+                const Vec3d d = picture_direction(*format.projection, w, h, (disc + 0.5) * w / discs, 0.5 * h);
+                CHECK(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) == doctest::Approx(1).epsilon(1e-12));
+            }
+        }
+    }
+
+    TEST_CASE("projection: every direction is in a disc, and discs touch where they show the same direction") {
+        std::mt19937 random(5);
+        for (const SkyFormatEntry& format : projected_formats()) {
+            if (format.discs == 0) continue;
+            CAPTURE(std::string(format.name));
+            const int w = 240, h = height_of(format, w);
+            const double width = double(w) / format.discs;
+            CHECK(width == h); // discs are round
+            for (int i = 0; i < 500; ++i) {
+                const Vec2d at = picture_point(*format.projection, w, h, random_direction(random));
+                const double u = std::fmod(at.x, width) / width;
+                CHECK(std::hypot(2 * u - 1, 2 * at.y / h - 1) < 1 + 1e-6);
+            }
+            for (int disc = 1; disc < format.discs; ++disc) {
+                const auto beside = [&](double dx) {
+                    return picture_direction(*format.projection, w, h, disc * width + dx, 0.5 * h);
+                };
+                CHECK(glm::length(beside(-1e-3) - beside(1e-3)) < 0.01);
+            }
+        }
+    }
+
     TEST_CASE("projection: no part of a picture is mirrored, but a photograph of a mirror is mirrored everywhere") {
         std::mt19937 random(3);
         for (const SkyFormatEntry& format : projected_formats()) {
@@ -174,8 +207,13 @@ TEST_SUITE("unit") {
             CAPTURE(std::string(format.name));
             const int edge = 60, w = edge * format.width_per_edge, h = height_of(format, w);
             const double texels = double(w) * h * (format.discs > 0 ? pi / 4 : 1);
-            CHECK(texels > 0.5 * 6 * edge * edge);
-            CHECK(texels < 2.0 * 6 * edge * edge);
+            // In ratio, no other whole number comes nearer to the texels of the cube.
+            const auto off = [&](int width_per_edge) {
+                const double scale = double(width_per_edge) / format.width_per_edge;
+                return std::abs(std::log(scale * scale * texels / (6.0 * edge * edge)));
+            };
+            CHECK(off(format.width_per_edge) <= off(format.width_per_edge + 1) + 1e-9);
+            if (format.width_per_edge > 1) CHECK(off(format.width_per_edge) <= off(format.width_per_edge - 1) + 1e-9);
             Environment sky;
             sky.picture = Image<float>(w, h, 1);
             sky.projection = *format.projection;

@@ -132,6 +132,33 @@ TEST_SUITE("oracle") {
     }
 }
 
+TEST_SUITE("oracle") {
+
+    TEST_CASE(
+        "slope_filter: polynomials that a filter gets right inside a picture, it gets right at a clamped border") {
+        const int n = 48;
+        for (const Filter filter : all_filters) {
+            CAPTURE(std::string(name(filter)));
+            int exact = 0;
+            for (int degree = 1; degree <= largest_degree; ++degree) {
+                CAPTURE(degree);
+                const double middle = 0.5 * (n - 1), scale = 1 / middle;
+                const auto found =
+                    slopes(picture(n, n, [&](int x, int) { return std::pow(scale * (x - middle), degree); }), filter,
+                           Wrap::clamp, Wrap::clamp);
+                const auto error = [&](int x) {
+                    const double wanted = degree * scale * std::pow(scale * (x - middle), degree - 1);
+                    return std::abs(found[std::size_t(n) * (n / 2) + x].x - wanted) / (degree * scale);
+                };
+                if (error(3 * n / 4) > 1e-9) break; // the slope of this degree is beyond the filter
+                exact = degree;
+                for (const int x : {0, 1, 2, 3, n - 4, n - 3, n - 2, n - 1}) CHECK(error(x) < 1e-8);
+            }
+            CHECK(exact >= 2);
+        }
+    }
+}
+
 TEST_SUITE("unit") {
 
     TEST_CASE("slope_filter: every filter of the enum has a name, taps, and a border polynomial that is not lowered") {

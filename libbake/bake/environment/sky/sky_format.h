@@ -2,8 +2,10 @@
 // format is one enumerator and one entry here. A new projection needs an enumerator in projection.h and its two functions
 // in projection.cpp as well. A field or function that is forgotten does not compile. What is wrong in an entry or in the two
 // functions, projection_test finds by laws over all entries: each function is the inverse of the other, a texel in the middle
-// of a picture or disc is square (columns, rows, discs), no part of the picture is mirrored, and width_per_edge gives about
-// as many texels as the cube has. How a picture is turned about its axis is a convention that no law can check.
+// of a picture or disc is square and shows an axis, every direction is in a disc and discs touch where they show the same
+// direction (columns, rows, discs), no part of the picture is mirrored, and width_per_edge gives as many texels as the cube has,
+// as nearly as a whole number can. How the whole picture is turned about its axis, and which disc comes first, are
+// conventions that no law can check.
 #pragma once
 #include "bake/environment/sky/layout.h"
 #include "bake/environment/sky/projection.h"

@@ -12,7 +12,8 @@
 namespace bake {
 
 /// A new filter needs an enumerator before `count`, its name and its taps in slope_filter.cpp, and, if its order is above
-/// largest_degree of border.h, a higher limit there.
+/// largest_degree of border.h, a higher limit there. slope_filter_test fails until the table of docs/bump-table.md has a row for
+/// it, its closed form is in the test, and border_degree is as high as its order.
 enum class Filter {
     automatic, ///< sobel for sources of 256 levels or fewer, c2 otherwise
     central,   ///< (h[+1] - h[-1]) / 2
