@@ -26,6 +26,7 @@ ReliefModel model(const std::string& word, const Shape& shape, const HeightTextu
 
 CommonRelief common(const Material& material, Shape& shape) {
     if (material.normal_map) add_tangents(shape);
+    if (material.height || material.bump_table) add_derivatives(shape.surface);
     return common_relief(material, shape);
 }
 
