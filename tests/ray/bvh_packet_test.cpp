@@ -27,8 +27,9 @@ struct Soup {
         }
     }
     Bvh bvh() const {
-        const BvhMesh mesh{positions, triangles, {}, {}};
-        return Bvh(std::span(&mesh, 1));
+        std::vector<BvhMesh> meshes(1);
+        meshes[0].positions = positions, meshes[0].triangles = triangles;
+        return Bvh(std::move(meshes));
     }
 };
 
@@ -108,7 +109,7 @@ TEST_SUITE("stability") {
     }
 
     TEST_CASE("bvh packet: without meshes, and without rays, nothing is hit") {
-        const Bvh empty{std::span<const BvhMesh>{}};
+        const Bvh empty{std::vector<BvhMesh>{}};
         std::mt19937 random(13);
         const auto rays = random_rays(random);
         std::array<Hit, packet_size> hits;

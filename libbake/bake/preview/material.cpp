@@ -132,9 +132,9 @@ void add_mips(std::span<const std::unique_ptr<Material>> materials, TextureFilte
         auto& with_mips = filtered[maps.get()];
         if (!with_mips) {
             auto copy = std::make_shared<SurfaceMaps>(*maps); // that of the rays' filters stays as it is
-            for (SurfaceMap* map :
-                 {&copy->base, &copy->specular, &copy->shininess, &copy->roughness, &copy->metallic, &copy->emission})
-                if (map->is_plain()) add(map->texture, Holds::colours);
+            for (SurfaceMap* map : {&copy->base, &copy->specular, &copy->shininess, &copy->roughness, &copy->metallic,
+                                    &copy->emission, &copy->occlusion})
+                if (map->uvs < 0) add(map->texture, Holds::colours);
             with_mips = std::move(copy);
         }
         maps = with_mips;

@@ -40,10 +40,20 @@ Vec3f lookup(const SurfaceMap& map, const Shape& shape, const ShapePoint& at,
              const Footprint& footprint = {}) noexcept {
     if (map.is_plain()) return lookup3(map.texture, uv_at(shape, at), footprint);
     const Vec2f uv = map.uvs < 0 ? uv_at(shape, at) : Vec2f(attribute_at(shape, at, map.uvs, 0));
-    return lookup3(*map.texture, Vec2f(Vec2d(wrapped(double(uv.x), map.wrap_u, map.nearest, map.texture->width()),
-                                             wrapped(double(uv.y), map.wrap_v, map.nearest, map.texture->height()))));
+    const auto value_at = [&map](int level, const Vec2f& place) {
+        const Image<float>& image = level < 0 ? *map.texture : map.texture.mips->levels[std::size_t(level)];
+        const bool nearest = map.nearest && level < 0;
+        return bilinear<3>(image, Vec2f(Vec2d(wrapped(double(place.x), map.wrap_u, nearest, image.width()),
+                                              wrapped(double(place.y), map.wrap_v, nearest, image.height()))));
+    };
+    // The footprint is that of the shape's own uvs.
+    const bool filtered = map.texture.mips && map.uvs < 0;
+    const auto value = mean_over<3>(filtered ? taps_of(*map.texture.mips, uv, footprint) : Taps{.first = uv}, value_at);
+    return {value[0], value[1], value[2]};
 }
 
+/// At a point: a ray passes or it does not. A mean alpha that is compared with the cutoff would not show the share of the
+/// footprint that is covered, and a ray does not carry its cone here; the mean over samples is the covered share.
 float alpha_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at) noexcept {
     float alpha = maps.opacity;
     if (maps.alpha) alpha *= lookup(maps.alpha, shape, at).x;
@@ -103,13 +113,14 @@ Bsdf mapped_bsdf(const SurfaceMaps& maps, Reflectance r, const Vec3f& tint, cons
     if (maps.metallic && !shared) r.metallic *= lookup(maps.metallic, shape, at, footprint).z;
     if (maps.emission) r.emission *= lookup(maps.emission, shape, at, footprint);
     Bsdf bsdf = make_bsdf(r, base);
-    if (maps.occlusion) bsdf.ambient *= occlusion_at(maps, shape, at);
+    if (maps.occlusion) bsdf.ambient *= occlusion_at(maps, shape, at, footprint);
     return bsdf;
 }
 
-float occlusion_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at) noexcept {
+float occlusion_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at,
+                   const Footprint& footprint) noexcept {
     if (!maps.occlusion) return 1;
-    const float value = lookup(maps.occlusion, shape, at).x;
+    const float value = lookup(maps.occlusion, shape, at, footprint).x;
     return std::clamp(1 + maps.occlusion_strength * (value - 1), 0.f, 1.f);
 }
 

@@ -57,12 +57,14 @@ struct SurfaceMaps {
 /// The alpha of a picture, in three equal channels; null if it has none or is opaque. Throws as read_image().
 Texture read_alpha(const std::string& file);
 
-/// The reflectance at a point; `tint` multiplies ambient and diffuse. Plain maps are looked up over the footprint.
+/// The reflectance at a point; `tint` multiplies ambient and diffuse. Maps on the shape's own uvs are looked up over the
+/// footprint, if they have mips.
 Bsdf mapped_bsdf(const SurfaceMaps& maps, Reflectance reflectance, const Vec3f& tint, const Shape& shape,
                  const ShapePoint& at, const Footprint& footprint = {}) noexcept;
 
 /// Factor on ambient light and on what diffuse terms reflect of the sky, in [0, 1].
-float occlusion_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at) noexcept;
+float occlusion_at(const SurfaceMaps& maps, const Shape& shape, const ShapePoint& at,
+                   const Footprint& footprint = {}) noexcept;
 
 /// Which rays pass a placed shape. Empty if none does. `mirrored`: the placement reverses the order of corners. The shape
 /// must outlive the filters.

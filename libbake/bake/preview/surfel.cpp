@@ -41,7 +41,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, c
     s.light_at = s.at;
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where, lookup, s.variance);
-    if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
+    if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where, lookup.footprint);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.
     const Vec3f& base = glm::dot(s.surface, s.v) > 0 ? s.surface : s.facet;

@@ -51,12 +51,8 @@ struct Taps {
 };
 Taps taps_of(const Mips& mips, const Vec2f& uv, const Footprint& footprint) noexcept;
 
-/// The mean over the taps. `point(uv)` gives the N values of the picture itself.
-template <int N, class Point>
-std::array<float, N> mean_over(const Mips& mips, const Taps& taps, const Point& point) noexcept {
-    const auto value_at = [&](int level, const Vec2f& uv) {
-        return level < 0 ? point(uv) : bilinear<N>(mips.levels[std::size_t(level)], uv, mips.repeats);
-    };
+/// The mean over the taps. `value_at(level, uv)` gives the N values of a level, or of the picture itself for level -1.
+template <int N, class Value> std::array<float, N> mean_over(const Taps& taps, const Value& value_at) noexcept {
     std::array<float, N> sum{};
     Vec2f uv = taps.first;
     for (int i = 0; i < taps.count; ++i, uv += taps.step) {
@@ -70,6 +66,14 @@ std::array<float, N> mean_over(const Mips& mips, const Taps& taps, const Point& 
     }
     for (float& value : sum) value /= float(taps.count);
     return sum;
+}
+
+/// The same with bilinear lookups in the levels; `point(uv)` gives the N values of the picture itself.
+template <int N, class Point>
+std::array<float, N> mean_over(const Mips& mips, const Taps& taps, const Point& point) noexcept {
+    return mean_over<N>(taps, [&](int level, const Vec2f& uv) {
+        return level < 0 ? point(uv) : bilinear<N>(mips.levels[std::size_t(level)], uv, mips.repeats);
+    });
 }
 
 /// Moments over the taps; `point(uv)` gives the slopes of the picture itself.
