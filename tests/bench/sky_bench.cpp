@@ -16,6 +16,7 @@
 #include "bake/preview/surfel.h"
 #include "bake/preview/tracer.h"
 #include "bench.h"
+#include "preview/trace_one.h"
 #include <filesystem>
 
 using namespace bake;
@@ -94,7 +95,7 @@ Measured render_by(const Scene& scene, Method method, int spp, std::uint32_t see
                         // Through the pixel's centre, so that edges in the picture have no part in the error.
                         sampler.next2();
                         const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, n, n);
-                        sum += Vec3d(method == Method::mis ? radiance(scene, ray, 0, sampler, stats).total()
+                        sum += Vec3d(method == Method::mis ? test::trace_one(scene, ray, 0, sampler).radiance.total()
                                                            : simple(scene, ray, sampler, method == Method::cosine));
                     }
                     out.picture[std::size_t(y) * n + x] = Vec3f(sum / double(spp));

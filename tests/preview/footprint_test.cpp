@@ -14,7 +14,7 @@ constexpr glm::mat3 as_is(1);
 /// On the square [-1,1]^2, whose uvs are half as large.
 Footprint on_plane(const Vec3f& direction, float width, const glm::mat3& linear = as_is) {
     const auto shape = make_shape(plane_mesh());
-    return footprint_at(*shape, linear, {0, 0.3f, 0.3f}, Vec3f(0, 0, 1), glm::normalize(direction), width);
+    return ConeSection(*shape, linear, 0, Vec3f(0, 0, 1), glm::normalize(direction), width).footprint();
 }
 
 } // namespace
@@ -47,10 +47,9 @@ TEST_SUITE("unit") {
             const auto hit = [&](double x, double y) {
                 const Ray ray = primary_ray(frame, x, y, 200, 200);
                 const float t = -ray.origin.z / ray.direction.z;
-                const RayCone cone =
-                    pixel_cone(ray, primary_ray(frame, x + 1, y, 200, 200), primary_ray(frame, x, y + 1, 200, 200), 1);
-                const Footprint print = footprint_at(*shape, as_is, {0, 0.3f, 0.3f}, Vec3f(0, 0, 1), ray.direction,
-                                                     cone.width + cone.spread * t);
+                const RayCone cone = camera_cone(frame, ray, 200, 1);
+                const float width = cone.width + cone.spread * t;
+                const Footprint print = ConeSection(*shape, as_is, 0, Vec3f(0, 0, 1), ray.direction, width).footprint();
                 return std::pair(Vec2f(ray.origin + t * ray.direction) / 2.0f, print);
             };
             // The camera looks along y and z, so that columns are apart by the short axis and rows by the long one.
@@ -60,8 +59,7 @@ TEST_SUITE("unit") {
             CHECK(glm::length(hit(100.5, 101.5).first - here) ==
                   doctest::Approx(glm::length(print.major)).epsilon(0.01));
             const auto centre = [&](int spp) {
-                const auto at = [&](double x, double y) { return primary_ray(frame, x, y, 200, 200); };
-                return pixel_cone(at(100, 100), at(101, 100), at(100, 101), spp);
+                return camera_cone(frame, primary_ray(frame, 100, 100, 200, 200), 200, spp);
             };
             const RayCone four = centre(4), one = centre(1);
             CHECK(four.width == doctest::Approx(one.width / 2));
@@ -69,22 +67,33 @@ TEST_SUITE("unit") {
         }
     }
 
-    TEST_CASE("footprint: a mirror ray keeps its cone on a plane, and spreads it on a sphere as a convex mirror does") {
+    TEST_CASE(
+        "footprint: the solid angle of a cone is that of the pixel, away from the centre of the picture as well") {
+        Camera camera;
+        camera.fov_deg = 100;
+        const CameraFrame frame = camera_frame(camera);
+        for (const auto& [x, y] : {std::pair{200.0, 100.0}, {30.5, 20.5}, {399.5, 0.5}}) {
+            const auto d = [&](double i, double j) { return Vec3d(primary_ray(frame, i, j, 400, 200).direction); };
+            const Vec3d right = d(x + 0.5, y) - d(x - 0.5, y), down = d(x, y + 0.5) - d(x, y - 0.5);
+            const RayCone cone = camera_cone(frame, primary_ray(frame, x, y, 400, 200), 200, 1);
+            CHECK(double(cone.spread) * cone.spread ==
+                  doctest::Approx(glm::length(glm::cross(right, down))).epsilon(1e-3));
+        }
+    }
+
+    TEST_CASE("footprint: a mirror keeps a cone on a plane, and spreads it on a sphere as a convex mirror does") {
         const auto plane = make_shape(plane_mesh());
-        const RayCone in{0.001f, 0.002f};
         const Vec3f down(0, 0, -1), up(0, 0, 1);
-        const RayCone flat = mirrored_cone(*plane, as_is, {0, 0.3f, 0.3f}, up, down, in, 2);
-        CHECK(flat.width == doctest::Approx(0.005));
-        CHECK(flat.spread == doctest::Approx(0.002));
+        CHECK(ConeSection(*plane, as_is, 0, up, down, 0.005f).mirror_spread() == 0);
         // A sphere of radius 1: the normal turns by width / 1, and the ray by twice that.
         const auto sphere = make_shape(sphere_mesh(64, 32));
         std::uint32_t triangle = 0; // one that faces +z
         for (std::uint32_t t = 0; t < sphere->surface.triangles.size(); ++t)
             if (normal_at(*sphere, {t, 0.3f, 0.3f}).z > normal_at(*sphere, {triangle, 0.3f, 0.3f}).z) triangle = t;
-        const RayCone out = mirrored_cone(*sphere, as_is, {triangle, 0.3f, 0.3f}, up, down, in, 2);
-        CHECK(out.spread == doctest::Approx(0.002 + 2 * 0.005).epsilon(0.02));
+        const auto spread = [&] { return ConeSection(*sphere, as_is, triangle, up, down, 0.005f).mirror_spread(); };
+        CHECK(spread() == doctest::Approx(2 * 0.005).epsilon(0.02));
         for (Vec3f& n : sphere->surface.n) n = -n; // seen as a concave one
-        CHECK(mirrored_cone(*sphere, as_is, {triangle, 0.3f, 0.3f}, up, down, in, 2).spread == doctest::Approx(0.002));
+        CHECK(spread() == 0);
     }
 
 } // TEST_SUITE
@@ -102,7 +111,7 @@ TEST_SUITE("stability") {
         Mesh mesh = plane_mesh();
         mesh.corner_uv[0] = no_index;
         const auto shape = make_shape(std::move(mesh));
-        CHECK(footprint_at(*shape, as_is, {0, 0, 0}, Vec3f(0, 0, 1), Vec3f(0, 0, -1), 1).major == Vec2f(0));
+        CHECK(ConeSection(*shape, as_is, 0, Vec3f(0, 0, 1), Vec3f(0, 0, -1), 1).footprint().major == Vec2f(0));
     }
 
 } // TEST_SUITE

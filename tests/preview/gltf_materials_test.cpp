@@ -178,10 +178,8 @@ TEST_SUITE("unit") {
                 scene.lights.clear();
                 build(scene);
             }
-            Sampler sampler(3, 5, 0);
-            RenderStats stats;
             const Ray ray = primary_ray(camera_frame(scene.camera), 30, 30, 64, 64);
-            return radiance(scene, ray, 1, sampler, stats);
+            return trace_one(scene, ray, 1, Sampler(3, 5, 0)).radiance;
         };
         const std::string full = "," + texture_on("occlusionTexture");
         const std::string half = "," + texture_on("occlusionTexture", R"(,"strength":0.5)");

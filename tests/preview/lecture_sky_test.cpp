@@ -1,6 +1,7 @@
 // The systems of docs/lecture.md that reflect a sky, through the tracer. The figures that are printed stand there.
 #include "bake/preview/capture.h"
 #include "preview/lecture.h"
+#include "preview/sky_of.h"
 #include <algorithm>
 #include <doctest/doctest.h>
 #include <iterator>
@@ -20,25 +21,13 @@ Material mirror() {
 /// A sky whose radiance is a smooth function of the world direction.
 double smooth_sky(const Vec3d& d) { return 1 + 0.4 * d.x + 0.3 * d.y - 0.2 * d.z + 0.25 * d.x * d.y; }
 
-Cube smooth_cube(int size) {
-    Cube cube = constant_cube(Vec3f(0), size);
-    for (const CubeFace face : all_cube_faces)
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const Vec3d d = cube_direction(CubePoint<double>{face, (x + .5) / size, (y + .5) / size});
-                for (int c = 0; c < 3; ++c)
-                    cube[face].at(x, y, c) = float(smooth_sky(glm::normalize(world_to_cube(d))));
-            }
-    return cube;
-}
-
 } // namespace
 
 TEST_SUITE("oracle") {
 
     TEST_CASE("lecture, cubemap reflection: a mirror sphere shows an analytic sky, pixel by pixel") {
         Scene scene = one_mesh(sphere_mesh(1024, 512), mirror());
-        scene.sky.cube = smooth_cube(256);
+        scene.sky.cube = sky_of(256, smooth_sky);
         build(scene);
         // Within a texel of an edge of the cube, bilinear interpolation joins two charts, and is of first order.
         double worst = 0, at_edges = 0, squares = 0;

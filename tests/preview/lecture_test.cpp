@@ -143,9 +143,8 @@ TEST_SUITE("oracle") {
             double sum = 0;
             const int samples = 4096;
             for (int i = 0; i < samples; ++i) {
-                Sampler sampler(3, 5, i);
-                RenderStats stats;
-                sum += double(radiance(scene, ray_at(scene, 32, 32, 64), 0, sampler, stats).total().x);
+                const PrimaryHit traced = trace_one(scene, ray_at(scene, 32, 32, 64), 0, Sampler(3, 5, i));
+                sum += double(traced.radiance.total().x);
             }
             CAPTURE(int(c.model));
             CAPTURE(c.shininess);

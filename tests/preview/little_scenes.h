@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/preview/render.h"
+#include "preview/trace_one.h"
 #include <cmath>
 #include <functional>
 
@@ -87,10 +88,9 @@ inline Scene one_mesh(Mesh mesh, Material material, bool flat = false) {
 
 /// Radiance at the point (x, y) of an n x n picture of a built scene.
 inline Vec3f seen_at(const Scene& scene, double x, double y, int n = 64) {
-    Sampler sampler(int(x), int(y), 0, scene.settings.seed);
-    RenderStats stats;
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, n, n);
-    return radiance(scene, ray, scene.settings.bounces, sampler, stats).total();
+    return trace_one(scene, ray, scene.settings.bounces, Sampler(int(x), int(y), 0, scene.settings.seed))
+        .radiance.total();
 }
 
 inline double angle_deg(const Vec3f& a, const Vec3f& b) {

@@ -58,6 +58,23 @@ Halves halves_of(const Scene& scene, int spp, std::uint32_t seed) {
 
 TEST_SUITE("unit") {
 
+    TEST_CASE("passes: a part of a picture has the bytes of the whole one, wherever it begins") {
+        const Scene scene = ball_under_quad(37);
+        RenderSettings settings = scene.settings;
+        settings.spp = 3;
+        const Image<float> whole = render(scene, settings), layers = render_layers(scene, settings);
+        for (const PixelRect& part : {PixelRect{0, 0, 1, 1}, {3, 1, 17, 18}, {6, 15, 2, 3}, {35, 36, 2, 1}}) {
+            settings.part = part;
+            const Image<float> picture = render(scene, settings), part_layers = render_layers(scene, settings);
+            for (int y = 0; y < part.height; ++y)
+                for (int x = 0; x < part.width; ++x) {
+                    CHECK(std::equal(&picture.at(x, y), &picture.at(x, y) + 3, &whole.at(part.x + x, part.y + y)));
+                    CHECK(std::equal(&part_layers.at(x, y), &part_layers.at(x, y) + layers.channels(),
+                                     &layers.at(part.x + x, part.y + y)));
+                }
+        }
+    }
+
     TEST_CASE("passes: after each pass the picture and its layers are those of as many samples, to the last bit") {
         const Scene scene = ball_under_quad(20);
         RenderSettings settings = scene.settings;

@@ -31,10 +31,9 @@ Wrong count_wrong(float radius, const Vec3f& centre, const Vec3f& from, bool pla
     for (int y = 0; y < 96; ++y)
         for (int x = 0; x < 96; ++x) {
             const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, 96, 96);
-            Sampler sampler(x, y, 0);
-            RenderStats stats;
-            FirstHit first;
-            const Radiance value = radiance(scene, ray, 0, sampler, stats, &first);
+            const PrimaryHit traced = trace_one(scene, ray, 0, Sampler(x, y, 0));
+            const FirstHit& first = traced.first;
+            const Radiance& value = traced.radiance;
             if (!first.hit) continue;
             const double facing = glm::dot(Vec3d(first.facet), Vec3d(scene.lights[0].from));
             if (std::abs(facing) < 1e-3) continue; // along the facet: either answer is right

@@ -43,9 +43,7 @@ Vec3d mean_at(const Scene& scene, double x, double y, int spp) {
     Vec3d sum(0);
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, 64, 64);
     for (int i = 0; i < spp; ++i) {
-        Sampler sampler(int(x), int(y), i, 1);
-        RenderStats stats;
-        sum += Vec3d(radiance(scene, ray, 0, sampler, stats).total());
+        sum += Vec3d(trace_one(scene, ray, 0, Sampler(int(x), int(y), i, 1)).radiance.total());
     }
     return sum / double(spp);
 }
@@ -140,6 +138,22 @@ TEST_SUITE("unit") {
         CHECK(equal(read_irradiance(folder / "even_%s.exr"), irradiance(sky)));
         CHECK_THROWS_WITH_AS(read_glossy(folder / "ggx_%s.exr", 9), doctest::Contains("levels for 9 values"), Error);
         CHECK_THROWS_AS(read_glossy(folder / "none_%s.exr", 2), Error);
+    }
+
+    TEST_CASE("sky levels: what was computed for one sky is computed again for another one; given levels stay") {
+        SkyLevels levels;
+        complete(levels, constant_cube(Vec3f(1)));
+        complete(levels, constant_cube(Vec3f(2)));
+        CHECK(levels.irradiance[CubeFace::px].at(0, 0) == doctest::Approx(2 * pi));
+        CHECK(levels.glossy.size() == levels.alphas.size());
+        CHECK(levels.glossy.back()[CubeFace::px].at(0, 0) == doctest::Approx(2));
+        SkyLevels given;
+        given.irradiance = constant_cube(Vec3f(5));
+        given.glossy.push_back(constant_cube(Vec3f(6))), given.alphas = {0.5f};
+        complete(given, constant_cube(Vec3f(1)));
+        complete(given, constant_cube(Vec3f(2)));
+        CHECK(given.irradiance[CubeFace::px].at(0, 0) == 5);
+        CHECK(given.glossy.size() == 1);
     }
 
     TEST_CASE("sky levels: between two levels light is mixed by roughness; rougher than the last it is the last") {

@@ -1,5 +1,6 @@
 // Light of the sky on meshes, against closed forms.
 #include "preview/little_scenes.h"
+#include "preview/sky_of.h"
 #include <doctest/doctest.h>
 
 using namespace bake;
@@ -13,26 +14,13 @@ double smooth_irradiance(const Vec3d& n) {
     return pi * 1 + 2 * pi / 3 * 0.5 * n.y + pi / 4 * 0.3 * (1.5 * n.x * n.x - 0.5);
 }
 
-Cube smooth_cube(int size) {
-    Cube cube = constant_cube(Vec3f(0), size);
-    for (const CubeFace face : all_cube_faces)
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const Vec3d d = cube_direction(CubePoint<double>{face, (x + .5) / size, (y + .5) / size});
-                for (int c = 0; c < 3; ++c)
-                    cube[face].at(x, y, c) = float(smooth_sky(glm::normalize(world_to_cube(d))));
-            }
-    return cube;
-}
-
 /// Mean over `spp` samples of the pixel's centre.
 double seen(const Scene& scene, double x, double y, int spp) {
     double sum = 0;
     const Ray ray = primary_ray(camera_frame(scene.camera), x, y, 64, 64);
     for (int i = 0; i < spp; ++i) {
-        Sampler sampler(int(x), int(y), i, scene.settings.seed);
-        RenderStats stats;
-        sum += radiance(scene, ray, scene.settings.bounces, sampler, stats).total().y;
+        const Sampler sampler(int(x), int(y), i, scene.settings.seed);
+        sum += trace_one(scene, ray, scene.settings.bounces, sampler).radiance.total().y;
     }
     return sum / spp;
 }
@@ -49,7 +37,7 @@ TEST_SUITE("oracle") {
 
     TEST_CASE("sky light: a Lambert sphere has albedo * irradiance / pi, with an error that falls as it should") {
         Scene scene = one_mesh(sphere_mesh(256, 128), lambert(0.8f));
-        scene.sky.cube = smooth_cube(64);
+        scene.sky.cube = sky_of(64, smooth_sky);
         build(scene);
         const auto rms = [&](int spp) {
             double squares = 0;

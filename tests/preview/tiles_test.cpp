@@ -8,7 +8,7 @@ namespace {
 
 /// 5 x 4 tiles of one mean and no noise, all of which have 16 samples.
 TileGrid quiet_grid() {
-    TileGrid grid = make_tiles(5 * tile_size, 4 * tile_size);
+    TileGrid grid = make_tiles({0, 0, 5 * tile_size, 4 * tile_size});
     for (Tile& tile : grid.tiles) tile.samples = 16, tile.mean = 1;
     return grid;
 }
@@ -24,14 +24,22 @@ int going_on(const TileGrid& grid) {
 TEST_SUITE("unit") {
 
     TEST_CASE("tiles: every pixel is in one tile") {
-        for (const auto& [width, height] : {std::pair{1, 1}, {16, 16}, {17, 33}, {100, 3}}) {
-            const TileGrid grid = make_tiles(width, height);
+        for (const auto& [x, y, width, height] : {PixelRect{0, 0, 1, 1},
+                                                  {0, 0, 16, 16},
+                                                  {0, 0, 17, 33},
+                                                  {5, 0, 100, 3},
+                                                  {31, 47, 2, 18},
+                                                  {16, 15, 16, 1}}) {
+            const TileGrid grid = make_tiles({x, y, width, height});
             CHECK(int(grid.tiles.size()) == grid.columns * grid.rows);
             std::vector<int> covered(std::size_t(width) * height);
-            for (const Tile& tile : grid.tiles)
-                for (int y = tile.rect.y; y < tile.rect.y + tile.rect.height; ++y)
-                    for (int x = tile.rect.x; x < tile.rect.x + tile.rect.width; ++x)
-                        ++covered.at(std::size_t(y) * width + x);
+            for (const Tile& tile : grid.tiles) {
+                CHECK((x + tile.rect.x) / tile_size == (x + tile.rect.x + tile.rect.width - 1) / tile_size);
+                CHECK((y + tile.rect.y) / tile_size == (y + tile.rect.y + tile.rect.height - 1) / tile_size);
+                for (int row = tile.rect.y; row < tile.rect.y + tile.rect.height; ++row)
+                    for (int column = tile.rect.x; column < tile.rect.x + tile.rect.width; ++column)
+                        ++covered.at(std::size_t(row) * width + column);
+            }
             for (const int count : covered) CHECK(count == 1);
         }
     }
@@ -82,7 +90,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("tiles: counts of samples weigh tiles by their pixels") {
-        TileGrid grid = make_tiles(tile_size + 4, tile_size);
+        TileGrid grid = make_tiles({0, 0, tile_size + 4, tile_size});
         grid.tiles[0].samples = 8;
         const SampleCounts counts = sample_counts(grid);
         CHECK(counts.least == 0);

@@ -41,9 +41,7 @@ Seen seen(const Scene& scene, const Ray& ray, int spp) {
     Seen out;
     double squares = 0;
     for (int i = 0; i < spp; ++i) {
-        Sampler sampler(3, 5, i, scene.settings.seed);
-        RenderStats stats;
-        const Vec3d value(radiance(scene, ray, 0, sampler, stats).total());
+        const Vec3d value(trace_one(scene, ray, 0, Sampler(3, 5, i, scene.settings.seed)).radiance.total());
         out.mean += value / double(spp), squares += value.y * value.y / spp;
     }
     out.deviation = std::sqrt(std::max(0.0, squares - out.mean.y * out.mean.y));

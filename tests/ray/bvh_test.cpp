@@ -165,6 +165,23 @@ TEST_SUITE("stability") {
             CHECK(bvh.intersect({good.origin, good.direction, t_min}));
     }
 
+    TEST_CASE("bvh: a quick tree hits what the other one hits, to the last bit away from edges") {
+        const Soup soup = sheet(40);
+        const Bvh fast({soup.mesh()}), quick({soup.mesh()}, BvhTree::quick);
+        int hits = 0, same = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const Ray ray{{0.00513f + 0.0154f * float(i % 64), 0.00417f + 0.0153f * float(i / 64), 2},
+                          {0.01f, -0.02f, -1}};
+            const Hit a = fast.intersect(ray), b = quick.intersect(ray);
+            CHECK(bool(a) == bool(b));
+            CHECK(a.t == b.t);
+            CHECK(fast.occluded(ray) == quick.occluded(ray));
+            hits += bool(a), same += a.triangle == b.triangle && a.b1 == b.b1 && a.b2 == b.b2;
+        }
+        CHECK(hits > 3000);
+        CHECK(same == 4000);
+    }
+
     TEST_CASE("bvh: empty meshes, zero-area triangles and non-finite triangles are never hit") {
         CHECK(!Bvh({}).intersect({{0, 0, 1}, {0, 0, -1}}));
         CHECK(Bvh({}).triangle_count() == 0);

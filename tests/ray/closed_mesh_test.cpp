@@ -48,9 +48,9 @@ struct Escapes {
 };
 
 /// Aims rays from random points inside at every vertex, at points on every edge and in every face.
-Escapes count_escapes(const Closed& mesh, float radius, const Vec3f& centre) {
+Escapes count_escapes(const Closed& mesh, float radius, const Vec3f& centre, BvhTree tree = BvhTree::fast) {
     const BvhMesh input{mesh.positions, mesh.triangles};
-    const Bvh bvh(std::span(&input, 1));
+    const Bvh bvh({input}, tree);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(0, 1);
     const auto escapes = [&](const Vec3f& at) {
@@ -73,6 +73,14 @@ Escapes count_escapes(const Closed& mesh, float radius, const Vec3f& centre) {
 } // namespace
 
 TEST_SUITE("oracle") {
+
+    TEST_CASE("closed mesh: from a quick tree rays do not escape either") {
+        const Vec3f centre(1);
+        const Escapes count = count_escapes(dented_ball(48, 1, centre), 1, centre, BvhTree::quick);
+        CHECK(count.vertices * 100 < count.vertex_rays);
+        CHECK(count.edges == 0);
+        CHECK(count.faces == 0);
+    }
 
     TEST_CASE("closed mesh: rays aimed at faces and edges from inside never escape, at vertices less than 1 in 100") {
         for (const float radius : {1e-3f, 1.0f, 1000.0f})

@@ -28,8 +28,27 @@ struct Angles {
     }
 };
 
-/// (n.h)^exponent; with exponent 0 it is 1 above the surface.
-float blinn_power(float sin2_h, float exponent) noexcept { return cosine_power(sin2_h, exponent / 2); }
+/// phong, blinn and their normalised forms, without the weight: the power of the cosine, and f times n.l.
+struct Highlight {
+    float power = 0, value = 0;
+};
+Highlight highlight(LobeKind kind, float exponent, const Angles& a) noexcept {
+    switch (kind) {
+    case LobeKind::phong:
+    case LobeKind::normalised_phong: {
+        const float power = cosine_power(a.r_v, exponent);
+        const bool plain = kind == LobeKind::phong;
+        return {power, power * (plain ? one_over_pi : a.n_l / float(phong_cosine_albedo(exponent)))};
+    }
+    case LobeKind::blinn:
+    case LobeKind::normalised_blinn: {
+        const float power = cosine_power(a.sin2_h, exponent / 2); // with exponent 0 it is 1 above the surface
+        const bool plain = kind == LobeKind::blinn;
+        return {power, power * (plain ? one_over_pi : a.n_l / float(blinn_cosine_albedo(exponent)))};
+    }
+    default: return {};
+    }
+}
 
 void add_choices(const Bsdf& bsdf, BsdfView& view) noexcept {
     float sum = 0;
@@ -97,7 +116,6 @@ BsdfTerm term(const Bsdf& bsdf, const BsdfView& view, const Vec3f& l) noexcept {
     for (int i = 0; i < view.count; ++i) {
         const Lobe& lobe = bsdf.lobes[std::size_t(i)];
         const SeenLobe& seen = view.seen[std::size_t(i)];
-        const float density = cosine_power_density(seen.exponent);
         switch (lobe.kind) {
         case LobeKind::lambert:
             out.value.diffuse +=
@@ -106,20 +124,16 @@ BsdfTerm term(const Bsdf& bsdf, const BsdfView& view, const Vec3f& l) noexcept {
             break;
         case LobeKind::phong:
         case LobeKind::normalised_phong: {
-            const float power = cosine_power(a.r_v, seen.exponent);
-            const bool plain = lobe.kind == LobeKind::phong;
-            out.value.specular +=
-                lobe.weight * (power * (plain ? one_over_pi : a.n_l / float(phong_cosine_albedo(seen.exponent))));
-            out.pdf += seen.choice * density * power;
+            const Highlight h = highlight(lobe.kind, seen.exponent, a);
+            out.value.specular += lobe.weight * h.value;
+            out.pdf += seen.choice * cosine_power_density(seen.exponent) * h.power;
             break;
         }
         case LobeKind::blinn:
         case LobeKind::normalised_blinn: {
-            const float power = blinn_power(a.sin2_h, seen.exponent);
-            const bool plain = lobe.kind == LobeKind::blinn;
-            out.value.specular +=
-                lobe.weight * (power * (plain ? one_over_pi : a.n_l / float(blinn_cosine_albedo(seen.exponent))));
-            out.pdf += power > 0 ? seen.choice * density * power / (4 * a.v_h) : 0;
+            const Highlight h = highlight(lobe.kind, seen.exponent, a);
+            out.value.specular += lobe.weight * h.value;
+            out.pdf += h.power > 0 ? seen.choice * cosine_power_density(seen.exponent) * h.power / (4 * a.v_h) : 0;
             break;
         }
         case LobeKind::ggx: add_ggx(seen, lit.albedo[std::size_t(i)], view, l, out); break;
@@ -183,10 +197,32 @@ BsdfTerm lambert(const Bsdf& bsdf, float n_l) noexcept {
 
 } // namespace
 
+namespace {
+
+bool has_ggx(const Bsdf& bsdf) noexcept {
+    for (int i = 0; i < bsdf.count; ++i)
+        if (bsdf.lobes[std::size_t(i)].kind == LobeKind::ggx) return true;
+    return false;
+}
+
+/// evaluate() where no lobe depends on another one, or on more of the viewer than v.
+BsdfValue plain_value(const Bsdf& bsdf, const Angles& a) noexcept {
+    BsdfValue out;
+    for (int i = 0; i < bsdf.count; ++i) {
+        const Lobe& lobe = bsdf.lobes[std::size_t(i)];
+        if (lobe.kind == LobeKind::lambert) out.diffuse += lobe.weight * (a.n_l * one_over_pi);
+        else out.specular += lobe.weight * highlight(lobe.kind, std::max(0.f, lobe.exponent), a).value;
+    }
+    return out;
+}
+
+} // namespace
+
 BsdfValue evaluate(const Bsdf& bsdf, const Vec3f& n, const Vec3f& l, const Vec3f& v) noexcept {
     const float n_l = glm::dot(n, l);
     if (!(n_l > 0)) return {};
     if (is_lambert(bsdf)) return lambert(bsdf, n_l).value;
+    if (!has_ggx(bsdf)) return plain_value(bsdf, {n, l, v});
     return term(bsdf, view_of(bsdf, n, v), l).value;
 }
 

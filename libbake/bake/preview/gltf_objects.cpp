@@ -29,7 +29,7 @@ std::unique_ptr<Shape> shape_of(Mesh mesh, const GltfCharts& charts, const GltfO
     std::vector<Vec4f> tangents;
     if (!flat && charts.keeps_tangents() && has_tangents(mesh)) tangents = std::move(mesh.tangents);
     mesh.tangents.clear();
-    auto shape = make_shape(std::move(mesh), {.flat = flat});
+    auto shape = make_shape(std::move(mesh), {.flat = flat, .derivatives = false});
     for (Vec4f& t : tangents) t.w = t.w < 0 ? -1.f : 1.f;
     shape->tangents = std::move(tangents);
     return shape;

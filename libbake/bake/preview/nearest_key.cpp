@@ -1,4 +1,5 @@
 #include "bake/preview/nearest_key.h"
+#include "bake/base/edit_distance.h"
 #include <algorithm>
 #include <cctype>
 
@@ -12,22 +13,6 @@ std::string simplified(const std::string& word) {
     return out;
 }
 
-/// Letters to insert, delete, replace or swap with their neighbour: the optimal string alignment distance.
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i)
-        for (std::size_t j = 0; j <= b.size(); ++j) {
-            if (i == 0 || j == 0) {
-                d[i][j] = i + j;
-                continue;
-            }
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[a.size()][b.size()];
-}
-
 } // namespace
 
 std::string nearest_key(const std::string& word, const std::vector<std::string>& names) {
@@ -35,7 +20,7 @@ std::string nearest_key(const std::string& word, const std::vector<std::string>&
     std::string best;
     std::size_t least = (wanted.size() + 1) / 3 + 1; // a distance below this is near
     for (const std::string& name : names)
-        if (const std::size_t d = distance(wanted, simplified(name)); d < least) best = name, least = d;
+        if (const std::size_t d = edit_distance(wanted, simplified(name)); d < least) best = name, least = d;
     for (const std::string& name : names)
         if (const std::string other = simplified(name); best.empty() && std::min(wanted.size(), other.size()) > 1)
             if (other.starts_with(wanted) || wanted.starts_with(other)) best = name;

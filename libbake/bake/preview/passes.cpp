@@ -8,6 +8,10 @@
 namespace bake {
 namespace {
 
+bool contains(const PixelRect& rect, int x, int y) noexcept {
+    return x >= rect.x && x < rect.x + rect.width && y >= rect.y && y < rect.y + rect.height;
+}
+
 void put3(const Vec3d& value, float* to) noexcept {
     for (int c = 0; c < 3; ++c) to[c] = float(value[c]);
 }
@@ -17,7 +21,7 @@ void put3(const Vec3d& value, float* to) noexcept {
 Passes::Passes(const Scene& scene, const RenderSettings& settings, const PassOptions& options)
     : scene_(scene), settings_(settings), options_(options), halves_(options.halves || options.noise > 0),
       part_(settings.part.value_or(PixelRect{0, 0, settings.width, settings.height})), frame_(camera_frame(scene)),
-      grid_(make_tiles(part_.width, part_.height)), start_(std::chrono::steady_clock::now()) {
+      grid_(make_tiles(part_)), start_(std::chrono::steady_clock::now()) {
     settings_.spp = std::max(1, settings_.spp);
     if (halves_) settings_.spp += settings_.spp % 2;
     const std::size_t pixels = std::size_t(part_.width) * part_.height;
@@ -56,37 +60,44 @@ void Passes::measure(Tile& tile) const noexcept {
     tile.mean = sum / (2 * values), tile.variance = squares / (4 * values);
 }
 
+void Passes::render_block(const PixelBlock& block, const Tile& tile, int samples, RenderStats& stats) {
+    const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) { set_camera_ray(frame_, settings_, at, to); };
+    const auto add = [&](int lane, int i, const Ray&, const Radiance* value, const PrimaryHit& hit) {
+        const int column = block.column(lane) - part_.x, row = block.row(lane) - part_.y;
+        if (!contains(tile.rect, column, row)) return; // of another part of the picture
+        const std::size_t pixel = std::size_t(row) * part_.width + column;
+        if (value) (halves_ && i % 2 ? odd_sums_ : sums_)[pixel] += Vec3d(value->total());
+        stats += hit.stats;
+        if (!options_.layers) return;
+        LayerSums& layers = layers_[pixel];
+        if (value) layers.add(*value, hit.first);
+        if (i == 0) layers.set_first(hit.first, materials_);
+        layers.rays += double(hit.stats.rays);
+    };
+    add_samples(scene_, settings_, block, {tile.samples, samples, halves_}, set_ray, add, options_.layers);
+}
+
 void Passes::render_tile(std::size_t index, int samples, const TileDone& done) {
     Tile& tile = grid_.tiles[index];
-    const SampleRange range{tile.samples, samples, halves_};
     const std::int64_t rays_before = stats_[index].rays;
-    std::vector<float> values;
-    for (int row = tile.rect.y; row < tile.rect.y + tile.rect.height; ++row)
-        for (int column = tile.rect.x; column < tile.rect.x + tile.rect.width; ++column) {
-            const std::size_t pixel = std::size_t(row) * part_.width + column;
-            const int x = part_.x + column, y = part_.y + row;
-            LayerSums* const layers = options_.layers ? &layers_[pixel] : nullptr;
-            RenderStats counts;
-            const auto ray_at = [&](const Vec2d& at) {
-                return primary_ray(frame_, x + at.x, y + at.y, settings_.width, settings_.height);
-            };
-            add_samples(scene_, settings_, x, y, range, counts, ray_at,
-                        [&](int i, const Radiance* value, const FirstHit& hit) {
-                            if (value) (halves_ && i % 2 ? odd_sums_ : sums_)[pixel] += Vec3d(value->total());
-                            if (value && layers) layers->add(*value, hit);
-                            if (i == 0 && layers) layers->set_first(hit, materials_);
-                        });
-            if (layers) layers->rays += double(counts.rays);
-            stats_[index] += counts;
-            const Vec3f shown(mean(pixel, samples));
-            if (done) values.insert(values.end(), {shown.x, shown.y, shown.z});
-        }
+    const PixelRect& rect = tile.rect;
+    const int x = part_.x + rect.x, y = part_.y + rect.y; // of the tile in the picture
+    for (int row = y - y % block_edge; row < y + rect.height; row += block_edge)
+        for (int column = x - x % block_edge; column < x + rect.width; column += block_edge)
+            render_block(block_at(column, row, settings_.width, settings_.height), tile, samples, stats_[index]);
     samples_done_.fetch_add(std::int64_t(samples - tile.samples) * tile.rect.width * tile.rect.height,
                             std::memory_order_relaxed);
     rays_done_.fetch_add(stats_[index].rays - rays_before, std::memory_order_relaxed);
     tile.samples = samples;
     if (options_.noise > 0) measure(tile);
-    if (done) done(tile.rect, values);
+    if (!done) return;
+    std::vector<float> values;
+    for (int row = rect.y; row < rect.y + rect.height; ++row)
+        for (int column = rect.x; column < rect.x + rect.width; ++column) {
+            const Vec3f shown(mean(std::size_t(row) * part_.width + column, samples));
+            values.insert(values.end(), {shown.x, shown.y, shown.z});
+        }
+    done(rect, values);
 }
 
 bool Passes::next(const TileDone& done) {

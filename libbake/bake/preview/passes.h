@@ -23,6 +23,8 @@ struct PassOptions {
     int first = 0;      ///< samples of the first pass; 0: 1, or 2 with halves
 };
 
+struct PixelBlock;
+
 /// Pixels, and radiance of each of them, row by row, 3 channels.
 using TileDone = std::function<void(const PixelRect& tile, const std::vector<float>& values)>;
 
@@ -57,6 +59,7 @@ public:
     std::int64_t rays_done() const noexcept { return rays_done_.load(std::memory_order_relaxed); }
 
 private:
+    void render_block(const PixelBlock& block, const Tile& tile, int samples, RenderStats& stats);
     void render_tile(std::size_t index, int samples, const TileDone& done);
     void measure(Tile& tile) const noexcept;
     Vec3d mean(std::size_t pixel, int samples) const noexcept;

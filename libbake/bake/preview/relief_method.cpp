@@ -89,10 +89,10 @@ Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const Relie
     return std::make_shared<const Image<float>>(std::move(normals));
 }
 
-/// Memory for a displaced mesh in a scene, beside the mesh: normals and derivatives of its corners, two triangles per face,
-/// their copy in world space and Embree's tree, measured 86 bytes per triangle.
+/// Memory for a displaced mesh in a scene, beside the mesh: normals of its corners, two triangles per face, their copy in
+/// world space and Embree's tree, measured 86 bytes per triangle.
 std::uint64_t scene_bytes(const DisplaceCount& count) noexcept {
-    const std::uint64_t per_corner = 3 * sizeof(Vec3f), per_triangle = 12 + 16 + 4 + 86 + 12;
+    const std::uint64_t per_corner = sizeof(Vec3f), per_triangle = 12 + 16 + 86;
     return count.corners * per_corner + (count.corners - 2 * count.faces) * per_triangle + count.points * 12;
 }
 
@@ -116,7 +116,8 @@ std::unique_ptr<Shape> displaced_shape(const Shape& shape, const HeightTexture& 
     if (mapped) displacement.seam = Seam::average; // the map does not know of blended heights
     displacement.later.push_back({"", mapped ? mapped_bytes : scene_bytes});
     // A map of normals stands for all of them: facets are not seen.
-    return make_shape(displace(*base, relief, displacement).mesh, {.flat = shape.surface.flat && !mapped});
+    return make_shape(displace(*base, relief, displacement).mesh,
+                      {.flat = shape.surface.flat && !mapped, .derivatives = false});
 }
 
 /// By levels, or by as many as memory allows.

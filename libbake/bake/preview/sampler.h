@@ -15,7 +15,7 @@ std::uint64_t hash(std::uint64_t z) noexcept;
 /// The numbers of one sample of one pixel, in [0, 1).
 class Sampler {
 public:
-    Sampler(int x, int y, int index, std::uint32_t seed = 0) noexcept;
+    explicit Sampler(int x = 0, int y = 0, int index = 0, std::uint32_t seed = 0) noexcept;
     /// The next pair of numbers. Calls have to come in the same order for every sample of a pixel.
     Vec2f next2() noexcept;
     float next() noexcept { return next2().x; }

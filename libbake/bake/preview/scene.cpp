@@ -1,5 +1,6 @@
 #include "bake/preview/scene.h"
 #include "bake/base/error.h"
+#include "bake/base/pages.h"
 #include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
@@ -27,12 +28,47 @@ Vec3f far_centre(const Bounds& box) noexcept {
     return glm::length(centre) > diagonal(box) ? Vec3f(centre) : Vec3f(0);
 }
 
+/// The triangles of an instance relative to an origin.
+BvhMesh placed_mesh(const Instance& instance, const Vec3d& origin) {
+    const Mesh& mesh = instance.shape->mesh;
+    BvhMesh out;
+    resize_in_pages(out.positions, mesh.positions.size() + 1); // and the one that the Bvh pads them with
+    out.positions.clear();
+    const glm::dmat3 linear(instance.linear);
+    const Vec3d translate(instance.translate);
+    for (const Vec3f& p : mesh.positions) {
+        // Rounded to float only after the origin is subtracted.
+        const Vec3d world = linear * Vec3d(p) + translate;
+        if (!(glm::length(world) <= 1e18))
+            throw Error(Refusal::unsuitable,
+                        "a mesh extends beyond 1e18 in the scene; give it a smaller scale or translation");
+        out.positions.emplace_back(world - origin);
+    }
+    const std::vector<Triangle>& triangles = instance.shape->surface.triangles;
+    resize_in_pages(out.triangles, triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) out.triangles[t][k] = mesh.corner_position[triangles[t].corner[k]];
+    const bool mirrored = glm::determinant(instance.linear) < 0;
+    const auto& maps = instance.material->maps;
+    out.passes_seen = seen_filter(maps, *instance.shape, mirrored);
+    out.passes_light = light_filter(maps, *instance.shape);
+    return out;
+}
+
+/// With 24 million triangles the tree for fast rays took 15 CPU seconds and 1 GB more than the quick one, and its rays 0.4
+/// microseconds less, so that it pays from about one sample per triangle on. Small meshes have no time to win.
+BvhTree tree_for(const RenderSettings& settings, double triangles) noexcept {
+    const double samples = double(settings.width) * settings.height * std::max(1, settings.spp);
+    return triangles > 8e6 && triangles > samples ? BvhTree::quick : BvhTree::fast;
+}
+
 } // namespace
 
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement) {
     if (placement.scale.x == 0 || placement.scale.y == 0 || placement.scale.z == 0)
         throw Error(Refusal::unsuitable, "a mesh with scale 0 has no surface; give a scale other than 0");
     if (material.normal_map) add_tangents(shape);
+    if (material.height || material.bump_table) add_derivatives(shape.surface);
     const glm::dmat3 linear = linear_part(placement);
     Instance instance;
     instance.shape = &shape;
@@ -48,37 +84,21 @@ void add_instance(Scene& scene, Shape& shape, const Material& material, const Pl
 }
 
 void build(Scene& scene) {
-    std::vector<std::vector<Vec3f>> positions(scene.instances.size());
-    std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(scene.instances.size());
-    std::vector<BvhMesh> meshes(scene.instances.size());
     scene.origin = far_centre(bounds(scene));
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        const Mesh& mesh = instance.shape->mesh;
-        positions[i].reserve(mesh.positions.size());
-        const glm::dmat3 linear(instance.linear);
-        const Vec3d translate(instance.translate), origin(scene.origin);
-        for (const Vec3f& p : mesh.positions) {
-            // Rounded to float only after the origin is subtracted.
-            const Vec3d world = linear * Vec3d(p) + translate;
-            if (!(glm::length(world) <= 1e18))
-                throw Error(Refusal::unsuitable,
-                            "a mesh extends beyond 1e18 in the scene; give it a smaller scale or translation");
-            positions[i].emplace_back(world - origin);
-        }
-        for (const Triangle& t : instance.shape->surface.triangles)
-            triangles[i].push_back({mesh.corner_position[t.corner[0]], mesh.corner_position[t.corner[1]],
-                                    mesh.corner_position[t.corner[2]]});
-        const bool mirrored = glm::determinant(instance.linear) < 0;
-        const auto& maps = instance.material->maps;
-        meshes[i] = {positions[i], triangles[i], seen_filter(maps, *instance.shape, mirrored),
-                     light_filter(maps, *instance.shape)};
+    std::vector<BvhMesh> meshes;
+    double triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        meshes.push_back(placed_mesh(instance, Vec3d(scene.origin)));
+        triangles += double(meshes.back().triangles.size());
     }
-    scene.bvh.emplace(meshes);
+    scene.bvh.emplace(std::move(meshes), tree_for(scene.settings, triangles));
     scene.sky_light = SkyLight(scene.sky);
     add_mips(scene.materials, scene.settings.filter);
     scene.textured = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const auto& material) { return has_textures(*material); });
+    scene.sky.halvings.clear();
+    if (scene.settings.filter != TextureFilter::off) add_halvings(scene.sky);
+    scene.textured = scene.textured || !scene.sky.halvings.empty();
     if (scene.settings.sky_light == SkyLighting::irradiance && !scene.sky.cube.empty())
         complete(scene.sky_levels, scene.sky.cube);
 }

@@ -48,7 +48,7 @@ struct RenderSettings {
     bool shadows = true; ///< whether meshes shadow lights and sky, and are seen by glossy and diffuse reflections
     SkyLighting sky_light = SkyLighting::sampled;
     Terminator terminator = Terminator::off;
-    TextureFilter filter = TextureFilter::moments; ///< of textures; set before build()
+    TextureFilter filter = TextureFilter::moments; ///< of textures and of the sky that rays see; set before build()
     std::uint32_t seed = 0;                        ///< pictures of different seeds have independent noise
     std::optional<float> exposure; ///< in stops, for pictures written in 8 or 16 bits; none: automatic_exposure()
     Tone tone = Tone::srgb;
@@ -66,7 +66,7 @@ struct Scene {
     RenderSettings settings;
     std::vector<std::string> notes; ///< of reading the files, with their names
     SkyLight sky_light;             ///< set by build()
-    bool textured = false;          ///< set by build(): a material looks something up, so that rays need their cones
+    bool textured = false;          ///< set by build(): materials or a sky are looked up over the cones of rays
     SkyLevels sky_levels;           ///< completed by build() for SkyLighting::irradiance
     /// Set by build(): the positions of the Bvh, and the rays of radiance(), are relative to this point. It is 0 unless the
     /// meshes lie farther from 0 than they extend, where floats would be too coarse for them.
@@ -74,7 +74,7 @@ struct Scene {
     std::optional<Bvh> bvh; ///< set by build(); mesh i is instance i with the triangles of the shape's surface
 };
 
-/// Adds tangents to the shape if the material has a normal map. Throws Error{Refusal::unsuitable} for a scale of 0 along an
+/// Adds to the shape what the material needs: tangents for a normal map, derivatives for a height or a bump table. Throws Error{Refusal::unsuitable} for a scale of 0 along an
 /// axis.
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement = {});
 /// Builds the Bvh and the light of the sky. Call it after the last add_instance() and before rendering. Throws Error{Refusal::unsuitable} if a world

@@ -2,7 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
 #include "bake/environment/file/environment_io.h"
-#include "bake/environment/resample/resample.h"
+#include "bake/environment/file/sky_cube.h"
 #include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/material.h"
@@ -140,6 +140,7 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
         throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
                                              " looks up a table that repeats; give the height the wrap "
                                              "\"repeat\", or take another method such as \"blinn\"");
+    if (shade == Shade::roughness || shade == Shade::constant_scale) add_derivatives(shape.surface); // for their mean
     ReliefModel model = with_relief(material, shape, *height, options);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
@@ -221,7 +222,7 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
                                    entry.uv_set, entry.subdivide ? 1 + int(*entry.subdivide) : 0, repeat.x, repeat.y}];
     if (!shape) {
         SmoothMesh smooth = read_entry(entry, repeat, scene);
-        scene.shapes.push_back(make_shape(std::move(smooth.mesh), {.flat = entry.flat}));
+        scene.shapes.push_back(make_shape(std::move(smooth.mesh), {.flat = entry.flat, .derivatives = false}));
         shape = scene.shapes.back().get();
         if (!entry.flat) shape->smooth = std::move(smooth.surface);
     }
@@ -249,12 +250,7 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     EnvironmentReport report;
     Environment sky = read_environment(inputs, options, &report);
     for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
-    if (!sky.is_cube() || sky.edge_samples)
-        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
-                           {Samples::one});
-    for (Image<float>& face : sky.cube.faces)
-        if (face.channels() != 3) face = to_rgb(face);
-    return std::move(sky.cube);
+    return sky_cube(std::move(sky));
 }
 
 void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {

@@ -15,7 +15,8 @@ struct Shape {
     std::shared_ptr<const BaseSurface> smooth; ///< what the mesh shows, for displacement; null: the mesh itself
 };
 
-/// `options` can select flat shading (facet normals).
+/// `options` can select flat shading (facet normals), and leave out the derivatives: add_derivatives(shape.surface)
+/// computes them for a material that needs them.
 std::unique_ptr<Shape> make_shape(Mesh mesh, const SurfaceOptions& options = {});
 /// Computes MikkTSpace tangents, unless the shape has them already.
 void add_tangents(Shape& shape);

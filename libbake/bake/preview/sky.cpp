@@ -1,8 +1,10 @@
 #include "bake/preview/sky.h"
 #include "bake/base/parallel.h"
+#include "bake/environment/filter/mips.h"
 #include "bake/environment/sky/solid_angle.h"
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <span>
 
 namespace bake {
@@ -95,6 +97,29 @@ Vec3f fast_lookup(const Cube& cube, const Vec3f& d) noexcept {
 Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept {
     if (sky.cube.empty()) return sky.background;
     return sky.scale * fast_lookup(sky.cube, sky.yaw.to_cube(direction));
+}
+
+void add_halvings(Sky& sky) {
+    sky.halvings.clear();
+    for (int size = sky.cube.size(); size > 1; size /= 2)
+        sky.halvings.push_back(next_mip(sky.halvings.empty() ? sky.cube : sky.halvings.back()));
+}
+
+Vec3f sky_radiance(const Sky& sky, const Vec3f& direction, float spread) noexcept {
+    if (sky.halvings.empty() || !(spread > 0)) return sky_radiance(sky, direction);
+    // At (s, t) of a face at distance 1, a texel of width 2 / n has the solid angle (2 / n)^2 (1 + s^2 + t^2)^(-3/2), and
+    // the largest component of the direction is (1 + s^2 + t^2)^(-1/2).
+    const Vec3f size = glm::abs(direction);
+    const float largest = std::max({size.x, size.y, size.z});
+    const float texel = 2 / float(sky.cube.size()) * largest * std::sqrt(largest);
+    if (!(spread > texel)) return sky_radiance(sky, direction);
+    const auto last = float(sky.halvings.size());
+    const float level = std::min(std::log2(spread / texel), last), lower = std::floor(level);
+    const Vec3f d = sky.yaw.to_cube(direction);
+    const auto at = [&](std::size_t k) { return fast_lookup(k > 0 ? sky.halvings[k - 1] : sky.cube, d); };
+    const Vec3f fine = at(std::size_t(lower));
+    const float share = level - lower;
+    return sky.scale * (share > 0 ? glm::mix(fine, at(std::size_t(lower) + 1), share) : fine);
 }
 
 SkyLight::SkyLight(const Sky& sky) : yaw_(sky.yaw) {

@@ -33,14 +33,23 @@ struct Sky {
     Cube cube;       ///< three channels; if empty, the background is used
     float scale = 1; ///< factor on the radiance of the cube
     SkyYaw yaw;
-    Vec3f background{0}; ///< radiance, linear RGB; the background is seen and mirrored, but it does not light
+    Vec3f background{0};        ///< radiance, linear RGB; the background is seen and mirrored, but it does not light
+    std::vector<Cube> halvings; ///< of the cube: see add_halvings(); empty: lookups are at a point
 };
+
+/// Makes the mips of the cube, each half as large as the one before, down to one texel; replaces those that are there.
+void add_halvings(Sky& sky);
 
 /// lookup() of a cube of three channels, in float.
 Vec3f fast_lookup(const Cube& cube, const Vec3f& d) noexcept;
 
 /// Radiance of the sky along a world-space direction.
 Vec3f sky_radiance(const Sky& sky, const Vec3f& direction) noexcept;
+/// Its mean over a cone around a unit direction, of an angle of about `spread` from side to side: interpolated between the
+/// two halvings whose texels are as large there. Where texels are larger than the cone it is the radiance along the
+/// direction. After Akenine-Moeller et al., Texture Level of Detail Strategies for Real-Time Ray Tracing, Ray Tracing Gems,
+/// 2019, section 20.3.4.
+Vec3f sky_radiance(const Sky& sky, const Vec3f& direction, float spread) noexcept;
 
 struct SkySample {
     Vec3f l{0};    ///< unit, world space

@@ -1,9 +1,9 @@
 #include "bake/preview/sky_levels.h"
 #include "bake/base/error.h"
 #include "bake/environment/file/environment_io.h"
+#include "bake/environment/file/sky_cube.h"
 #include "bake/environment/filter/irradiance.h"
 #include "bake/environment/filter/prefilter.h"
-#include "bake/environment/resample/resample.h"
 #include "bake/light/split_sum.h"
 #include "bake/picture/exr_levels.h"
 #include <bit>
@@ -39,9 +39,13 @@ Vec3f glossy_light(const SkyLevels& levels, const Cube& sky, const Vec3f& d, flo
 } // namespace
 
 void complete(SkyLevels& levels, const Cube& sky) {
-    if (levels.irradiance.empty()) levels.irradiance = irradiance(sky);
-    if (!levels.glossy.empty()) return;
-    levels.alphas.clear();
+    if (levels.irradiance.empty() || levels.own_irradiance) {
+        levels.irradiance = irradiance(sky);
+        levels.own_irradiance = true;
+    }
+    if (!levels.glossy.empty() && !levels.own_glossy) return;
+    levels.glossy.clear(), levels.alphas.clear();
+    levels.own_glossy = true;
     for (int i = 0; i <= steps; ++i) {
         const double roughness = double(i) / steps, alpha = roughness * roughness;
         levels.alphas.push_back(float(alpha));
@@ -52,15 +56,7 @@ void complete(SkyLevels& levels, const Cube& sky) {
     }
 }
 
-Cube read_irradiance(const std::string& file) {
-    Environment sky = read_environment({file}, {.check_seams = false});
-    if (!sky.is_cube() || sky.edge_samples)
-        sky.cube = to_cube(sky, {sky.is_cube() ? sky.cube.size() : std::max(1, sky.picture.width() / 4), false},
-                           {Samples::one});
-    for (Image<float>& face : sky.cube.faces)
-        if (face.channels() != 3) face = to_rgb(face);
-    return std::move(sky.cube);
-}
+Cube read_irradiance(const std::string& file) { return sky_cube(read_environment({file}, {.check_seams = false})); }
 
 std::vector<Cube> read_glossy(const std::string& pattern, std::size_t levels) {
     const std::array<std::string, 6> files = find_faces(pattern).files;

@@ -12,10 +12,11 @@ struct SkyLevels {
     Cube irradiance;           ///< radiance times steradian, pi for a white sky
     std::vector<Cube> glossy;  ///< of three channels, filtered with ggx lobes; an empty one is the sky itself
     std::vector<float> alphas; ///< of each, ascending
+    bool own_irradiance = false, own_glossy = false; ///< computed by complete(), for one sky
     bool empty() const noexcept { return irradiance.empty() && glossy.empty(); }
 };
 
-/// Computes what is empty, from a sky that is not empty. Faces are as small as the width of each lobe allows.
+/// Computes what is empty, and again what it has computed, from a sky that is not empty. Faces are as small as the width of each lobe allows.
 void complete(SkyLevels& levels, const Cube& sky);
 
 /// Reads irradiance from one input of read_environment(). Throws as that.

@@ -18,9 +18,14 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, c
     s.n = s.surface;
     const bool relief = has_relief(*instance.material);
     Lookup lookup{.filter = scene.settings.filter, .normals = instance.normals};
-    if (has_textures(*instance.material))
-        lookup.footprint =
-            footprint_at(shape, instance.linear, where, s.facet, direction, cone.width + cone.spread * hit.t);
+    s.reflect = instance.material->reflect;
+    s.cone = {cone.width + cone.spread * hit.t, cone.spread};
+    const bool textures = has_textures(*instance.material), cone_goes_on = scene.textured && s.reflect != Vec3f(0);
+    if (textures || cone_goes_on) {
+        const ConeSection section(shape, instance.linear, hit.triangle, s.facet, direction, s.cone.width);
+        if (textures) lookup.footprint = section.footprint();
+        if (cone_goes_on) s.cone.spread += section.mirror_spread();
+    }
     if (relief) {
         const MeanNormal mean = mean_normal(*instance.material, shape, where, lookup);
         s.n = unit_or_zero(instance.normals * mean.n);
@@ -36,10 +41,6 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, c
     s.light_at = s.at;
     s.light_at.p += instance.linear * smooth_offset(shape, where, outward);
     s.bsdf = bsdf_at(*instance.material, shape, where, lookup, s.variance);
-    s.reflect = instance.material->reflect;
-    s.cone = s.reflect == Vec3f(0) || !scene.textured
-                 ? RayCone{cone.width + cone.spread * hit.t, cone.spread}
-                 : mirrored_cone(shape, instance.linear, where, s.facet, direction, cone, hit.t);
     if (instance.material->maps) s.occlusion = occlusion_at(*instance.material->maps, shape, where);
     if (!relief) return s;
     // At the contour of a coarse mesh the interpolated normal may face away itself.

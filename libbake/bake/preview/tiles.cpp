@@ -1,6 +1,7 @@
 #include "bake/preview/tiles.h"
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace bake {
 namespace {
@@ -16,11 +17,20 @@ bool is_any_near(const TileGrid& grid, const std::vector<char>& flags, int colum
 
 } // namespace
 
-TileGrid make_tiles(int width, int height) {
-    TileGrid grid{(width + tile_size - 1) / tile_size, (height + tile_size - 1) / tile_size, {}};
-    for (int y = 0; y < height; y += tile_size)
-        for (int x = 0; x < width; x += tile_size)
-            grid.tiles.push_back({{x, y, std::min(tile_size, width - x), std::min(tile_size, height - y)}});
+TileGrid make_tiles(const PixelRect& part) {
+    const auto split = [](int begin, int length) {
+        std::vector<std::pair<int, int>> spans; // begin in the part, length
+        for (int at = begin; at < begin + length;) {
+            const int end = std::min(begin + length, at - at % tile_size + tile_size);
+            spans.emplace_back(at - begin, end - at);
+            at = end;
+        }
+        return spans;
+    };
+    const auto columns = split(part.x, part.width), rows = split(part.y, part.height);
+    TileGrid grid{int(columns.size()), int(rows.size()), {}};
+    for (const auto& [y, height] : rows)
+        for (const auto& [x, width] : columns) grid.tiles.push_back({{x, y, width, height}});
     return grid;
 }
 

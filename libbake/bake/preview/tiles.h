@@ -6,7 +6,7 @@
 namespace bake {
 
 struct Tile {
-    PixelRect rect;      ///< in the picture that is rendered, whose upper left corner is (0, 0)
+    PixelRect rect;      ///< in the part of the picture that is rendered, whose upper left corner is (0, 0)
     int samples = 0;     ///< of each pixel
     bool more = true;    ///< whether the next pass adds samples
     double mean = 0;     ///< of the radiance, over pixels and colours
@@ -20,7 +20,8 @@ struct TileGrid {
     int columns = 0, rows = 0;
     std::vector<Tile> tiles; ///< row by row
 };
-TileGrid make_tiles(int width, int height);
+/// Tiles of a part of a picture. They start at multiples of tile_size in the picture; the outer ones can be smaller.
+TileGrid make_tiles(const PixelRect& part);
 
 /// The samples per pixel after the next pass of a picture that has `now`: 1, 2, 4, 8, 16, then a quarter of the last
 /// power of two more, so that a pass takes at most a quarter of the time that was spent before it. At most `most`.

@@ -41,12 +41,27 @@ struct FirstHit {
     std::vector<LightTerm>* terms = nullptr; ///< receives what each light adds, if given (light_terms.h)
 };
 
-/// Radiance along a ray, relative to scene.origin, in a built scene:
+/// A ray from the camera, relative to scene.origin.
+struct PrimaryRay {
+    Ray ray;
+    RayCone cone; ///< what the ray stands for: textures are filtered over it
+    Sampler sampler;
+};
+
+/// What trace() finds out about a primary ray.
+struct PrimaryHit {
+    Radiance radiance;
+    FirstHit first;
+    RenderStats stats;
+};
+
+/// Radiance along the primary rays whose bits in `active` are set, in a built scene:
 ///   emission + ambient A + sum over visible lights (see evaluate()) + light of the sky + reflect * radiance of the mirror ray.
 /// Surfaces are two-sided: seen from behind, normals are flipped towards the viewer. What happens to normals that relief
-/// tilts away, settings.terminator says; mirror rays stay above the facet (mirror_above()). Adds to `stats`; describes
-/// the hit in `first` when given. `cone` is what the ray stands for: textures are filtered over it.
-Radiance radiance(const Scene& scene, const Ray& ray, int bounces, Sampler& sampler, RenderStats& stats,
-                  FirstHit* first = nullptr, const RayCone& cone = {}) noexcept;
+/// tilts away, settings.terminator says; mirror rays stay above the facet (mirror_above()). `results` are new, except that
+/// PrimaryHit::first.terms may be set; without `details`, of first hits only `hit`, `lit` and `repaired` are told. Primary rays and the shadow rays of a light are traced as packets, so that a radiance is
+/// the same to the last bit only among the same rays.
+void trace(const Scene& scene, std::span<PrimaryRay, packet_size> rays, PacketMask active, int bounces, bool details,
+           std::span<PrimaryHit, packet_size> results) noexcept;
 
 } // namespace bake

@@ -19,25 +19,54 @@ bool usable(const Vec3f& v) noexcept {
 
 float largest(const Vec3f& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Converts a ray. False for a ray that Embree cannot process.
-bool to_embree(const Ray& ray, RTCRay& out) noexcept {
+/// Whether Embree can process a ray.
+bool usable(const Ray& ray) noexcept {
     if (!usable(ray.origin) || !usable(ray.direction)) return false;
     if (!(largest(ray.direction) > 1 / largest_coordinate)) return false; // its reciprocal would overflow
-    const float t_min = std::max(0.0f, ray.t_min);
-    if (!(ray.t_max >= t_min)) return false; // empty, or NaN
+    return ray.t_max >= std::max(0.0f, ray.t_min);                        // false if empty, or NaN
+}
+
+/// Converts a ray. False for a ray that Embree cannot process.
+bool to_embree(const Ray& ray, RTCRay& out) noexcept {
+    if (!usable(ray)) return false;
     out.org_x = ray.origin.x;
     out.org_y = ray.origin.y;
     out.org_z = ray.origin.z;
     out.dir_x = ray.direction.x;
     out.dir_y = ray.direction.y;
     out.dir_z = ray.direction.z;
-    out.tnear = t_min;
+    out.tnear = std::max(0.0f, ray.t_min);
     out.tfar = ray.t_max;
     out.time = 0;
     out.mask = 0xffffffffu;
     out.id = 0;
     out.flags = 0;
     return true;
+}
+
+/// Rays of a packet for Embree, with -1 in `valid` for each that takes part. The others are filled in as well, because
+/// Embree computes with them.
+PacketMask to_embree(std::span<const Ray, packet_size> rays, PacketMask active, RTCRay16& out, int* valid) noexcept {
+    PacketMask used = 0;
+    for (int i = 0; i < packet_size; ++i) {
+        const Ray& given = rays[std::size_t(i)];
+        const bool take = (active >> i & 1) && usable(given);
+        const Ray& ray = take ? given : Ray{Vec3f(0), Vec3f(0, 0, 1), 0, 0};
+        valid[i] = take ? -1 : 0;
+        used |= PacketMask(take) << i;
+        out.org_x[i] = ray.origin.x, out.org_y[i] = ray.origin.y, out.org_z[i] = ray.origin.z;
+        out.dir_x[i] = ray.direction.x, out.dir_y[i] = ray.direction.y, out.dir_z[i] = ray.direction.z;
+        out.tnear[i] = std::max(0.0f, ray.t_min), out.tfar[i] = ray.t_max;
+        out.time[i] = 0, out.mask[i] = 0xffffffffu, out.id[i] = 0, out.flags[i] = 0;
+    }
+    return used;
+}
+
+RTCIntersectContext packet_context() noexcept {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
 }
 
 /// Embree gives no device.
@@ -98,26 +127,30 @@ template <bool seen> void Bvh::Impl::Buffers::filter(const RTCFilterFunctionNArg
     }
 }
 
-Bvh::Bvh(std::span<const BvhMesh> meshes) : impl_(std::make_unique<Impl>()) {
+Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) refuse_device();
     impl_->scene = rtcNewScene(impl_->device);
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    const bool quick = tree == BvhTree::quick;
+    const RTCBuildQuality quality = quick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
+    rtcSetSceneFlags(impl_->scene,
+                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (quick ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE)));
+    rtcSetSceneBuildQuality(impl_->scene, quality);
     impl_->meshes.resize(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         Impl::Buffers& own = impl_->meshes[i];
-        own.positions.assign(meshes[i].positions.begin(), meshes[i].positions.end());
+        own.positions = std::move(meshes[i].positions);
+        const std::size_t count = own.positions.size();
         own.positions.push_back(Vec3f(0));
-        own.triangles.assign(meshes[i].triangles.begin(), meshes[i].triangles.end());
+        own.triangles = std::move(meshes[i].triangles);
         if (own.triangles.empty()) continue;
         const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, own.positions.data(), 0,
-                                   sizeof(Vec3f), meshes[i].positions.size());
+                                   sizeof(Vec3f), count);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, own.triangles.data(), 0,
                                    sizeof(own.triangles[0]), own.triangles.size());
-        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-        own.passes_seen = meshes[i].passes_seen, own.passes_light = meshes[i].passes_light;
+        rtcSetGeometryBuildQuality(geometry, quality);
+        own.passes_seen = std::move(meshes[i].passes_seen), own.passes_light = std::move(meshes[i].passes_light);
         own.number = std::uint32_t(i);
         rtcSetGeometryUserData(geometry, &own);
         if (own.passes_seen) rtcSetGeometryIntersectFilterFunction(geometry, Impl::Buffers::filter<true>);
@@ -153,6 +186,34 @@ bool Bvh::occluded(const Ray& ray) const noexcept {
     rtcInitIntersectContext(&context);
     rtcOccluded1(impl_->scene, &context, &query);
     return query.tfar < 0; // Embree sets tfar to -infinity if the ray is occluded
+}
+
+void Bvh::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
+                    std::span<Hit, packet_size> hits) const noexcept {
+    alignas(64) int valid[packet_size];
+    alignas(64) RTCRayHit16 query;
+    for (int i = 0; i < packet_size; ++i) {
+        query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        hits[std::size_t(i)] = {};
+    }
+    if (to_embree(rays, active, query.ray, valid) == 0) return;
+    RTCIntersectContext context = packet_context();
+    rtcIntersect16(valid, impl_->scene, &context, &query);
+    for (int i = 0; i < packet_size; ++i)
+        if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+            hits[std::size_t(i)] = {query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i], query.hit.u[i],
+                                    query.hit.v[i]};
+}
+
+PacketMask Bvh::occluded(std::span<const Ray, packet_size> rays, PacketMask active) const noexcept {
+    alignas(64) int valid[packet_size];
+    alignas(64) RTCRay16 query;
+    if (to_embree(rays, active, query, valid) == 0) return 0;
+    RTCIntersectContext context = packet_context();
+    rtcOccluded16(valid, impl_->scene, &context, &query);
+    PacketMask hidden = 0;
+    for (int i = 0; i < packet_size; ++i) hidden |= PacketMask(valid[i] && query.tfar[i] < 0) << i;
+    return hidden;
 }
 
 HitPoint Bvh::point(const Hit& hit) const noexcept {

@@ -46,29 +46,26 @@ PixelShading shade(const Scene& scene, int x, int y) {
     pixel.lights.resize(scene.lights.size() + LightTerm::others);
     std::vector<LightTerm> terms;
     terms.reserve(pixel.lights.size());
-    RenderStats stats;
-    Ray ray;
-    const auto ray_at = [&](const Vec2d& at) {
-        return ray = primary_ray(frame, x + at.x, y + at.y, settings.width, settings.height);
+    const PixelBlock block = block_at(x, y, settings.width, settings.height);
+    const int ours = (y - block.y) * block_edge + x - block.x;
+    const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) { set_camera_ray(frame, settings, at, to); };
+    const auto add = [&](int lane, int i, const Ray& ray, const Radiance* value, const PrimaryHit& hit) {
+        if (lane != ours) return;
+        if (i == 0 || (!pixel.first.hit && hit.first.hit)) pixel.shown = i, pixel.ray = ray, pixel.first = hit.first;
+        pixel.bad += int(hit.stats.bad_samples);
+        if (!value) return;
+        pixel.hits += bool(hit.first.hit);
+        pixel.total += Vec3d(value->total());
+        (hit.first.hit ? pixel.emitted : pixel.behind) += Vec3d(value->emitted);
+        pixel.reflected += Vec3d(value->reflected);
+        for (const LightTerm& term : terms) {
+            LightSum& sum = pixel.lights[place_of(scene, term.light)];
+            if (sum.met++ == 0) sum.first = term;
+            sum.lit += term.diffuse + term.specular != Vec3f(0);
+            sum.diffuse += Vec3d(term.diffuse), sum.specular += Vec3d(term.specular);
+        }
     };
-    add_samples(
-        scene, settings, x, y, {0, pixel.samples}, stats, ray_at,
-        [&](int i, const Radiance* value, const FirstHit& hit) {
-            if (i == 0 || (!pixel.first.hit && hit.hit)) pixel.shown = i, pixel.ray = ray, pixel.first = hit;
-            if (!value) return;
-            pixel.hits += bool(hit.hit);
-            pixel.total += Vec3d(value->total());
-            (hit.hit ? pixel.emitted : pixel.behind) += Vec3d(value->emitted);
-            pixel.reflected += Vec3d(value->reflected);
-            for (const LightTerm& term : terms) {
-                LightSum& sum = pixel.lights[place_of(scene, term.light)];
-                if (sum.met++ == 0) sum.first = term;
-                sum.lit += term.diffuse + term.specular != Vec3f(0);
-                sum.diffuse += Vec3d(term.diffuse), sum.specular += Vec3d(term.specular);
-            }
-        },
-        &terms);
-    pixel.bad = int(stats.bad_samples);
+    add_samples(scene, settings, block, {0, pixel.samples}, set_ray, add, true, {ours, &terms});
     pixel.first.terms = nullptr;
     return pixel;
 }

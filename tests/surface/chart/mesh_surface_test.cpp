@@ -85,6 +85,21 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("mesh_surface: derivatives that are added later are those of the whole surface") {
+        const Mesh mesh = oracle::torus_mesh(24, 12);
+        const MeshSurface whole = make_mesh_surface(mesh);
+        MeshSurface surface = make_mesh_surface(mesh, {.derivatives = false});
+        CHECK(surface.n == whole.n);
+        CHECK(surface.p_u.empty());
+        CHECK(surface.sigma.empty());
+        for (int twice = 0; twice < 2; ++twice) {
+            add_derivatives(surface);
+            CHECK(surface.p_u == whole.p_u);
+            CHECK(surface.p_v == whole.p_v);
+            CHECK(surface.sigma == whole.sigma);
+        }
+    }
+
     TEST_CASE("mesh_surface: p_u and p_v are perpendicular to n, so a flat height keeps n exactly") {
         const Mesh mesh = oracle::torus_mesh(16, 8);
         const MeshSurface surface = make_mesh_surface(mesh);

@@ -1,29 +1,14 @@
 #include "bake/surface/analytic/parametric.h"
+#include "bake/base/edit_distance.h"
 #include "bake/base/error.h"
 #include "bake/base/parse_double.h"
 #include "bake/base/text.h"
 #include "bake/surface/analytic/parametric_shapes.h"
 #include "bake/surface/point/curvature.h"
 #include <algorithm>
-#include <numeric>
 
 namespace bake {
 namespace {
-
-/// Edit distance (Levenshtein 1966).
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 /// For example "torus:R=1,r=0.4".
 std::string spelled(const ShapeKind& kind) {
@@ -43,12 +28,12 @@ const ShapeKind& kind_named(std::string_view name, const std::string& head) {
     const auto by_name = [&](const ShapeKind& kind) { return kind.name == name; };
     if (const auto found = std::find_if(kinds.begin(), kinds.end(), by_name); found != kinds.end()) return *found;
     const auto nearest = std::min_element(kinds.begin(), kinds.end(), [&](const ShapeKind& a, const ShapeKind& b) {
-        return distance(a.name, name) < distance(b.name, name);
+        return edit_distance(a.name, name) < edit_distance(b.name, name);
     });
     std::string all;
     for (const ShapeKind& kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kind.name);
     const std::string near =
-        distance(nearest->name, name) <= 3 ? "did you mean " + std::string(nearest->name) + "? " : "";
+        edit_distance(nearest->name, name) <= 3 ? "did you mean " + std::string(nearest->name) + "? " : "";
     throw Error{Refusal::usage, head + "no such shape; " + near + "the shapes are " + all};
 }
 

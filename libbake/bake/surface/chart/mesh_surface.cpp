@@ -1,8 +1,11 @@
 #include "bake/surface/chart/mesh_surface.h"
+#include "bake/base/pages.h"
 #include "bake/base/parallel.h"
 #include "bake/mesh/facet_normal.h"
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -32,26 +35,41 @@ Around around_positions(const Mesh& mesh, const std::vector<Triangle>& triangles
 
 Vec3d position(const Mesh& mesh, std::uint32_t corner) { return Vec3d(mesh.positions[mesh.corner_position[corner]]); }
 
-std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles, const Around& around) {
-    std::vector<Vec3f> n(mesh.corners(), Vec3f(0));
-    const auto given = [&](std::uint32_t corner) {
-        const std::uint32_t i = mesh.corner_normal.empty() ? no_index : mesh.corner_normal[corner];
-        return i == no_index ? Vec3f(0) : unit_or_zero(mesh.normals[i]);
-    };
+/// The normals that the mesh has. False if a corner has none, which is zero then.
+bool take_given(const Mesh& mesh, std::vector<Vec3f>& n) {
+    if (mesh.corner_normal.empty()) return false;
+    std::atomic<bool> all = true;
+    for_rows(std::int64_t(mesh.corners()), grain, [&](std::int64_t begin, std::int64_t end) {
+        bool every = true;
+        for (auto corner = begin; corner < end; ++corner) {
+            const std::uint32_t i = mesh.corner_normal[corner];
+            if (i != no_index) n[corner] = unit_or_zero(mesh.normals[i]);
+            every = every && n[corner] != Vec3f(0);
+        }
+        if (!every) all = false;
+    });
+    return all;
+}
+
+/// Gives the corners without a normal the mean of the facet normals around their position.
+void add_means(const Mesh& mesh, const std::vector<Triangle>& triangles, std::vector<Vec3f>& n) {
+    const Around around = around_positions(mesh, triangles);
     for_rows(std::int64_t(mesh.positions.size()), grain, [&](std::int64_t begin, std::int64_t end) {
         for (auto p = begin; p < end; ++p) {
+            const auto corner = [&](std::uint32_t s) {
+                return triangles[around.slots[s] / 3].corner[around.slots[s] % 3];
+            };
+            bool missing = false;
+            for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s) missing = missing || n[corner(s)] == Vec3f(0);
+            if (!missing) continue;
             Vec3d sum(0);
             for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s)
                 sum += angle_weighted_normal(mesh, triangles[around.slots[s] / 3], around.slots[s] % 3);
             const Vec3f mean(unit_or_zero(sum));
-            for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s) {
-                const std::uint32_t corner = triangles[around.slots[s] / 3].corner[around.slots[s] % 3];
-                const Vec3f own = given(corner);
-                n[corner] = own != Vec3f(0) ? own : mean;
-            }
+            for (auto s = around.begin[p]; s < around.begin[p + 1]; ++s)
+                if (n[corner(s)] == Vec3f(0)) n[corner(s)] = mean;
         }
     });
-    return n;
 }
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -162,7 +180,10 @@ void average_charts(std::vector<ChartCorner>& corners, const std::vector<Facet>&
 } // namespace
 
 std::vector<Vec3f> corner_normals(const Mesh& mesh, const std::vector<Triangle>& triangles) {
-    return corner_normals(mesh, triangles, around_positions(mesh, triangles));
+    std::vector<Vec3f> n;
+    resize_in_pages(n, mesh.corners(), Vec3f(0));
+    if (!take_given(mesh, n)) add_means(mesh, triangles, n);
+    return n;
 }
 
 MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
@@ -171,6 +192,13 @@ MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
     s.flat = options.flat;
     s.triangles = triangulate(mesh);
     s.n = corner_normals(mesh, s.triangles);
+    if (options.derivatives) add_derivatives(s);
+    return s;
+}
+
+void add_derivatives(MeshSurface& s) {
+    if (s.sigma.size() == s.triangles.size()) return;
+    const Mesh& mesh = *s.mesh;
     s.p_u.assign(mesh.corners(), Vec3f(0));
     s.p_v.assign(mesh.corners(), Vec3f(0));
 
@@ -192,10 +220,10 @@ MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options) {
             average_charts(corners, facets, s);
         }
     });
-    return s;
 }
 
 template <class T> TrianglePatch<T> triangle_patch(const MeshSurface& s, std::uint32_t triangle) noexcept {
+    assert(s.sigma.size() == s.triangles.size());
     TrianglePatch<T> patch{};
     patch.sigma = T(s.sigma[triangle]);
     patch.flat = s.flat;

@@ -6,10 +6,11 @@
 namespace bake {
 
 struct SurfaceOptions {
-    bool flat = false; ///< facet normals and facet tangents; else smooth ones
+    bool flat = false;       ///< facet normals and facet tangents; else smooth ones
+    bool derivatives = true; ///< false: p_u, p_v and sigma are left to add_derivatives()
 };
 
-/// Normal and derivatives per corner. p_u and p_v are averages over the corners with the same position, uv, normal and
+/// Normal and derivatives per corner; the derivatives, which take most of the time and memory, only jets need. p_u and p_v are averages over the corners with the same position, uv, normal and
 /// orientation in uv, weighted by the uv areas of their triangles. The mesh must outlive the surface.
 struct MeshSurface {
     const Mesh* mesh = nullptr;
@@ -21,6 +22,8 @@ struct MeshSurface {
 };
 
 MeshSurface make_mesh_surface(const Mesh& mesh, const SurfaceOptions& options = {});
+/// Computes p_u, p_v and sigma, unless the surface has them already.
+void add_derivatives(MeshSurface& surface);
 
 /// One unit normal per corner: the normal of the mesh if the corner has one, otherwise the mean of the facet normals
 /// around its position, weighted by the angles of the facets; zero if no facet there has area.
@@ -35,6 +38,7 @@ template <class T> struct TrianglePatch {
     T sigma = 0;                        ///< as MeshSurface
     bool flat = false;
 };
+/// The surface must have derivatives.
 template <class T> TrianglePatch<T> triangle_patch(const MeshSurface& surface, std::uint32_t triangle) noexcept;
 
 /// Jet at barycentrics (1 - b1 - b2, b1, b2) of a triangle. n is the interpolated unit normal; p_u and p_v are

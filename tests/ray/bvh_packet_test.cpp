@@ -1,0 +1,124 @@
+// Rays in packets: the same answers as one by one, whatever else is in the packet.
+#include "bake/ray/bvh.h"
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+#include <vector>
+
+using namespace bake;
+
+namespace {
+
+constexpr PacketMask all = 0xffff;
+
+/// Triangles at random in the cube [-1, 1]^3.
+struct Soup {
+    std::vector<Vec3f> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    explicit Soup(int count) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> place(-1, 1), edge(-0.2f, 0.2f);
+        for (std::uint32_t i = 0; i < std::uint32_t(count); ++i) {
+            const Vec3f at(place(random), place(random), place(random));
+            positions.push_back(at);
+            for (int k = 0; k < 2; ++k) positions.push_back(at + Vec3f(edge(random), edge(random), edge(random)));
+            triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+    }
+    Bvh bvh() const {
+        const BvhMesh mesh{positions, triangles, {}, {}};
+        return Bvh(std::span(&mesh, 1));
+    }
+};
+
+std::array<Ray, packet_size> random_rays(std::mt19937& random) {
+    std::uniform_real_distribution<float> place(-1.5f, 1.5f), t(0, 3);
+    std::array<Ray, packet_size> rays;
+    for (Ray& ray : rays) {
+        ray.origin = Vec3f(place(random), place(random), place(random));
+        ray.direction = Vec3f(place(random), place(random), place(random));
+        if (t(random) < 1) ray.t_min = 0.1f * t(random), ray.t_max = t(random);
+    }
+    return rays;
+}
+
+} // namespace
+
+TEST_SUITE("unit") {
+
+    TEST_CASE("bvh packet: rays hit what they hit alone, and only those that take part") {
+        const Soup soup(1500);
+        const Bvh bvh = soup.bvh();
+        std::mt19937 random(7);
+        int hits_seen = 0, hidden_seen = 0;
+        for (int round = 0; round < 500; ++round) {
+            const auto rays = random_rays(random);
+            const PacketMask active = round == 0 ? all : PacketMask(random()) & all;
+            std::array<Hit, packet_size> hits;
+            bvh.intersect(rays, active, hits);
+            const PacketMask hidden = bvh.occluded(rays, active);
+            CHECK((hidden & ~active) == 0);
+            for (int i = 0; i < packet_size; ++i) {
+                const Hit& hit = hits[std::size_t(i)];
+                const Ray& ray = rays[std::size_t(i)];
+                if (!(active >> i & 1)) {
+                    CHECK_FALSE(hit);
+                    continue;
+                }
+                const Hit alone = bvh.intersect(ray);
+                CHECK(hit.mesh == alone.mesh);
+                CHECK(hit.triangle == alone.triangle);
+                CHECK(bool(hidden >> i & 1) == bvh.occluded(ray));
+                if (!alone) continue;
+                CHECK(hit.t == doctest::Approx(alone.t).epsilon(1e-5));
+                CHECK(std::abs(hit.b1 - alone.b1) < 1e-4);
+                CHECK(std::abs(hit.b2 - alone.b2) < 1e-4);
+                ++hits_seen, hidden_seen += bool(hidden >> i & 1);
+            }
+        }
+        CHECK(hits_seen > 1000); // the comparison is one of hits as well
+        CHECK(hidden_seen == hits_seen);
+    }
+
+} // TEST_SUITE
+
+TEST_SUITE("stability") {
+
+    TEST_CASE("bvh packet: rays that Embree cannot process hit nothing, and leave the others as they are") {
+        const Soup soup(400);
+        const Bvh bvh = soup.bvh();
+        const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+        std::mt19937 random(11);
+        for (const Ray& bad :
+             {Ray{Vec3f(nan, 0, 0), Vec3f(0, 0, 1)}, Ray{Vec3f(0), Vec3f(0, inf, 1)}, Ray{Vec3f(0), Vec3f(0)},
+              Ray{Vec3f(1e30f, 0, 0), Vec3f(1, 0, 0)}, Ray{Vec3f(0), Vec3f(0, 0, 1), 2, 1},
+              Ray{Vec3f(0), Vec3f(0, 0, 1), 0, nan}, Ray{Vec3f(0), Vec3f(1e-30f, 0, 0)}}) {
+            auto rays = random_rays(random);
+            std::array<Hit, packet_size> before, after;
+            bvh.intersect(rays, all, before);
+            rays[5] = bad;
+            bvh.intersect(rays, all, after);
+            CHECK_FALSE(after[5]);
+            CHECK((bvh.occluded(rays, all) >> 5 & 1) == 0);
+            for (std::size_t i = 0; i < packet_size; ++i) {
+                if (i != 5) CHECK(after[i].triangle == before[i].triangle);
+            }
+        }
+    }
+
+    TEST_CASE("bvh packet: without meshes, and without rays, nothing is hit") {
+        const Bvh empty{std::span<const BvhMesh>{}};
+        std::mt19937 random(13);
+        const auto rays = random_rays(random);
+        std::array<Hit, packet_size> hits;
+        empty.intersect(rays, all, hits);
+        for (const Hit& hit : hits) CHECK_FALSE(hit);
+        CHECK(empty.occluded(rays, all) == 0);
+        const Bvh bvh = Soup(400).bvh();
+        bvh.intersect(rays, 0, hits);
+        for (const Hit& hit : hits) CHECK_FALSE(hit);
+        CHECK(bvh.occluded(rays, 0) == 0);
+    }
+
+} // TEST_SUITE
