@@ -56,7 +56,8 @@ std::vector<std::string> not_numbers(const std::string& type) {
     else if (type == "A,B,...") {
         fill("0.5,", "");
         std::erase(values, "0.5,1,5"); // three numbers
-    } else if (type == "sh:N|direct") fill("sh:", "");
+    } else if (type == "METRIC") fill("flip=", "");
+    else if (type == "sh:N|direct") fill("sh:", "");
     else if (is_one_of(type, {"N|WxH", "NxM|N"})) values.insert(values.end(), {"1xnan", "1x"});
     else if (type == "LENGTH|N%") values.insert(values.end(), {"nan%", "%"});
     else if (type.find('|') != std::string::npos) return {}; // one of a few names

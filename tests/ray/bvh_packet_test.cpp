@@ -26,7 +26,11 @@ struct Soup {
             triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
     }
-    Bvh bvh() const { return Bvh({{positions, triangles, {}, {}}}); }
+    Bvh bvh() const {
+        std::vector<BvhMesh> meshes(1);
+        meshes[0].positions = positions, meshes[0].triangles = triangles;
+        return Bvh(std::move(meshes));
+    }
 };
 
 std::array<Ray, packet_size> random_rays(std::mt19937& random) {
@@ -105,7 +109,7 @@ TEST_SUITE("stability") {
     }
 
     TEST_CASE("bvh packet: without meshes, and without rays, nothing is hit") {
-        const Bvh empty(std::vector<BvhMesh>{});
+        const Bvh empty{std::vector<BvhMesh>{}};
         std::mt19937 random(13);
         const auto rays = random_rays(random);
         std::array<Hit, packet_size> hits;

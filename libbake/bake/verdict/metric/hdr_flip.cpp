@@ -17,10 +17,11 @@ double exposed_at_limit() noexcept {
     return (-q + std::sqrt(q * q - 4 * p * r)) / (2 * p) / scale;
 }
 
-/// Of a sorted list; between its two middle values if they are two.
-double median(const std::vector<double>& sorted) {
-    const std::size_t n = sorted.size();
-    return n % 2 == 1 ? sorted[n / 2] : (sorted[n / 2 - 1] + sorted[n / 2]) / 2;
+/// Between the two middle values if they are two. Reorders the values.
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return values.size() % 2 == 1 ? *middle : (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
 Image<float> toned(const Image<float>& picture, double exposure) {
@@ -50,15 +51,16 @@ ExposureRange exposure_range(const Image<float>& reference) {
         const float* p = reference.data() + i;
         luminance.push_back(std::max(0.0, 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]));
     }
-    std::sort(luminance.begin(), luminance.end());
-    if (luminance.empty() || luminance.back() == 0) return {};
+    if (luminance.empty()) return {};
+    const double brightest = *std::max_element(luminance.begin(), luminance.end());
+    if (brightest == 0) return {};
     double middle = median(luminance);
     if (middle == 0) {
-        luminance.erase(luminance.begin(), std::upper_bound(luminance.begin(), luminance.end(), 0.0));
+        std::erase(luminance, 0.0);
         middle = median(luminance);
     }
     const double limit = std::log2(exposed_at_limit());
-    ExposureRange range{limit - std::log2(luminance.back()), limit - std::log2(middle)};
+    ExposureRange range{limit - std::log2(brightest), limit - std::log2(middle)};
     range.count = std::max(2, int(std::ceil(range.stop - range.start)));
     return range;
 }

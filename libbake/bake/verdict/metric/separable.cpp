@@ -5,9 +5,17 @@
 namespace bake {
 namespace {
 
-/// out[x] += weight in[x], which vectorises.
-template <class T> void add(T* out, const T* in, T weight, int width) noexcept {
-    for (int x = 0; x < width; ++x) out[x] += weight * in[x];
+/// out[x] = sum over k of weights[k] in[k * stride + x], which vectorises along x. Two weights at a time, because each pass
+/// loads and stores the sums.
+template <class T>
+void weighted_sum(T* out, const T* in, std::ptrdiff_t stride, const std::vector<double>& weights, int width) noexcept {
+    const T first = T(weights[0]);
+    for (int x = 0; x < width; ++x) out[x] = first * in[x];
+    for (std::size_t k = 1; k + 1 < weights.size(); k += 2) {
+        const T w = T(weights[k]), v = T(weights[k + 1]);
+        const T *a = in + std::ptrdiff_t(k) * stride, *b = a + stride;
+        for (int x = 0; x < width; ++x) out[x] += w * a[x] + v * b[x];
+    }
 }
 
 } // namespace
@@ -24,8 +32,7 @@ template <class T> Rows<T> along_rows(const Rows<T>& in, const std::vector<doubl
     const int radius = int(weights.size()) / 2;
     assert(in.pad() >= radius);
     Rows<T> out(in.width(), in.count());
-    for (int i = 0; i < in.count(); ++i)
-        for (int k = 0; k <= 2 * radius; ++k) add(out[i], in[i] + k - radius, T(weights[k]), in.width());
+    for (int i = 0; i < in.count(); ++i) weighted_sum(out[i], in[i] - radius, 1, weights, in.width());
     return out;
 }
 
@@ -33,8 +40,8 @@ template <class T> Rows<T> along_columns(const Rows<T>& in, const std::vector<do
     const int radius = int(weights.size()) / 2;
     assert(margin >= radius && in.count() > 2 * margin);
     Rows<T> out(in.width(), in.count() - 2 * margin);
-    for (int i = 0; i < out.count(); ++i)
-        for (int k = 0; k <= 2 * radius; ++k) add(out[i], in[i + margin + k - radius], T(weights[k]), in.width());
+    const std::ptrdiff_t stride = in.width() + 2 * in.pad();
+    for (int i = 0; i < out.count(); ++i) weighted_sum(out[i], in[i + margin - radius], stride, weights, in.width());
     return out;
 }
 
