@@ -140,7 +140,9 @@ TEST_SUITE("oracle") {
         for (const Filter filter : all_filters) {
             CAPTURE(std::string(name(filter)));
             int exact = 0;
-            for (int degree = 1; degree <= largest_degree; ++degree) {
+            // A spline is right for the fourth degree as well, by a coincidence of its errors that no border keeps.
+            const int last = stencil(filter).spline ? 3 : largest_degree;
+            for (int degree = 1; degree <= last; ++degree) {
                 CAPTURE(degree);
                 const double middle = 0.5 * (n - 1), scale = 1 / middle;
                 const auto found =
