@@ -61,6 +61,11 @@ bool set_limits(const RunLimits& limits) {
 
 bool may_simulate_group() {
     if (geteuid() != 0) return false;
+    // Without a mounted control group the command does not look for a limit.
+    std::ifstream mounts("/proc/self/mountinfo");
+    const std::string all{std::istreambuf_iterator<char>(mounts), {}};
+    if (all.find(std::string(" ") + group_folder()) == std::string::npos || all.find(" - cgroup") == std::string::npos)
+        return false;
     // Only trying tells: a container can lack the right, and in a changed root the root need not be a mount.
     const pid_t child = fork();
     if (child == 0) _exit(simulate_group(1 << 30) ? 0 : 1);
