@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 #include <fcntl.h>
+#include <fstream>
 #include <sched.h>
 #include <sstream>
 #include <sys/mount.h>
