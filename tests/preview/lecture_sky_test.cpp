@@ -11,13 +11,6 @@ using namespace bake::test;
 
 namespace {
 
-Material mirror() {
-    Material material;
-    material.reflectance.ambient = material.reflectance.diffuse = Vec3f(0);
-    material.reflect = Vec3f(1);
-    return material;
-}
-
 /// A sky whose radiance is a smooth function of the world direction.
 double smooth_sky(const Vec3d& d) { return 1 + 0.4 * d.x + 0.3 * d.y - 0.2 * d.z + 0.25 * d.x * d.y; }
 

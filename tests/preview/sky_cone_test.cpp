@@ -9,13 +9,6 @@ using namespace bake::test;
 
 namespace {
 
-Material mirror() {
-    Material material;
-    material.reflectance.ambient = material.reflectance.diffuse = Vec3f(0);
-    material.reflect = Vec3f(1);
-    return material;
-}
-
 /// Squares of two texels, bright or dark, brighter towards the zenith.
 Cube checker(int size) {
     Cube cube = sky_of(size, [](const Vec3d& d) { return 1 + 0.5 * d.y; });

@@ -1,6 +1,7 @@
-// Skies for tests: cubes of a radiance that is given by a formula.
+// Skies for tests: cubes of a radiance that is given by a formula, and a material that shows them.
 #pragma once
 #include "bake/environment/sky/cube.h"
+#include "bake/preview/material.h"
 
 namespace bake::test {
 
@@ -15,6 +16,14 @@ template <class Radiance> Cube sky_of(int size, const Radiance& radiance) {
                 for (int c = 0; c < 3; ++c) cube[face].at(x, y, c) = float(value);
             }
     return cube;
+}
+
+/// Reflects everything, and nothing diffusely.
+inline Material mirror() {
+    Material material;
+    material.reflectance.ambient = material.reflectance.diffuse = Vec3f(0);
+    material.reflect = Vec3f(1);
+    return material;
 }
 
 } // namespace bake::test

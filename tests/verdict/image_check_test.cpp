@@ -1,11 +1,13 @@
 #include "bake/base/vec.h"
 #include "bake/relief/map/error_budget.h"
 #include "bake/verdict/image_check.h"
+#include "verdict/metric/pictures.h"
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
 
 using namespace bake;
+using bake::test::picture;
 
 namespace {
 
@@ -17,14 +19,6 @@ ImageInfo info_of(SampleType type, int bits, std::vector<std::string> channels, 
     info.bits = bits;
     info.alpha_channel = alpha;
     return info;
-}
-
-template <class Value> Image<float> picture(int width, int height, int channels, const Value& value) {
-    Image<float> image(width, height, channels);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int c = 0; c < channels; ++c) image.at(x, y, c) = float(value(x, y, c));
-    return image;
 }
 
 const std::vector<std::string> grey1 = {"Y"}, rgb = {"R", "G", "B"};
