@@ -59,7 +59,7 @@ struct PrimaryHit {
 ///   emission + ambient A + sum over visible lights (see evaluate()) + light of the sky + reflect * radiance of the mirror ray.
 /// Surfaces are two-sided: seen from behind, normals are flipped towards the viewer. What happens to normals that relief
 /// tilts away, settings.terminator says; mirror rays stay above the facet (mirror_above()). `results` are new, except that
-/// PrimaryHit::first.terms may be set; without `details`, of first hits only `hit`, `lit` and `repaired` are told. Primary rays and the shadow rays of a light are traced as packets, so that a radiance is
+/// PrimaryHit::first.terms may be set; without `details`, of first hits only `hit` and `repaired` are told. Primary rays and the shadow rays of a light are traced as packets, so that a radiance is
 /// the same to the last bit only among the same rays.
 void trace(const Scene& scene, std::span<PrimaryRay, packet_size> rays, PacketMask active, int bounces, bool details,
            std::span<PrimaryHit, packet_size> results) noexcept;
