@@ -4,10 +4,11 @@ namespace bake {
 namespace {
 
 /// `is_inside` says of a surfel whose normals point outward whether it is seen from inside. `is_hit`: a ray has hit
-/// the point, so that the viewer is in front of the facet.
+/// the point, so that the viewer is in front of the facet. Inlined, so that hits take the time that they took by themselves.
 template <bool is_hit, class IsInside>
-Surfel prepared(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone,
-                const Material& material, const IsInside& is_inside) noexcept {
+[[gnu::always_inline]] inline Surfel prepared(const Scene& scene, const Hit& hit, const Vec3f& direction,
+                                              const RayCone& cone, const Material& material,
+                                              const IsInside& is_inside) noexcept {
     const Instance& instance = scene.instances[hit.mesh];
     const Shape& shape = *instance.shape;
     const ShapePoint where{hit.triangle, hit.b1, hit.b2};

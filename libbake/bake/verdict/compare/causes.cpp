@@ -19,22 +19,14 @@ struct Errors {
     }
 };
 
-int blocks_along(int pixels) noexcept { return (pixels + block_edge - 1) / block_edge; }
-
-/// The blocks that are rendered, from left to right in every row. The choice is random, so that regular patterns of a
-/// texture are met as often as they occur.
-std::vector<PixelBlock> chosen_blocks(const RenderSettings& settings, int stride) {
-    const int columns = blocks_along(settings.width), rows = blocks_along(settings.height);
-    std::vector<PixelBlock> blocks;
-    for (int y = 0; y < rows; y += stride)
-        for (int x = 0; x < columns; x += stride) {
-            const std::uint64_t random = hash(std::uint64_t(y) << 32 | std::uint64_t(x));
-            const int column = x + int(random % std::uint64_t(stride)),
-                      row = y + int((random >> 32) % std::uint64_t(stride));
-            if (column < columns && row < rows)
-                blocks.push_back(block_at(column * block_edge, row * block_edge, settings.width, settings.height));
-        }
-    return blocks;
+/// From left to right in every row.
+std::vector<PixelGroup> pixel_groups(const RenderSettings& settings, int stride) {
+    const int edge = block_edge * stride;
+    std::vector<PixelGroup> groups;
+    for (int y = 0; y < settings.height; y += edge)
+        for (int x = 0; x < settings.width; x += edge)
+            groups.push_back(pixel_group(settings, x / stride, y / stride, stride));
+    return groups;
 }
 
 } // namespace
@@ -52,14 +44,14 @@ std::array<double, cause_count> shapley_values(const std::array<double, 1u << ca
 
 CauseShares cause_shares(const CauseScenes& scenes, const CauseOptions& options, Progress* progress) {
     const HybridTracer tracer(scenes, options.settings);
-    const std::vector<PixelBlock> blocks = chosen_blocks(options.settings, std::max(1, options.stride));
-    std::vector<Errors> parts(blocks.size());
-    if (progress) progress->start("causes", std::int64_t(blocks.size()));
+    const std::vector<PixelGroup> groups = pixel_groups(options.settings, std::max(1, options.stride));
+    std::vector<Errors> parts(groups.size());
+    if (progress) progress->start("causes", std::int64_t(groups.size()));
     for_rows(
-        std::int64_t(blocks.size()), 1,
+        std::int64_t(groups.size()), 1,
         [&](std::int64_t begin, std::int64_t end) {
             for (auto i = begin; i < end; ++i)
-                for (const HybridSums& pixel : tracer.block(blocks[std::size_t(i)]))
+                for (const HybridSums& pixel : tracer.sums(groups[std::size_t(i)]))
                     if (pixel.object) parts[std::size_t(i)].add(pixel);
         },
         progress);

@@ -16,8 +16,8 @@ struct CauseOptions {
     RenderSettings
         settings;       ///< of the picture: its size, samples per pixel (rounded up to an even number), seed, bounces
     float exposure = 0; ///< in stops: squared errors are of radiance times 2^exposure
-    /// One block of 4 x 4 pixels is rendered of every stride x stride, at a place that varies; 1: the whole picture. Pixels and
-    /// what they filter are those of the picture.
+    /// One pixel of every stride x stride is rendered, see pixel_group(); 1: the whole picture. What a pixel shows and filters
+    /// is as in the picture.
     int stride = 1;
 };
 

@@ -1,6 +1,7 @@
 #include "bake/verdict/compare/hybrids.h"
 #include "bake/base/parallel.h"
 #include <bit>
+#include <cassert>
 
 namespace bake {
 namespace {
@@ -27,6 +28,19 @@ const char* name(Cause cause) noexcept {
     return names[int(cause)];
 }
 
+PixelGroup pixel_group(const RenderSettings& settings, int column, int row, int stride) noexcept {
+    PixelGroup group;
+    for (int lane = 0; lane < packet_size; ++lane) {
+        const int i = column + lane % block_edge, j = row + lane / block_edge;
+        const std::uint64_t random = hash(std::uint64_t(j) << 32 | std::uint64_t(i));
+        const int x = i * stride + int(random % std::uint64_t(stride));
+        const int y = j * stride + int((random >> 32) % std::uint64_t(stride));
+        group.x[std::size_t(lane)] = x, group.y[std::size_t(lane)] = y;
+        group.inside |= PacketMask(x < settings.width && y < settings.height) << lane;
+    }
+    return group;
+}
+
 /// A primary ray in both scenes.
 struct HybridTracer::Sample {
     PrimaryRay ray; ///< relative to the origin of the reference
@@ -47,6 +61,7 @@ HybridTracer::HybridTracer(const CauseScenes& scenes, const RenderSettings& sett
       to_method_(reference_.origin - method_.origin), is_object_(reference_.instances.size(), false),
       to_reference_(is_object_.size(), nullptr), to_method_points_(is_object_.size(), nullptr) {
     settings_.spp = std::max(2, settings_.spp + settings_.spp % 2);
+    assert(method_.instances.size() == reference_.instances.size());
     const Scene& method_base = scenes.method_base ? *scenes.method_base : method_;
     const Scene& reference_base = scenes.reference_base ? *scenes.reference_base : reference_;
     for (std::size_t i = 0; i < method_.instances.size(); ++i) {
@@ -129,7 +144,7 @@ HybridTracer::Values HybridTracer::values(const Sample& sample) const noexcept {
     return values;
 }
 
-std::vector<HybridTracer::Sample> HybridTracer::trace_block(const PixelBlock& block) const {
+std::vector<HybridTracer::Sample> HybridTracer::trace_group(const PixelGroup& group) const {
     const std::uint32_t seeds[2] = {settings_.seed, second_seed(settings_.seed)};
     std::vector<Sample> samples(std::size_t(settings_.spp) * packet_size);
     for (int i = 0; i < settings_.spp; ++i) {
@@ -138,28 +153,28 @@ std::vector<HybridTracer::Sample> HybridTracer::trace_block(const PixelBlock& bl
         std::array<Hit, packet_size> method, reference;
         for (int lane = 0; lane < packet_size; ++lane) {
             PrimaryRay& ray = lanes[std::size_t(lane)].ray;
-            const int x = block.column(lane), y = block.row(lane);
-            ray.sampler = Sampler(x, y + block.sampler_row, i / 2, seeds[i % 2]);
+            const int x = group.x[std::size_t(lane)], y = group.y[std::size_t(lane)];
+            ray.sampler = Sampler(x, y, i / 2, seeds[i % 2]);
             set_camera_ray(frame_, settings_, Vec2d(x, y) + pixel_sample(settings_.spp, ray.sampler), ray);
             by_method[std::size_t(lane)] = by_reference[std::size_t(lane)] = ray.ray;
             by_method[std::size_t(lane)].origin += to_method_;
         }
-        method_.bvh->intersect(by_method, block.inside, method);
-        reference_.bvh->intersect(by_reference, block.inside, reference);
+        method_.bvh->intersect(by_method, group.inside, method);
+        reference_.bvh->intersect(by_reference, group.inside, reference);
         for (std::size_t lane = 0; lane < packet_size; ++lane)
             lanes[lane].method = method[lane], lanes[lane].reference = reference[lane];
     }
     return samples;
 }
 
-std::array<HybridSums, packet_size> HybridTracer::block(const PixelBlock& block, bool object_only) const {
+std::array<HybridSums, packet_size> HybridTracer::sums(const PixelGroup& group, bool object_only) const {
     std::array<HybridSums, packet_size> pixels;
-    const std::vector<Sample> samples = trace_block(block);
+    const std::vector<Sample> samples = trace_group(group);
     for (std::size_t i = 0; i < samples.size(); ++i)
         pixels[i % packet_size].object |= is_object(samples[i].method) || is_object(samples[i].reference);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const std::size_t lane = i % packet_size;
-        if (!(block.inside >> lane & 1) || (object_only && !pixels[lane].object)) continue;
+        if (!(group.inside >> lane & 1) || (object_only && !pixels[lane].object)) continue;
         const Values radiance = values(samples[i]);
         auto& sums = pixels[lane].half[i / packet_size % 2];
         for (std::size_t on = 0; on < radiance.size(); ++on)
@@ -174,13 +189,13 @@ Image<float> render_hybrid(const HybridTracer& tracer, const RenderSettings& set
     for_rows((settings.height + block_edge - 1) / block_edge, 1, [&](std::int64_t begin, std::int64_t end) {
         for (auto row = begin; row < end; ++row)
             for (int x = 0; x < settings.width; x += block_edge) {
-                const PixelBlock block = block_at(x, int(row) * block_edge, settings.width, settings.height);
-                const auto pixels = tracer.block(block, false);
-                for (PacketMask left = block.inside; left != 0; left &= left - 1) {
-                    const int lane = std::countr_zero(left);
-                    const auto& half = pixels[std::size_t(lane)].half;
+                const PixelGroup group = pixel_group(settings, x, int(row) * block_edge, 1);
+                const auto pixels = tracer.sums(group, false);
+                for (PacketMask left = group.inside; left != 0; left &= left - 1) {
+                    const auto lane = std::size_t(std::countr_zero(left));
+                    const auto& half = pixels[lane].half;
                     const Vec3d mean = (half[0][on] + half[1][on]) / samples;
-                    for (int c = 0; c < 3; ++c) (&picture.at(block.column(lane), block.row(lane)))[c] = float(mean[c]);
+                    for (int c = 0; c < 3; ++c) (&picture.at(group.x[lane], group.y[lane]))[c] = float(mean[c]);
                 }
             }
     });

@@ -48,15 +48,25 @@ struct HybridSums {
     bool object = false; ///< some sample sees the object, in one of the two scenes at least
 };
 
+/// Pixels whose samples are traced together.
+struct PixelGroup {
+    std::array<int, packet_size> x{}, y{};
+    PacketMask inside = 0; ///< those that are in the picture
+};
+/// Of a picture that is cut into squares of stride x stride pixels, one pixel of each: a group has those of 4 x 4 squares,
+/// from the square (column, row) on. The place in a square varies, so that regular patterns are met as often as they
+/// occur. With a stride of 1 a group is the block of the picture.
+PixelGroup pixel_group(const RenderSettings& settings, int column, int row, int stride) noexcept;
+
 /// Renders all hybrids at once with common random numbers: a sample's primary rays are traced once in each scene.
 class HybridTracer {
 public:
     /// The camera is the reference's. Throws the errors of TwinPoints.
     HybridTracer(const CauseScenes& scenes, const RenderSettings& settings);
 
-    /// The sums of settings.spp samples (rounded up to an even number) of every pixel of a block, those of
+    /// The sums of settings.spp samples (rounded up to an even number) of every pixel of a group, those of
     /// render_halves(). With `object_only`, pixels that do not see the object are left at 0. Called from any thread.
-    std::array<HybridSums, packet_size> block(const PixelBlock& block, bool object_only = true) const;
+    std::array<HybridSums, packet_size> sums(const PixelGroup& group, bool object_only = true) const;
     int samples_per_half() const noexcept { return settings_.spp / 2; }
 
 private:
@@ -65,7 +75,7 @@ private:
     using Values = std::array<Vec3f, 1u << cause_count>;
 
     bool is_object(const Hit& hit) const noexcept { return hit && is_object_[hit.mesh]; }
-    std::vector<Sample> trace_block(const PixelBlock& block) const;
+    std::vector<Sample> trace_group(const PixelGroup& group) const;
     Hit twin(const Hit& hit, bool to_reference) const noexcept;
     Vec3f seen(const Scene& scene, const Hit& hit, const PrimaryRay& ray) const noexcept;
     void shade_points(const Points& points, bool parallax, const Sample& sample, Values& values) const noexcept;

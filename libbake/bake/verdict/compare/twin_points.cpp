@@ -53,7 +53,7 @@ SceneEntries without_heights(SceneEntries entries) {
     for (MeshEntry& mesh : entries.meshes) mesh.lights = false;
     entries.sky = {}, entries.labels = false;
     entries.ground.reset();
-    entries.settings.sky_light = SkyLighting::off;
+    entries.settings.sky_light = SkyLighting::off, entries.settings.filter = TextureFilter::off;
     return entries;
 }
 
