@@ -80,6 +80,20 @@ TEST_SUITE("oracle") {
         CHECK(share_of(shares, Cause::parallax) == doctest::Approx(1).epsilon(1e-6));
     }
 
+    TEST_CASE("causes: mirror rays start on the surface of the scene that they see") {
+        Material mirror;
+        mirror.reflectance.diffuse = Vec3f(0), mirror.reflect = Vec3f(1);
+        const HeightTexture dent = height_of(8, [](double, double) { return -0.3; });
+        const ReliefPair pair(plane_mesh(2), mirror, dent, "exact", "displace:2", [](Scene& scene) {
+            from_above(Vec3f(0, 0, 1))(scene);
+            scene.sky.cube = constant_cube(Vec3f(0.5f));
+        });
+        const CauseShares shares = pair.shares(small_picture(8));
+        REQUIRE(shares.pixels == 64);
+        CHECK(std::abs(shares.total) < 1e-12);
+        for (const double alone : shares.alone) CHECK(std::abs(alone) < 1e-12);
+    }
+
     TEST_CASE("causes: what glows alike everywhere differs by its silhouette alone") {
         Material glow;
         glow.reflectance.emission = Vec3f(0.5f);
@@ -136,6 +150,18 @@ TEST_SUITE("oracle") {
         const CauseShares shares = pair.shares(small_picture(48, 2));
         CHECK(shares.total > 1e-4);
         CHECK(share_of(shares, Cause::filtering) == doctest::Approx(1).epsilon(1e-6));
+    }
+
+    TEST_CASE("causes: a highlight that is widened in place of slopes is shared by normal and filtering") {
+        Material shiny;
+        shiny.reflectance.specular = Vec3f(0.5f), shiny.reflectance.shininess = 60;
+        ReliefPair pair(plane_mesh(2), shiny, eggs(0.02, 2), "displace:8", "displace:8",
+                        from_above(Vec3f(0.2f, 0.1f, 1)));
+        pair.method.materials[0]->reflectance.shininess = 10;
+        const CauseShares shares = pair.shares(small_picture());
+        CHECK(shares.total > 1e-4);
+        CHECK(share_of(shares, Cause::normal) == doctest::Approx(0.5).epsilon(1e-6));
+        CHECK(share_of(shares, Cause::filtering) == doctest::Approx(0.5).epsilon(1e-6));
     }
 
     TEST_CASE("causes: hybrids with all and with no causes are the pictures of the reference and of the method") {

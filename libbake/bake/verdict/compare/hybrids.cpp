@@ -104,7 +104,6 @@ void HybridTracer::shade_points(const Points& at, bool parallax, const Sample& s
         Surfel s = normal ? at.displaced : filtering ? at.unfiltered : at.shown;
         const Surfel& looked_up = filtering ? at.displaced : normal ? at.unwidened : at.shown;
         s.bsdf = looked_up.bsdf, s.occlusion = looked_up.occlusion, s.cone = looked_up.cone;
-        s.variance = normal || filtering ? 0 : at.shown.variance;
         const Surfel& from = further ? at.displaced : at.shown;
         s.light_at = from.light_at, s.facet = from.facet;
         const HitPoint& hit = (parallax ? at.displaced : at.shown).at;
