@@ -5,22 +5,12 @@
 #include "folders.h"
 #include "verdict/compare/relief_pair.h"
 #include <doctest/doctest.h>
-#include <map>
 #include <random>
 
 using namespace bake;
 using namespace bake::test;
 
 namespace {
-
-double share_of(const CauseShares& shares, Cause cause) { return shares.shares()[std::size_t(cause)] / shares.total; }
-
-/// Mean squared difference over the object's pixels, by the pictures of the tracer.
-double picture_error(const ReliefPair& pair, const CauseOptions& options, std::int64_t pixels) {
-    const double whole = mean_square_difference(render_halves(pair.method, options.settings),
-                                                render_halves(pair.reference, options.settings));
-    return whole * options.settings.width * options.settings.height / double(pixels);
-}
 
 Texture stripes(int count) {
     return texture(64, 64, 3, [=](float u, float, float* rgb) {
@@ -78,20 +68,6 @@ TEST_SUITE("oracle") {
         const CauseShares shares = lit.shares(small_picture());
         CHECK(shares.total > 1e-3);
         CHECK(share_of(shares, Cause::parallax) == doctest::Approx(1).epsilon(1e-6));
-    }
-
-    TEST_CASE("causes: mirror rays start on the surface of the scene that they see") {
-        Material mirror;
-        mirror.reflectance.diffuse = Vec3f(0), mirror.reflect = Vec3f(1);
-        const HeightTexture dent = height_of(8, [](double, double) { return -0.3; });
-        const ReliefPair pair(plane_mesh(2), mirror, dent, "exact", "displace:2", [](Scene& scene) {
-            from_above(Vec3f(0, 0, 1))(scene);
-            scene.sky.cube = constant_cube(Vec3f(0.5f));
-        });
-        const CauseShares shares = pair.shares(small_picture(8));
-        REQUIRE(shares.pixels == 64);
-        CHECK(std::abs(shares.total) < 1e-12);
-        for (const double alone : shares.alone) CHECK(std::abs(alone) < 1e-12);
     }
 
     TEST_CASE("causes: what glows alike everywhere differs by its silhouette alone") {
@@ -152,46 +128,6 @@ TEST_SUITE("oracle") {
         CHECK(share_of(shares, Cause::filtering) == doctest::Approx(1).epsilon(1e-6));
     }
 
-    TEST_CASE("causes: a highlight that is widened in place of slopes is shared by normal and filtering") {
-        Material shiny;
-        shiny.reflectance.specular = Vec3f(0.5f), shiny.reflectance.shininess = 60;
-        ReliefPair pair(plane_mesh(2), shiny, eggs(0.02, 2), "displace:8", "displace:8",
-                        from_above(Vec3f(0.2f, 0.1f, 1)));
-        pair.method.materials[0]->reflectance.shininess = 10;
-        const CauseShares shares = pair.shares(small_picture());
-        CHECK(shares.total > 1e-4);
-        CHECK(share_of(shares, Cause::normal) == doctest::Approx(0.5).epsilon(1e-6));
-        CHECK(share_of(shares, Cause::filtering) == doctest::Approx(0.5).epsilon(1e-6));
-    }
-
-    TEST_CASE("causes: hybrids with all and with no causes are the pictures of the reference and of the method") {
-        Material shiny;
-        shiny.reflectance.specular = Vec3f(0.4f), shiny.reflectance.shininess = 40;
-        shiny.reflect = Vec3f(0.2f);
-        const ReliefPair pair(sphere_mesh(24, 12), shiny, eggs(0.15, 3), "bump", "displace:8", [](Scene& scene) {
-            scene.lights = {directional(Vec3f(1, 2, 3))};
-            scene.sky.cube = constant_cube(Vec3f(0.3f, 0.4f, 0.5f));
-        });
-        const RenderSettings settings = small_picture(24, 4).settings;
-        const HybridTracer tracer(pair.scenes(), settings);
-        const auto mean_difference = [&](const Scene& scene, CauseSet on) {
-            const Image<float> hybrid = render_hybrid(tracer, settings, on);
-            const Halves halves = render_halves(scene, settings);
-            double sum = 0;
-            for (std::size_t i = 0; i < hybrid.size(); ++i)
-                sum += std::abs(hybrid.data()[i] - 0.5 * (double(halves.a.data()[i]) + halves.b.data()[i]));
-            return sum / double(hybrid.size());
-        };
-        // Packets may decide between equally near triangles otherwise than single rays.
-        CHECK(mean_difference(pair.method, 0) < 1e-5);
-        CHECK(mean_difference(pair.reference, all_causes) < 1e-5);
-        CHECK(mean_difference(pair.reference, 0) > 0.01);
-        const CauseShares shares = pair.shares({.settings = settings});
-        CHECK(shares.total ==
-              doctest::Approx(picture_error(pair, {.settings = settings}, shares.pixels)).epsilon(1e-3));
-        CHECK(sum(shares) == doctest::Approx(shares.total).epsilon(1e-12));
-    }
-
 } // TEST_SUITE
 
 TEST_SUITE("unit") {
@@ -231,28 +167,6 @@ TEST_SUITE("unit") {
         CHECK(brighter.total == doctest::Approx(4 * many.total).epsilon(1e-9));
         CHECK(double(part.pixels) == doctest::Approx(0.25 * double(many.pixels)).epsilon(0.1));
         CHECK(part.total == doctest::Approx(brighter.total).epsilon(0.15));
-    }
-
-    TEST_CASE("causes: groups have one pixel of every square of the stride, and none beyond the picture") {
-        const RenderSettings settings = [] {
-            RenderSettings odd;
-            odd.width = 21, odd.height = 14;
-            return odd;
-        }();
-        for (const int stride : {1, 2, 3}) {
-            std::map<std::pair<int, int>, int> in_square;
-            for (int y = 0; y * stride < settings.height; y += block_edge)
-                for (int x = 0; x * stride < settings.width; x += block_edge) {
-                    const PixelGroup group = pixel_group(settings, x, y, stride);
-                    for (std::size_t lane = 0; lane < packet_size; ++lane) {
-                        const int column = group.x[lane], row = group.y[lane];
-                        CHECK((group.inside >> lane & 1) == (column < settings.width && row < settings.height));
-                        ++in_square[{column / stride, row / stride}];
-                    }
-                }
-            for (const auto& square : in_square) CHECK(square.second == 1);
-            CHECK(int(in_square.size()) * stride * stride >= settings.width * settings.height);
-        }
     }
 
     TEST_CASE("causes: loaded scenes of a smooth shape, with a method that displaces itself") {

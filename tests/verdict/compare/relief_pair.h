@@ -72,6 +72,17 @@ inline std::function<void(Scene&)> from_above(const Vec3f& sun, bool shadows = t
     };
 }
 
+inline double share_of(const CauseShares& shares, Cause cause) {
+    return shares.shares()[std::size_t(cause)] / shares.total;
+}
+
+/// Mean squared difference over the object's pixels, by the pictures of the tracer.
+inline double picture_error(const ReliefPair& pair, const CauseOptions& options, std::int64_t pixels) {
+    const double whole = mean_square_difference(render_halves(pair.method, options.settings),
+                                                render_halves(pair.reference, options.settings));
+    return whole * options.settings.width * options.settings.height / double(pixels);
+}
+
 inline double sum(const CauseShares& shares) {
     double all = 0;
     for (const double share : shares.shares()) all += share;
