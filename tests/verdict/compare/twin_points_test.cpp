@@ -1,4 +1,5 @@
 #include "bake/base/error.h"
+#include "bake/preview/shape_mesh.h"
 #include "bake/verdict/compare/twin_points.h"
 #include "verdict/compare/relief_pair.h"
 #include <doctest/doctest.h>
@@ -59,6 +60,14 @@ TEST_SUITE("oracle") {
             worst = std::max(worst, glm::length(Vec3d(q) - Vec3d(p.x, p.y, b)));
         }
         CHECK(worst < 2e-3); // chords of facets 1/64 wide: (2 pi / 64)^2 / 8 * 0.2 * 2
+    }
+
+    TEST_CASE("twin points: in a cube whose sides are sunk, points near an edge stay on their side") {
+        const HeightTexture dent = height_of(8, [](double, double) { return -0.3; });
+        const ReliefPair pair(shape_mesh("cube:a=2", 4, 4), {}, dent, "bump", "displace:4", [](Scene&) {});
+        const TwinShape base = shown(pair.method, pair.method_base), sunk = shown(pair.reference, pair.reference_base);
+        CHECK(worst_uv(base, sunk) < 1e-6);
+        CHECK(worst_uv(sunk, base) < 1e-6);
     }
 
     TEST_CASE("twin points: a quad that is not plane and split along its other diagonal keeps the parameters") {
