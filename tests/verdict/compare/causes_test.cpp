@@ -1,7 +1,7 @@
 // The shares of the error by cause, in scenes where all but one cause are known to be absent.
 #include "bake/base/parallel.h"
 #include "bake/preview/shape_mesh.h"
-#include "bake/verdict/compare/causes.h"
+#include "bake/verdict/compare/method_causes.h"
 #include "folders.h"
 #include "verdict/compare/relief_pair.h"
 #include <doctest/doctest.h>
@@ -83,6 +83,19 @@ TEST_SUITE("oracle") {
         CHECK(std::abs(shares.interaction) < 1e-12);
     }
 
+    TEST_CASE("causes: what is brighter than white counts as white") {
+        Material glow;
+        glow.reflectance.emission = Vec3f(3);
+        const ReliefPair pair(sphere_mesh(24, 12), glow, eggs(0.25, 3), "bump", "displace:8", [](Scene&) {});
+        CauseOptions options = small_picture(32, 8);
+        const CauseShares shares = pair.shares(options);
+        CHECK(shares.total / picture_error(pair, options, shares.pixels) == doctest::Approx(1).epsilon(1e-5));
+        options.exposure = 2;
+        const CauseShares bright = pair.shares(options);
+        CHECK(bright.total > shares.total); // partly covered pixels are white too
+        CHECK(bright.total < 2 * shares.total);
+    }
+
     TEST_CASE("causes: a plane that fills the picture and is raised has parallax alone") {
         Material striped;
         striped.albedo = stripes(8);
@@ -156,48 +169,42 @@ TEST_SUITE("unit") {
                               [](Scene& scene) { scene.lights = {directional(Vec3f(3, 1, 1))}; });
         CauseOptions options = small_picture(64, 2);
         const CauseShares many = pair.shares(options);
-        options.exposure = 1;
-        const CauseShares brighter = pair.shares(options);
+        options.exposure = -1;
+        const CauseShares darker = pair.shares(options);
         options.stride = 2;
         const CauseShares part = pair.shares(options);
         options.exposure = 0, options.stride = 1;
         const ThreadLimit one(1);
         const CauseShares single = pair.shares(options);
         CHECK(single.shares() == many.shares());
-        CHECK(brighter.total / many.total == doctest::Approx(4).epsilon(1e-9));
+        CHECK(darker.total / many.total == doctest::Approx(0.25).epsilon(1e-9));
         CHECK(double(part.pixels) == doctest::Approx(0.25 * double(many.pixels)).epsilon(0.1));
-        CHECK(part.total / brighter.total == doctest::Approx(1).epsilon(0.1));
+        CHECK(part.total / darker.total == doctest::Approx(1).epsilon(0.1));
     }
 
-    TEST_CASE("causes: loaded scenes of a smooth shape, with a method that displaces itself") {
+    TEST_CASE("causes: methods of a compared scene, one of which displaces") {
         SceneEntries entries;
         entries.settings = small_picture(24, 2).settings;
-        entries.settings.filter = TextureFilter::off;
-        entries.cameras.emplace_back().position = Vec3f(0, 1, 4);
         entries.lights = {directional(Vec3f(2, 1, 1))}, entries.any_light = true;
-        entries.ground.emplace().height = -1.5f;
+        entries.ground.emplace();
         MaterialEntry& bricks = entries.materials.emplace_back();
         bricks.relief.file = (own_meshes() / "bricks.png").string();
         bricks.relief.amplitude = 0.2f;
         MeshEntry& sphere = entries.meshes.emplace_back();
         sphere.shape = "sphere:R=1", sphere.columns = 24, sphere.rows = 12, sphere.material = 0;
-        const auto loaded = [&](const char* word, bool flat) {
-            bricks.relief.shade = parse_shade(word);
-            return load(flat ? without_heights(entries) : entries);
+        const ComparedScene scene(entries, "");
+        const CauseReference reference = load_cause_reference(scene, parse_shade("displace:8").value());
+        const auto shares = [&](const char* word) {
+            const ShadeMethod method = parse_shade(word).value();
+            return method_causes(scene, method, scene.load(method), reference, 0);
         };
-        const Scene reference = loaded("displace:8", false), reference_base = loaded("displace:8", true);
-        const Scene coarse = loaded("displace:2", false), coarse_base = loaded("displace:2", true);
-        const Scene bump = loaded("bump", false);
-        const CauseOptions options{.settings = entries.settings};
-        const CauseShares of_bump = cause_shares({&bump, &reference, nullptr, &reference_base, {0}}, options);
-        const CauseShares of_coarse = cause_shares({&coarse, &reference, &coarse_base, &reference_base, {0}}, options);
-        for (const CauseShares* shares : {&of_bump, &of_coarse}) {
-            CHECK(shares->total > 1e-4);
-            CHECK(sum(*shares) == doctest::Approx(shares->total).epsilon(1e-12));
-        }
-        CHECK(of_coarse.total < of_bump.total);
-        CHECK(share_of(of_bump, Cause::silhouette) > 0.2);
-        CHECK(of_coarse.silhouette < 0.5 * of_bump.silhouette);
+        const CauseShares bump = shares("bump"), coarse = shares("displace:2"), same = shares("displace:8");
+        CHECK(sum(bump) == doctest::Approx(bump.total).epsilon(1e-12));
+        CHECK(coarse.total > 1e-4);
+        CHECK(coarse.total < bump.total);
+        CHECK(share_of(bump, Cause::silhouette) > 0.05);
+        CHECK(coarse.silhouette < 0.5 * bump.silhouette);
+        CHECK(same.total == 0);
     }
 
     TEST_CASE("causes: a picture without the object has no error") {

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/preview/relief_method.h"
 #include "bake/verdict/compare/causes.h"
+#include "bake/verdict/compare/picture_errors.h"
 #include "preview/little_scenes.h"
 
 namespace bake::test {
@@ -52,12 +53,13 @@ struct ReliefPair {
             build(*scene);
         }
     }
-    CauseScenes scenes() const { return {&method, &reference, &method_base, &reference_base, {0}}; }
+    CauseScenes scenes() const { return {&method, &reference, &method_base, &reference_base, {1}}; }
     CauseShares shares(const CauseOptions& options) const { return cause_shares(scenes(), options); }
 };
 
 inline CauseOptions small_picture(int size = 32, int spp = 4) {
     CauseOptions options;
+    options.stride = 1;
     options.settings.width = options.settings.height = size;
     options.settings.spp = spp;
     return options;
@@ -76,11 +78,13 @@ inline double share_of(const CauseShares& shares, Cause cause) {
     return shares.shares()[std::size_t(cause)] / shares.total;
 }
 
-/// Mean squared difference over the object's pixels, by the pictures of the tracer.
+/// Mean squared error over the object's pixels, by the pictures of the tracer.
 inline double picture_error(const ReliefPair& pair, const CauseOptions& options, std::int64_t pixels) {
-    const double whole = mean_square_difference(render_halves(pair.method, options.settings),
-                                                render_halves(pair.reference, options.settings));
-    return whole * options.settings.width * options.settings.height / double(pixels);
+    const std::size_t all = std::size_t(options.settings.width) * std::size_t(options.settings.height);
+    const Halves reference = render_halves(pair.reference, options.settings);
+    const Halves method = render_halves(pair.method, options.settings);
+    const std::vector<std::uint8_t> everywhere(all, 1);
+    return square_error(reference, method, options.exposure, everywhere).value * double(all) / double(pixels);
 }
 
 inline double sum(const CauseShares& shares) {

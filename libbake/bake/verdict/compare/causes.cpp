@@ -3,6 +3,7 @@
 #include "bake/base/progress.h"
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace bake {
 namespace {
@@ -12,12 +13,24 @@ struct Errors {
     std::array<double, 1u << cause_count> sum{};
     std::int64_t pixels = 0;
 
-    void add(const HybridSums& pixel) noexcept {
+    /// `scale`: from sums to what is shown.
+    void add(const HybridSums& pixel, double scale) noexcept {
         ++pixels;
+        const auto shown = [&](const Vec3d& radiance) { return glm::clamp(scale * radiance, 0.0, 1.0); };
         const auto& [a, b] = pixel.half;
-        for (std::size_t on = 0; on < sum.size(); ++on) sum[on] += glm::dot(a[on] - a[0], b[on] - b[0]);
+        const Vec3d method_a = shown(a[0]), method_b = shown(b[0]);
+        for (std::size_t on = 0; on < sum.size(); ++on)
+            sum[on] += glm::dot(shown(a[on]) - method_a, shown(b[on]) - method_b);
     }
 };
+
+/// The smallest one that leaves no more than `wanted` pixels.
+int sparse_stride(const RenderSettings& settings) noexcept {
+    constexpr double wanted = 20000;
+    int stride = 1;
+    while (double(settings.width) * settings.height > wanted * stride * stride) ++stride;
+    return stride;
+}
 
 /// From left to right in every row.
 std::vector<PixelGroup> pixel_groups(const RenderSettings& settings, int stride) {
@@ -44,7 +57,9 @@ std::array<double, cause_count> shapley_values(const std::array<double, 1u << ca
 
 CauseShares cause_shares(const CauseScenes& scenes, const CauseOptions& options, Progress* progress) {
     const HybridTracer tracer(scenes, options.settings);
-    const std::vector<PixelGroup> groups = pixel_groups(options.settings, std::max(1, options.stride));
+    const std::vector<PixelGroup> groups =
+        pixel_groups(options.settings, options.stride > 0 ? options.stride : sparse_stride(options.settings));
+    const double scale = std::exp2(double(options.exposure)) / tracer.samples_per_half();
     std::vector<Errors> parts(groups.size());
     if (progress) progress->start("causes", std::int64_t(groups.size()));
     for_rows(
@@ -52,7 +67,7 @@ CauseShares cause_shares(const CauseScenes& scenes, const CauseOptions& options,
         [&](std::int64_t begin, std::int64_t end) {
             for (auto i = begin; i < end; ++i)
                 for (const HybridSums& pixel : tracer.sums(groups[std::size_t(i)]))
-                    if (pixel.object) parts[std::size_t(i)].add(pixel);
+                    if (pixel.object) parts[std::size_t(i)].add(pixel, scale);
         },
         progress);
 
@@ -64,8 +79,7 @@ CauseShares cause_shares(const CauseScenes& scenes, const CauseOptions& options,
     CauseShares result;
     result.pixels = all.pixels;
     if (all.pixels == 0) return result;
-    const double per_sample = std::exp2(double(options.exposure)) / tracer.samples_per_half();
-    for (double& error : all.sum) error *= per_sample * per_sample / (3.0 * double(all.pixels));
+    for (double& error : all.sum) error /= 3.0 * double(all.pixels);
     const auto share = shapley_values(all.sum);
     result.silhouette = share[0], result.self_shadow = share[1], result.parallax = share[2];
     result.normal = share[3], result.filtering = share[4];

@@ -15,18 +15,18 @@ class Progress;
 struct CauseOptions {
     RenderSettings
         settings;       ///< of the picture: its size, samples per pixel (rounded up to an even number), seed, bounces
-    float exposure = 0; ///< in stops: squared errors are of radiance times 2^exposure
-    /// One pixel of every stride x stride is rendered, see pixel_group(); 1: the whole picture. What a pixel shows and filters
-    /// is as in the picture.
-    int stride = 1;
+    float exposure = 0; ///< in stops
+    /// One pixel of every stride x stride is rendered, see pixel_group(); 1: the whole picture; 0: about 20 000 pixels. What
+    /// a pixel shows and filters is as in the picture.
+    int stride = 0;
 };
 
 /// Mean squared errors over the three channels and the object's pixels: those in which a sample sees the object in one of
-/// the two scenes. Radiance is linear and not clamped, because a clamped mean has no unbiased square from noisy halves. All
-/// are products of two independent halves of the samples, and may come out below 0 by noise.
+/// the two scenes. As in square_error(), they are of exposed linear light, clamped to [0, 1], and products of two independent
+/// halves of the samples, which may come out below 0 by noise.
 struct CauseShares {
     double silhouette = 0, self_shadow = 0, parallax = 0, normal = 0, filtering = 0; ///< their sum is `total`
-    double total = 0;                        ///< the method's error; NaN-free: 0 if no pixel sees the object
+    double total = 0;                        ///< the method's error; 0 if no pixel sees the object
     std::array<double, cause_count> alone{}; ///< E of each cause alone, by Cause
     double interaction = 0;                  ///< total less the sum of `alone`
     std::int64_t pixels = 0;                 ///< rendered ones that see the object

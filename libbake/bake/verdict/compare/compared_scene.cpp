@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/preview/nearest_key.h"
 #include "bake/preview/relief_method.h"
+#include "bake/verdict/compare/twin_points.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -126,15 +127,20 @@ void ComparedScene::fix_view() {
     if (!ground->size) entries_.ground->size = float(20 * across);
 }
 
-MethodScene ComparedScene::load(const ShadeMethod& method) const {
+SceneEntries ComparedScene::entries_with(const ShadeMethod& method) const {
     SceneEntries entries = entries_;
+    for (const int material : materials_) entries.materials[std::size_t(material)].relief.shade = method;
+    return entries;
+}
+
+Scene ComparedScene::load_base(const ShadeMethod& method) const {
+    return bake::load(without_heights(entries_with(method)));
+}
+
+MethodScene ComparedScene::load(const ShadeMethod& method) const {
     std::set<std::string> names;
-    for (const int material : materials_) {
-        MaterialEntry& entry = entries.materials[std::size_t(material)];
-        entry.relief.shade = method;
-        names.insert(entry.name);
-    }
-    MethodScene result{.scene = bake::load(entries), .of_object = {}};
+    for (const int material : materials_) names.insert(entries_.materials[std::size_t(material)].name);
+    MethodScene result{.scene = bake::load(entries_with(method)), .of_object = {}};
     for (const Instance& instance : result.scene.instances)
         result.of_object.push_back(names.contains(instance.material->name));
     for (const int material : materials_) {

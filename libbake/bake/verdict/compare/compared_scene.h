@@ -22,6 +22,8 @@ public:
 
     /// Bakes what the method needs, and builds the scene. Throws the errors of load().
     MethodScene load(const ShadeMethod& method) const;
+    /// The object with the same segments and heights of 0, and its instances at the same places: see without_heights().
+    Scene load_base(const ShadeMethod& method) const;
 
     const std::string& object() const noexcept { return object_; }
     /// Triangles of the object's meshes without relief.
@@ -31,6 +33,7 @@ public:
     const RenderSettings& settings() const noexcept { return entries_.settings; }
 
 private:
+    SceneEntries entries_with(const ShadeMethod& method) const;
     void choose(const std::string& object);
     void read_pictures();
     void fix_view();

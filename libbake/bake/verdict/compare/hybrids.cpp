@@ -52,7 +52,7 @@ struct HybridTracer::Points {
     Hit method, reference;
     Surfel displaced;  ///< of the reference
     Surfel shown;      ///< of the method
-    Surfel unfiltered; ///< of the method, looked up as the reference filters: only its normals count
+    Surfel unfiltered; ///< of the method, looked up at a point: only its normals count
     Surfel unwidened;  ///< of the method, as if slopes had not been averaged away: only its bsdf counts
 };
 
@@ -68,7 +68,8 @@ HybridTracer::HybridTracer(const CauseScenes& scenes, const RenderSettings& sett
         unwidened_.push_back(without_relief(*method_.instances[i].material));
         unwidened_.back().reflectance = reference_.instances[i].material->reflectance;
     }
-    for (const std::uint32_t i : scenes.object) {
+    for (std::size_t i = 0; i < scenes.of_object.size(); ++i) {
+        if (!scenes.of_object[i]) continue;
         is_object_[i] = true;
         const TwinShape method{method_.instances[i].shape, method_base.instances[i].shape};
         const TwinShape reference{reference_.instances[i].shape, reference_base.instances[i].shape};
@@ -125,7 +126,6 @@ HybridTracer::Values HybridTracer::values(const Sample& sample) const noexcept {
         return values;
     }
     const RayCone& cone = sample.ray.cone;
-    const RayCone sharp = reference_.settings.filter == TextureFilter::off ? RayCone{} : cone;
     for (const bool parallax : {false, true}) {
         Points at;
         at.method = parallax ? twin(sample.reference, false) : sample.method;
@@ -136,7 +136,7 @@ HybridTracer::Values HybridTracer::values(const Sample& sample) const noexcept {
                                      : make_surfel(method_, at.method, direction, cone).inside;
         at.displaced = make_surfel(reference_, at.reference, direction, cone, displaced, inside);
         at.shown = make_surfel(method_, at.method, direction, cone, shown, inside);
-        at.unfiltered = make_surfel(method_, at.method, direction, sharp, shown, inside);
+        at.unfiltered = make_surfel(method_, at.method, direction, RayCone{}, shown, inside);
         at.unwidened = make_surfel(method_, at.method, direction, cone, unwidened_[at.method.mesh], inside);
         shade_points(at, parallax, sample, values);
     }

@@ -9,8 +9,8 @@
 //   normal       on: the shading normal is that of the displaced mesh at D; off: that of the method's material at B
 //   self_shadow  on: all further rays (to lights and sky, mirrored, refracted) start at D and see the displaced scene; off:
 //                they start at B and see the method's
-//   filtering    on: textures, and the slopes from which a method makes its normal, are looked up as the reference's
-//                scene filters them; off: as the method's
+//   filtering    on: the slopes from which a method makes its normal are looked up at a point, and textures as in the
+//                reference; off: both are averaged over what a sample covers, as the method's scene filters
 //   silhouette   on: where the object covers a sample in one scene alone, or in neither, the sample is the reference's; off:
 //                it is the method's
 //
@@ -36,10 +36,10 @@ constexpr CauseSet only(Cause cause) noexcept { return 1u << int(cause); }
 /// Two built scenes of the same entries, with the same instances, lights, sky and camera, and the object by its instances.
 struct CauseScenes {
     const Scene* method = nullptr;
-    const Scene* reference = nullptr;   ///< filters nothing, if filtering is to be a cause
+    const Scene* reference = nullptr;   ///< the object displaced
     const Scene* method_base = nullptr; ///< without heights, see without_heights(); null: the method does not displace
     const Scene* reference_base = nullptr; ///< likewise
-    std::vector<std::uint32_t> object;     ///< indices of instances
+    std::vector<std::uint8_t> of_object;   ///< one entry per instance: whether it is the object
 };
 
 /// The samples of one pixel of all hybrids, half by half.
