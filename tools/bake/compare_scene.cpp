@@ -29,7 +29,7 @@ std::vector<ShadeMethod> parse_methods(const std::string& list) {
 std::optional<ShadeMethod> parse_reference(const std::string& word) {
     if (word == "auto") return {};
     const ShadeMethod method = parse_method("--reference", word);
-    if (method.shade != Shade::displace && method.shade != Shade::displace_normal)
+    if (!displaces(method.shade))
         throw Error(Refusal::usage,
                     "--reference " + word + ": shows no true relief; write auto, displace:N or displace:max");
     return method;
@@ -113,6 +113,7 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     SceneCompareOptions options{.methods = parse_methods(args.methods.methods),
                                 .reference = parse_reference(args.methods.reference),
                                 .repeats = args.methods.repeats,
+                                .causes = !args.methods.no_causes,
                                 .flip = args.pictures.flip,
                                 .limits = args.limits,
                                 .told = {}};
