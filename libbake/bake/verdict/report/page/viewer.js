@@ -63,10 +63,11 @@ export function make_viewer(frame, canvas, on_point) {
 
   function draw_region({ x, y, width, height }) {
     const p = placed();
-    const box = [p.x + x * p.s - 1.5, p.y + y * p.s - 1.5, width * p.s + 3, height * p.s + 3];
-    context.lineWidth = 3, context.strokeStyle = '#000b';
+    const left = Math.round(p.x + x * p.s) - 2, top = Math.round(p.y + y * p.s) - 2;
+    const box = [left, top, Math.round(p.x + (x + width) * p.s) + 2 - left, Math.round(p.y + (y + height) * p.s) + 2 - top];
+    context.lineWidth = 4, context.strokeStyle = '#000b';
     context.strokeRect(...box);
-    context.lineWidth = 1.5, context.strokeStyle = '#ffd84d';
+    context.lineWidth = 2, context.strokeStyle = '#ffd84d';
     context.strokeRect(...box);
     if (box[1] < 36) return;
     context.font = '11px system-ui, sans-serif';
