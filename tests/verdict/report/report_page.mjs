@@ -314,7 +314,7 @@ async function check_links(page) {
 
 async function check_paper(page) {
   await page.emulateMedia({ media: 'print' });
-  check(await page.isHidden('#viewer'), 'no viewer on paper');
+  check(await page.isHidden('#stage'), 'no viewer on paper');
   for (const part of ['#tables table >> nth=0', '#time svg', '#bytes svg', '#shares li >> nth=0', '#commands li >> nth=0', '#pictures'])
     check(await page.isVisible(part), `${part} on paper`);
   const loaded = await page.locator('#pictures img:not(.highlights)').evaluateAll(all => all.map(i => i.naturalWidth > 0 && i.getClientRects().length > 0));

@@ -94,7 +94,7 @@ void require_report_page() {
     if (*page_template == 0)
         throw Error(
             Refusal::unsuitable,
-            "--report: bake was built without esbuild, which makes the page; install esbuild and build bake anew");
+            "bake was built without esbuild, which makes the page of reports; install esbuild and build bake anew");
 }
 
 std::string report_page(const std::string& json, const std::vector<ReportPicture>& pictures) {

@@ -3,9 +3,9 @@ import { bytes, digits, escaped, seconds } from './text.js';
 import { bytes_of, metric_of, time_of } from './metrics.js';
 import { state } from './state.js';
 
-const height = 380;
+const height = 270;
 let width = 620; // that of the box on the screen, so that letters have their size
-const box = { left: 64, right: 0, top: 16, bottom: height - 46 };
+const box = { left: 58, right: 0, top: 16, bottom: height - 46 };
 
 /** A step of 1, 2 or 5 times a power of 10 that cuts a span into about six. */
 function even_step(span) {
