@@ -33,7 +33,7 @@ std::string image(const char* kind, const std::string& webp, const std::string& 
     const std::string size =
         format(" width=\"%d\" height=\"%d\"", integer_or(report, "width", 1024), integer_or(report, "height", 1024));
     return std::string("<img class=\"") + kind + "\" alt=\"" + html(text) + "\"" + size +
-           " decoding=\"async\" src=\"data:image/webp;base64," + base64(webp) + "\">\n";
+           " decoding=\"async\" loading=\"lazy\" src=\"data:image/webp;base64," + base64(webp) + "\">\n";
 }
 
 /// A figure per picture: what is shown, its highlights, which only the script reads, and the false colours of the errors.

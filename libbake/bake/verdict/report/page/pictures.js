@@ -52,6 +52,7 @@ export function load(picture, what) {
   return (picture.loading[what] ??= Promise.all((what === 'shown' ? ['shown', 'highlights'] : [what]).map(async kind => {
     const image = picture.images[kind];
     if (!image) return;
+    image.loading = 'eager'; // lazy until here, so that the first picture does not wait for the others
     await image.decode();
     const canvas = canvas_of(image.naturalWidth, image.naturalHeight);
     context_of(canvas).drawImage(image, 0, 0);
