@@ -35,7 +35,10 @@ const viewer = make_viewer($('frame'), $('canvas'), at => {
 /** The picture that is chosen, once it is decoded; until then the old one stays. */
 function show_picture() {
   const entry = entries[state.method], reference = entries[0].picture;
-  if (!entry.picture) return viewer.show({ names: [] });
+  if (!entry.picture) {
+    viewer.show({ names: [] });
+    return write_rest();
+  }
   const needed = [[entry.picture, 'shown']];
   if (state.mode === 'wipe' && reference) needed.push([reference, 'shown']);
   if (state.mode === 'error') needed.push([entry.picture, 'errors']);
@@ -51,7 +54,10 @@ function show_picture() {
   write_scale();
   if (!performance.getEntriesByName('first-picture').length) {
     performance.mark('first-picture');
-    setTimeout(load_rest);
+    setTimeout(() => {
+      write_rest();
+      load_rest();
+    });
   }
 }
 
@@ -140,9 +146,13 @@ let drawn = '';
 function update() {
   state.method = Math.min(state.method, entries.length - 1);
   if (state.method) last_method = state.method;
-  show_picture();
   write_controls();
-  // Panning leaves these as they are.
+  show_picture();
+  if (performance.getEntriesByName('first-picture').length) write_rest();
+}
+
+/** Everything but the picture and its controls. It waits for the first picture, and panning leaves it as it is. */
+function write_rest() {
   const now = [state.method, state.metric, state.area].join();
   if (now === drawn) return;
   drawn = now;
@@ -243,4 +253,4 @@ state.method = largest.index || Math.min(1, entries.length - 1);
 start(['reference', ...entries.slice(1).map(entry => entry.name)]);
 listen(update);
 update();
-new ResizeObserver(() => draw_charts(entries, $('time'), $('bytes'))).observe($('plots'));
+new ResizeObserver(() => drawn && draw_charts(entries, $('time'), $('bytes'))).observe($('plots'));
