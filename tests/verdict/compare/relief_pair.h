@@ -53,13 +53,12 @@ struct ReliefPair {
             build(*scene);
         }
     }
-    CauseScenes scenes() const { return {&method, &reference, &method_base, &reference_base, {1}}; }
+    CauseScenes scenes() const { return {&method, &reference, &method_base, &reference_base, {0}}; }
     CauseShares shares(const CauseOptions& options) const { return cause_shares(scenes(), options); }
 };
 
 inline CauseOptions small_picture(int size = 32, int spp = 4) {
     CauseOptions options;
-    options.stride = 1;
     options.settings.width = options.settings.height = size;
     options.settings.spp = spp;
     return options;

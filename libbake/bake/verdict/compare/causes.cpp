@@ -24,14 +24,6 @@ struct Errors {
     }
 };
 
-/// The smallest one that leaves no more than `wanted` pixels.
-int sparse_stride(const RenderSettings& settings) noexcept {
-    constexpr double wanted = 20000;
-    int stride = 1;
-    while (double(settings.width) * settings.height > wanted * stride * stride) ++stride;
-    return stride;
-}
-
 /// From left to right in every row.
 std::vector<PixelGroup> pixel_groups(const RenderSettings& settings, int stride) {
     const int edge = block_edge * stride;
@@ -57,8 +49,7 @@ std::array<double, cause_count> shapley_values(const std::array<double, 1u << ca
 
 CauseShares cause_shares(const CauseScenes& scenes, const CauseOptions& options, Progress* progress) {
     const HybridTracer tracer(scenes, options.settings);
-    const std::vector<PixelGroup> groups =
-        pixel_groups(options.settings, options.stride > 0 ? options.stride : sparse_stride(options.settings));
+    const std::vector<PixelGroup> groups = pixel_groups(options.settings, std::max(1, options.stride));
     const double scale = std::exp2(double(options.exposure)) / tracer.samples_per_half();
     std::vector<Errors> parts(groups.size());
     if (progress) progress->start("causes", std::int64_t(groups.size()));

@@ -16,9 +16,9 @@ struct CauseOptions {
     RenderSettings
         settings;       ///< of the picture: its size, samples per pixel (rounded up to an even number), seed, bounces
     float exposure = 0; ///< in stops
-    /// One pixel of every stride x stride is rendered, see pixel_group(); 1: the whole picture; 0: about 20 000 pixels. What
-    /// a pixel shows and filters is as in the picture.
-    int stride = 0;
+    /// One pixel of every stride x stride is rendered, see pixel_group(); 1: the whole picture. What a pixel shows and filters
+    /// is as in the picture.
+    int stride = 1;
 };
 
 /// Mean squared errors over the three channels and the object's pixels: those in which a sample sees the object in one of

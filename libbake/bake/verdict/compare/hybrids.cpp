@@ -68,8 +68,7 @@ HybridTracer::HybridTracer(const CauseScenes& scenes, const RenderSettings& sett
         unwidened_.push_back(without_relief(*method_.instances[i].material));
         unwidened_.back().reflectance = reference_.instances[i].material->reflectance;
     }
-    for (std::size_t i = 0; i < scenes.of_object.size(); ++i) {
-        if (!scenes.of_object[i]) continue;
+    for (const std::uint32_t i : scenes.object) {
         is_object_[i] = true;
         const TwinShape method{method_.instances[i].shape, method_base.instances[i].shape};
         const TwinShape reference{reference_.instances[i].shape, reference_base.instances[i].shape};

@@ -39,7 +39,7 @@ struct CauseScenes {
     const Scene* reference = nullptr;   ///< the object displaced
     const Scene* method_base = nullptr; ///< without heights, see without_heights(); null: the method does not displace
     const Scene* reference_base = nullptr; ///< likewise
-    std::vector<std::uint8_t> of_object;   ///< one entry per instance: whether it is the object
+    std::vector<std::uint32_t> object;     ///< indices of instances
 };
 
 /// The samples of one pixel of all hybrids, half by half.
