@@ -157,12 +157,16 @@ struct Row {
     std::string against, note;
 };
 
-/// The row as text, without a newline.
+/// The row as text, without a newline. A comma in a name or a note becomes a semicolon.
 inline std::string row_text(const Row& row, double seconds, const Errors& errors, const std::string& note) {
-    return row.bench + "," + row.what +
+    const auto field = [](std::string words) {
+        std::replace(words.begin(), words.end(), ',', ';');
+        return words;
+    };
+    return field(row.bench) + "," + field(row.what) +
            text(",%lld,%d,%.4g,%.4g,%.4g,%.4g,%.3g,", static_cast<long long>(row.size), bake::thread_count(),
                 1e9 * seconds / row.items, errors.mean, errors.p95, errors.max, row.ratio) +
-           row.against + "," + note;
+           field(row.against) + "," + field(note);
 }
 
 /// Ends the program where no value was looked at, or where an error is not finite.

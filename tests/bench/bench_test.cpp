@@ -102,6 +102,8 @@ TEST_SUITE("unit") {
         CHECK(fault(fields).empty());
         CHECK(fields[4] == "2");
         CHECK(fields[8] == "1.5");
+        // A comma in a name or a note would be one more column.
+        CHECK(fault(fields_of(bench::row_text({"b", "c, d", 64, 1, 0, "e, f", ""}, 4, {1, 1, 1, 1}, "g, h"))).empty());
         CHECK(fault(fields_of("b,c,64,1,2,0,0,0,1,,note")) == "no error, and the note does not say why");
         CHECK(fault(fields_of("b,c,64,1,2,,,,1,,no error: a pass")) == "column 5 is no finite number");
         CHECK(fault(fields_of("b,c,64,1,2,nan,0,0,1,,note")) == "column 5 is no finite number");

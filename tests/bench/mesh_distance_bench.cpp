@@ -62,6 +62,6 @@ int main() {
     for (std::size_t i = 0; i < found.size(); ++i)
         bench::print_row(found[i], {"mesh_distance", bench::text("samples_%zu", counts[i]), std::int64_t(counts[i]),
                                     double(counts[i]), found[i].ratio_to(found[0]), "the fewest samples",
-                                    bench::text("%.0f ms in all; errors of mean and rms over their values, not degrees",
+                                    bench::text("%.0f ms in all; errors of mean and rms over their values; not degrees",
                                                 1e3 * found[i].median())});
 }

@@ -96,8 +96,8 @@ void rows(int size) {
         bench::print_row(turns.works[i],
                          {"metric", names[i], size, double(size) * size, turns.works[i].ratio_to(turns.limits[0]),
                           "read+write pass",
-                          bench::text("%.0f ms in all; difference from the papers' formulas in double, in units "
-                                      "of the metric, not degrees",
+                          bench::text("%.0f ms in all; difference from the papers' formulas in double; in units "
+                                      "of the metric; not degrees",
                                       1e3 * turns.works[i].median())});
 }
 
