@@ -7,8 +7,7 @@
 // halves. Pixels count in which the method or the reference shows the object. Pictures are exposed as the reference and
 // clamped to [0, 1] first. FLIP sees the mean of both halves.
 #include "bake/preview/passes.h"
-#include "bake/preview/render.h"
-#include "bake/verdict/metric/flip.h"
+#include "bake/verdict/compare/picture_errors.h"
 #include "relief_scenes.h"
 #include <algorithm>
 #include <cstdio>
@@ -88,12 +87,6 @@ Shot shoot(Scene& scene, const Base& base, const Configuration& c, std::vector<S
     return shot;
 }
 
-Image<float> mean_of(const Halves& halves) {
-    Image<float> mean = copied(halves.a);
-    for (std::size_t i = 0; i < mean.size(); ++i) mean.data()[i] = 0.5f * (mean.data()[i] + halves.b.data()[i]);
-    return mean;
-}
-
 void expose(Image<float>& picture, float exposure) {
     for (std::size_t i = 0; i < picture.size(); ++i)
         picture.data()[i] = std::clamp(picture.data()[i] * std::exp2(exposure), 0.f, 1.f);
@@ -103,29 +96,22 @@ void expose(Shot& shot, float exposure) { expose(shot.halves.a, exposure), expos
 
 struct Errors {
     double rmse = 0, flip = 0, silhouette = 0; ///< silhouette: mean difference of coverage
+    double noise = 0;                          ///< standard error of the RMSE
 };
 
 /// Of exposed pictures.
 Errors errors_of(const Shot& reference, const Shot& shot) {
-    const Image<float> flips = flip(mean_of(reference.halves), mean_of(shot.halves));
-    double squares = 0, flip_sum = 0, cover = 0;
-    std::int64_t count = 0;
-    for (int y = 0; y < flips.height(); ++y)
-        for (int x = 0; x < flips.width(); ++x) {
-            const float a = reference.alpha.at(x, y), b = shot.alpha.at(x, y);
-            if (!(a > 0 || b > 0)) continue;
-            for (int c = 0; c < 3; ++c) {
-                const auto difference = [&](const Image<float>& p, const Image<float>& q) {
-                    return double((&p.at(x, y))[c]) - double((&q.at(x, y))[c]);
-                };
-                squares +=
-                    difference(shot.halves.a, reference.halves.a) * difference(shot.halves.b, reference.halves.b) / 3;
-            }
-            flip_sum += flips.at(x, y), cover += std::abs(a - b);
-            ++count;
-        }
-    const double n = double(std::max<std::int64_t>(count, 1));
-    return {std::sqrt(std::max(0.0, squares / n)), flip_sum / n, cover / n};
+    const Image<float> flips = flip(mean_picture(reference.halves), mean_picture(shot.halves));
+    std::vector<std::uint8_t> object(flips.size());
+    double flip_sum = 0, cover = 0, count = 0;
+    for (std::size_t i = 0; i < object.size(); ++i) {
+        const float a = reference.alpha.data()[i], b = shot.alpha.data()[i];
+        object[i] = a > 0 || b > 0;
+        if (object[i]) flip_sum += double(flips.data()[i]), cover += double(std::abs(a - b)), ++count;
+    }
+    const Estimate rmse = root(square_error(reference.halves, shot.halves, 0, object));
+    count = std::max(count, 1.0);
+    return {rmse.value, flip_sum / count, cover / count, rmse.error};
 }
 
 /// Mean distance, in pixels, from the pixels of the object to those that are not covered by half.
@@ -185,7 +171,7 @@ void print_head() {
 void print_row(const Base& base, const Spectrum& spectrum, double slope, const ReliefField& field,
                const Configuration& c, Scenes& scenes, std::vector<Sky>& skies) {
     Shot reference = shoot(scenes.reference, base, c, skies, 0);
-    const float exposure = automatic_exposure(mean_of(reference.halves));
+    const float exposure = automatic_exposure(mean_picture(reference.halves));
     expose(reference, exposure);
     std::vector<Errors> errors;
     for (int method = 0; method < method_count; ++method) {
@@ -234,8 +220,9 @@ void sweep(const std::vector<Base>& all, bool quick) {
 /// hardest: the shortest waves and the steepest slope.
 void check(const std::vector<Base>& all) {
     std::vector<Sky> skies = skies_of_suns();
-    std::printf("base,material,distance,view_deg,sun_deg,rmse of half the reference,flip of half the reference,rmse bump,"
-                "bump with another seed,rmse displace:8,displace:8 with another seed\n");
+    std::printf(
+        "base,material,distance,view_deg,sun_deg,rmse of half the reference,flip of half the reference,rmse bump,"
+        "bump with another seed,standard error,rmse displace:8,displace:8 with another seed\n");
     for (const Base& base : all) {
         const Spectrum& spectrum = spectra[std::size(spectra) - 1];
         const ReliefField field = relief_field(base, spectrum, 1024);
@@ -246,7 +233,7 @@ void check(const std::vector<Base>& all) {
             Errors coarse, bump[2], displaced[2];
             for (const int seed : {0, 1}) {
                 Shot reference = shoot(scenes.reference, base, c, skies, std::uint32_t(seed));
-                const float exposure = automatic_exposure(mean_of(reference.halves));
+                const float exposure = automatic_exposure(mean_picture(reference.halves));
                 expose(reference, exposure);
                 const auto errors = [&](Scene& scene) {
                     Shot shot = shoot(scene, base, c, skies, std::uint32_t(seed));
@@ -256,9 +243,9 @@ void check(const std::vector<Base>& all) {
                 if (seed == 0) coarse = errors(half);
                 bump[seed] = errors(scenes.methods[5]), displaced[seed] = errors(scenes.methods[9]);
             }
-            std::printf("%s,%s,%s,%g,%g,%.2g,%.2g,%.3g,%.3g,%.3g,%.3g\n", base.name, finishes[c.finish].name,
-                        distances[c.distance].name, views_deg[c.view], suns_deg[c.sun], coarse.rmse, coarse.flip, bump[0].rmse,
-                        bump[1].rmse, displaced[0].rmse, displaced[1].rmse);
+            std::printf("%s,%s,%s,%g,%g,%.2g,%.2g,%.3g,%.3g,%.2g,%.3g,%.3g\n", base.name, finishes[c.finish].name,
+                        distances[c.distance].name, views_deg[c.view], suns_deg[c.sun], coarse.rmse, coarse.flip,
+                        bump[0].rmse, bump[1].rmse, bump[0].noise, displaced[0].rmse, displaced[1].rmse);
             std::fflush(stdout);
         }
     }
@@ -275,7 +262,7 @@ void show(const std::vector<Base>& all, const std::string& file) {
         Scenes scenes = scenes_of(base, relief_field(base, spectrum, 1024), slopes[1 + row % 2]);
         const Configuration c{row % 3, 1, 1, 0};
         const auto put = [&](Scene& scene, int column, float exposure) {
-            const Image<float> picture = mean_of(shoot(scene, base, c, skies, 0, pixels).halves);
+            const Image<float> picture = mean_picture(shoot(scene, base, c, skies, 0, pixels).halves);
             for (int y = 0; y < pixels; ++y)
                 for (int x = 0; x < 3 * pixels; ++x)
                     sheet.row(row * pixels + y)[3 * column * pixels + x] =

@@ -208,4 +208,27 @@ TEST_SUITE("oracle") {
             CHECK(area_between(coverage(lobes, word, above), ball_above) == 0);
     }
 
+    TEST_CASE("known truth: on a plane seen at a grazing angle, bump is worse than no relief beyond an amplitude") {
+        // The grazing plane: 2 x 2, waves of 0.25 by 0.25, 72 degrees from the vertical, the sun 30 degrees above it.
+        const auto ratio = [](double amplitude) {
+            const HeightTexture height = egg_box(256, amplitude, 8);
+            const auto picture = [&](const char* word) {
+                Scene scene = relief_scene(plane_mesh(8), height, word);
+                scene.lights = {directional(Vec3f(-0.75f, 0.43f, 0.5f))};
+                scene.settings.shadows = true;
+                scene.camera.position = Vec3f(3.8f, 0, 1.24f);
+                scene.camera.view_height = 0.4f; // the plane fills the picture
+                return shown(scene);
+            };
+            const Halves displaced = picture("displace:16");
+            return root_mean_square(picture("bump"), displaced) / root_mean_square(picture("plain"), displaced);
+        };
+        // The shift of the picture grows with the amplitude, and with it the error, until nothing fits any more.
+        const double low = ratio(0.005), beyond = ratio(0.08);
+        CHECK(low == doctest::Approx(0.25).epsilon(0.1));
+        CHECK(ratio(0.01) / low == doctest::Approx(2).epsilon(0.1));
+        CHECK(beyond > 1.05);
+        CHECK(beyond < 2.1);
+    }
+
 } // TEST_SUITE
