@@ -134,7 +134,8 @@ TEST_SUITE("cli") {
         const auto before = folder.names();
         check_refused(folder, {"compare", "plain.toml", "-o", "out"}, 4, "no mesh has a material with a height");
         check_refused(folder, quick({"--methods", "bumpy"}), 2, "--methods bumpy: is not a method");
-        check_refused(folder, quick({"--reference", "bump"}), 2, "--reference bump: shows no true relief");
+        check_refused(folder, {"compare", "s.toml", "--reference", "bump"}, 2,
+                      "--reference bump: shows no true relief");
         check_refused(folder, quick({"--limit", "distance=1"}), 2, "--limit distance: is not computed here");
         check_refused(folder, quick({"--metric", "flip"}), 2, "--metric: belongs to pictures");
         check_refused(folder, quick({"--normals"}), 2, "--normals: ");

@@ -45,8 +45,8 @@ SceneEntries read_entries(const CompareArgs& args) {
     return entries;
 }
 
-/// A command line that compares the same scene in the same way.
-std::string command_of(const CompareArgs& args) {
+/// A command line that compares the same scene in the same way, for one method alone if it is given.
+std::string command_of(const CompareArgs& args, const std::string& method) {
     const MethodCompareArgs& own = args.methods;
     std::string text = "bake compare " + args.file;
     if (!own.object.empty()) text += " --object " + own.object;
@@ -55,7 +55,8 @@ std::string command_of(const CompareArgs& args) {
     text += format(" --spp %d", own.spp);
     if (args.pictures.exposure) text += format(" --exposure %g", *args.pictures.exposure);
     if (own.reference != "auto") text += " --reference " + own.reference;
-    return text;
+    const std::string& methods = method.empty() ? own.methods : method;
+    return methods.empty() ? text : text + " --methods " + methods;
 }
 
 /// A folder that is made if it is not there, and removed again if nothing comes into it.
@@ -123,7 +124,8 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     Progress progress(common.quiet);
     const SceneComparison comparison = compare_scene(entries, args.methods.object, options, &progress);
     watch.lap("compare");
-    const std::string json = with_flags(to_json(comparison, args.file, command_of(args)));
+    const std::string json =
+        with_flags(to_json(comparison, args.file, [&](const std::string& method) { return command_of(args, method); }));
     if (folder) {
         write_outputs(comparison, folder, json);
         watch.lap("write");

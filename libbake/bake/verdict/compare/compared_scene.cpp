@@ -3,6 +3,7 @@
 #include "bake/preview/nearest_key.h"
 #include "bake/preview/relief_method.h"
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -117,8 +118,10 @@ void ComparedScene::fix_view() {
     entries_.ground = ground;
     const Bounds box = bounds(plain.scene);
     const double across = diagonal(box) > 0 ? diagonal(box) : 1;
-    // The lowest point of the relief is not known before it is displaced; a coarse displacement tells it well enough.
-    const Bounds displaced = bounds(load({Shade::displace, 1}).scene);
+    // The lowest point of the relief is not known before it is displaced.
+    int levels = 0;
+    while (levels < 6 && double(triangles_) * std::exp2(2 * levels) < 3e4) ++levels;
+    const Bounds displaced = bounds(load({Shade::displace, levels}).scene);
     if (!ground->height) entries_.ground->height = float(std::min(box.min.y, displaced.min.y) - 1e-4 * across);
     if (!ground->size) entries_.ground->size = float(20 * across);
 }

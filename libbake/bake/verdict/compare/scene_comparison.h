@@ -73,8 +73,9 @@ SceneComparison compare_scene(const SceneEntries& entries, const std::string& ob
 /// Names and values over the object's pixels: rmse, psnr, ssim, flip and hdr-flip with percentiles, angle, outline.
 std::vector<Figure> figures(const PictureErrors& errors);
 std::string to_text(const SceneComparison& comparison);
-/// `scene`: the file; `command`: the command line without --methods.
-std::string to_json(const SceneComparison& comparison, const std::string& scene, const std::string& command);
+/// `scene`: the file; `command`: the command line that compares a method alone, or all of them for an empty name.
+std::string to_json(const SceneComparison& comparison, const std::string& scene,
+                    const std::function<std::string(const std::string& method)>& command);
 std::string to_csv(const SceneComparison& comparison);
 
 } // namespace bake

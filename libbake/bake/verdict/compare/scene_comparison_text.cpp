@@ -47,10 +47,9 @@ Json json_of(const std::string& method, const MethodCost& cost) {
             {"texture_bytes", cost.texture_bytes}};
 }
 
-Json json_of(const MethodRow& row, const std::string& command) {
+Json json_of(const MethodRow& row) {
     const PictureErrors& errors = row.errors;
     Json json = json_of(row.method, row.cost);
-    json["command"] = command + " --methods " + row.method;
     json["object"] = json_of(errors.object);
     json["frame"] = json_of(errors.frame);
     json["normals_deg"] = {{"mean", errors.angles.mean}, {"p95", errors.angles.p95}, {"max", errors.angles.max}};
@@ -105,7 +104,8 @@ std::string to_text(const SceneComparison& comparison) {
     return text + finding_rows({.warnings = comparison.warnings, .notes = comparison.notes});
 }
 
-std::string to_json(const SceneComparison& comparison, const std::string& scene, const std::string& command) {
+std::string to_json(const SceneComparison& comparison, const std::string& scene,
+                    const std::function<std::string(const std::string& method)>& command) {
     const ReferenceRow& reference = comparison.reference;
     Json json = {{"verb", "compare"},
                  {"kind", "methods"},
@@ -116,13 +116,16 @@ std::string to_json(const SceneComparison& comparison, const std::string& scene,
                  {"spp", comparison.spp},
                  {"exposure", comparison.exposure},
                  {"automatic_exposure", comparison.automatic_exposure},
-                 {"command", command}};
+                 {"command", command("")}};
     Json& own = json["reference"] = json_of(reference.method, reference.cost);
     own["refinements"] = reference.refinements;
     if (reference.refinements > 0) own["change"] = json_of(reference.change);
     own["note"] = reference.why;
     Json& methods = json["methods"] = Json::array();
-    for (const MethodRow& method : comparison.rows) methods.push_back(json_of(method, command));
+    for (const MethodRow& method : comparison.rows) {
+        methods.push_back(json_of(method));
+        methods.back()["command"] = command(method.method);
+    }
     json["interrupted"] = comparison.interrupted;
     json["over_limit"] = comparison.over_limit;
     json["notes"] = comparison.notes;
