@@ -5,5 +5,12 @@
 namespace stability {
 
 std::vector<Sweep> curvature_sweeps();
+std::vector<Sweep> tilt_sweeps();
+std::vector<Sweep> shadow_sweeps();
+std::vector<Sweep> minification_sweeps();
+std::vector<Sweep> sky_sweeps();
+std::vector<Sweep> distance_sweeps();
+std::vector<Sweep> precision_sweeps();
+std::vector<Sweep> thread_sweeps();
 
 } // namespace stability

@@ -6,10 +6,10 @@
 #include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/material.h"
-#include "bake/mesh/origin.h"
 #include "bake/preview/counted_twice.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/gltf_objects.h"
+#include "bake/preview/scene_positions.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/preview/smooth_mesh.h"
 #include "bake/relief/height/picture_height.h"
@@ -159,7 +159,7 @@ SmoothMesh read_entry(const MeshEntry& entry, const Vec2f& repeat, Scene& scene)
     if (!entry.shape.empty()) return {repeated(shape_mesh(entry.shape, entry.columns, entry.rows)), nullptr};
     Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
     for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
-    move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+    make_absolute(mesh, entry.file, scene.notes);
     mesh = repeated(std::move(mesh));
     if (entry.subdivide) return limit_mesh(std::move(mesh), *entry.subdivide, entry.file, entry.columns);
     return {std::move(mesh), nullptr};
