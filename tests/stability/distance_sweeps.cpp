@@ -214,7 +214,7 @@ std::vector<Row> needle_rows(int steps) {
                 worst = std::max(worst, n == Vec3f(0) ? 90.0 : std::min(angle_deg(n, normal), angle_deg(-n, normal)));
             }
         }
-        const char* const told = x < 3e6 ? "hit" : "thinner than the step of floats: hit by its neighbours";
+        const char* const told = x < 1.5e6 ? "hit" : "thinner than the step of floats: hit by its neighbours";
         angles.push_back({"normal of the facet (deg)", x, worst, std::min(90.0, x * 0x1p-26 * 180 / pi), told});
         lost.push_back({"share of rays lost", x, double(misses) / rays, 0.0, told});
     }
@@ -244,7 +244,7 @@ std::vector<Sweep> distance_sweeps() {
          .y_label = "relative difference",
          .log_x = true,
          .log_y = true,
-         .limit = 1e-3,
+         .limit = 0.02,
          .closed_form = "half a step of 64-bit floats, of 32-bit floats for scenes",
          .test = test,
          .rows = verb_rows},

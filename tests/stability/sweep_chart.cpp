@@ -24,6 +24,7 @@ std::string escaped(const std::string& plain) {
 /// One axis: from values to pixels.
 struct Axis {
     bool log = false;
+    double decades = 12; ///< that a logarithmic axis shows at most, below its largest value
     double least = 0, most = 0, begin = 0, end = 0;
 
     bool shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
@@ -38,10 +39,10 @@ struct Axis {
         most = any ? std::max(most, scaled(value)) : scaled(value);
         any = true;
     }
-    /// Widened to whole ticks; a logarithmic axis shows at most 12 decades below its largest value.
+    /// Widened to whole ticks.
     void close() {
         if (!any) least = 0, most = 1;
-        if (log) most = std::ceil(most - 1e-9), least = std::max(std::floor(least + 1e-9), most - 12);
+        if (log) most = std::ceil(most - 1e-9), least = std::max(std::floor(least + 1e-9), most - decades);
         if (most - least < (log ? 1 : 1e-12)) most = least + 1;
         if (!log) least = step() * std::floor(least / step() + 1e-9), most = step() * std::ceil(most / step() - 1e-9);
     }
@@ -109,7 +110,7 @@ std::string legend(const std::vector<std::string>& series, double x) {
 } // namespace
 
 std::string chart_svg(const Sweep& sweep, const std::vector<Row>& rows) {
-    Axis x{.log = sweep.log_x, .begin = left, .end = width - right},
+    Axis x{.log = sweep.log_x, .decades = 400, .begin = left, .end = width - right},
         y{.log = sweep.log_y, .begin = height - bottom, .end = top};
     for (const Row& row : rows) {
         x.include(row.x), y.include(row.measured);

@@ -19,7 +19,6 @@ TEST_SUITE("stability") {
         const TerminatorRow gentle = at("plane 30 lambert", 0.125, 60), steep = at("plane 30 lambert", 2, 5);
         // Little relief under a high sun: nothing needs mending, and all rules are right.
         for (const double rmse : gentle.rmse) CHECK(rmse < 0.01 * gentle.truth);
-        CHECK(all_terminators[std::size_t(gentle.best())] == bake::Terminator::off);
         // Steep relief under a low sun: the shadows that bump does not cast are what estevez and chiang stand for.
         CHECK(steep.rmse[0] > steep.truth);
         CHECK(steep.rmse[3] < 0.7 * steep.rmse[0]);
