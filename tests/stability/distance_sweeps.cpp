@@ -164,11 +164,12 @@ Image<float> sized_picture(const std::string& method, double size, std::string* 
     return render(scene, scene.settings);
 }
 
-std::vector<Row> size_rows(int steps) {
+/// Sizes from 1 to `end`.
+std::vector<Row> size_rows(int steps, double end) {
     std::vector<Row> rows;
     for (const char* method : {"plain", "exact", "normal", "displace:4"}) {
         const Image<float> truth = sized_picture(method, 1);
-        for (const double x : geometric_steps(1e-30, 1e30, steps)) {
+        for (const double x : geometric_steps(1, end, steps)) {
             // Cross products of p_u and p_v, and their squares: x^4 has to stay above the smallest float.
             const bool relief = std::string(method) == "exact" || std::string(method) == "normal";
             Row row{method, x, 1, x < (relief ? 1e-12 : 1e-30) || x > 9e17 ? 1.0 : 0.0, "exit 0"};
@@ -248,7 +249,7 @@ std::vector<Sweep> distance_sweeps() {
          .closed_form = "half a step of 64-bit floats, of 32-bit floats for scenes",
          .test = test,
          .rows = verb_rows},
-        {.name = "object_size",
+        {.name = "large_objects",
          .construction =
              "a ball with relief, x times as large with camera and amplitude: difference of its picture from that "
              "at size 1",
@@ -257,9 +258,20 @@ std::vector<Sweep> distance_sweeps() {
          .log_x = true,
          .log_y = true,
          .limit = 0.01,
-         .closed_form = "the tracer takes coordinates up to 1e18; relief has squares of areas, x^4 above 1e-45",
+         .closed_form = "the tracer takes coordinates up to 1e18",
          .test = test,
-         .rows = size_rows},
+         .rows = [](int steps) { return size_rows(steps, 1e30); }},
+        {.name = "small_objects",
+         .construction = "the same ball, smaller and smaller",
+         .x_label = "size",
+         .y_label = "relative difference",
+         .log_x = true,
+         .log_y = true,
+         .limit = 0.01,
+         .closed_form =
+             "normals of relief are squares of areas: x^4 has to stay above 1e-48; meshes have no limit here",
+         .test = test,
+         .rows = [](int steps) { return size_rows(steps, 1e-30); }},
         {.name = "needles",
          .construction =
              "a square with a point 1 / x above the middle of an edge: a needle of the aspect x and its neighbours, "
