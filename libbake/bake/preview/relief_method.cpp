@@ -90,9 +90,9 @@ Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const Relie
 }
 
 /// Memory for a displaced mesh in a scene, beside the mesh: normals of its corners, two triangles per face, their copy in
-/// world space and Embree's tree, measured 86 bytes per triangle.
+/// world space and Embree's tree.
 std::uint64_t scene_bytes(const DisplaceCount& count) noexcept {
-    const std::uint64_t per_corner = sizeof(Vec3f), per_triangle = 12 + 16 + 86;
+    const std::uint64_t per_corner = sizeof(Vec3f), per_triangle = 12 + 16 + tree_bytes_per_triangle;
     return count.corners * per_corner + (count.corners - 2 * count.faces) * per_triangle + count.points * 12;
 }
 

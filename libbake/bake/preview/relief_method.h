@@ -35,6 +35,9 @@ inline constexpr const char* shade_names = "\"plain\", \"roughness\", \"constant
                                            "\"bump\", \"bump+roughness\", \"normal\", \"displace:16\" or another "
                                            "power of two, \"displace:max\", \"displace+normal:16\"";
 
+/// Of Embree's tree with its copy of the corners, as measured.
+inline constexpr int tree_bytes_per_triangle = 86;
+
 /// What the values of a height mean on one shape.
 struct ReliefOptions {
     ShadeMethod method;
