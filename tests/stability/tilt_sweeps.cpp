@@ -93,8 +93,8 @@ std::vector<Row> mirror_rows(int steps) {
          {std::pair("along the view", 0.0), {"60 deg aside", 60.0}, {"across the view", 90.0}})
         for (const double angle : linear_steps(5, 85, steps)) {
             // Tilted so far that it faces away, a normal has no mirror direction; that is counted apart.
-            const auto below = [&](double s) {
-                const RenderStats stats = see(s, azimuth, angle, material).stats;
+            const auto below = [&, aside = azimuth](double s) {
+                const RenderStats stats = see(s, aside, angle, material).stats;
                 return stats.mirrored_below + stats.tilted > 0;
             };
             const double s = first_slope(below);
