@@ -223,9 +223,8 @@ std::vector<Row> needle_rows(int steps) {
     return angles;
 }
 
-} // namespace
-
-std::vector<Sweep> distance_sweeps() {
+/// Those of the distance.
+std::vector<Sweep> far_sweeps() {
     const char* const test = "stability/distance_test";
     return {
         {.name = "far_positions",
@@ -248,7 +247,14 @@ std::vector<Sweep> distance_sweeps() {
          .limit = 0.02,
          .closed_form = "half a step of 64-bit floats, of 32-bit floats for scenes",
          .test = test,
-         .rows = verb_rows},
+         .rows = verb_rows}};
+}
+
+} // namespace
+
+std::vector<Sweep> distance_sweeps() {
+    const char* const test = "stability/distance_test";
+    const std::vector<Sweep> others = {
         {.name = "large_objects",
          .construction =
              "a ball with relief, x times as large with camera and amplitude: difference of its picture from that "
@@ -285,6 +291,9 @@ std::vector<Sweep> distance_sweeps() {
          .test = test,
          .rows = needle_rows},
     };
+    std::vector<Sweep> all = far_sweeps();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
 }
 
 } // namespace stability

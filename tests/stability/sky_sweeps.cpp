@@ -211,44 +211,49 @@ std::vector<Row> pole_rows(int steps) {
     return rows;
 }
 
+/// Those of the cube itself.
+std::vector<Sweep> cube_sweeps() {
+    const char* const test = "stability/sky_test";
+    return {{.name = "texel_solid_angles",
+             .construction =
+                 "faces of x texels: error of the sum of all solid angles, and of those at the centre and in a corner",
+             .x_label = "texels along an edge",
+             .y_label = "relative error",
+             .log_x = true,
+             .log_y = true,
+             .limit = 1e-9,
+             .closed_form = "4 pi; two spherical triangles per texel, x^2 2^-53 by cancellation",
+             .test = test,
+             .rows = solid_angle_rows},
+            {.name = "cube_seams",
+             .construction =
+                 "lookups in a sky of random texels along great circles across edges and corners of the cube: largest "
+                 "change over a short step, relative to that over a step 100 times as long",
+             .x_label = "texels along an edge",
+             .y_label = "ratio (1: a jump)",
+             .log_x = true,
+             .log_y = true,
+             .limit = 0.1,
+             .closed_form = "1 / 100: the interpolation is continuous",
+             .test = test,
+             .rows = seam_rows},
+            {.name = "short_directions",
+             .construction = "the lecture's direction (-3.2, 5.1, -8.4), x long: error of its point on the face",
+             .x_label = "length",
+             .y_label = "error (faces)",
+             .log_x = true,
+             .log_y = true,
+             .limit = 1e-3,
+             .closed_form = "half a step of denormals over the length",
+             .test = test,
+             .rows = short_rows}};
+}
+
 } // namespace
 
 std::vector<Sweep> sky_sweeps() {
     const char* const test = "stability/sky_test";
-    return {
-        {.name = "texel_solid_angles",
-         .construction =
-             "faces of x texels: error of the sum of all solid angles, and of those at the centre and in a corner",
-         .x_label = "texels along an edge",
-         .y_label = "relative error",
-         .log_x = true,
-         .log_y = true,
-         .limit = 1e-9,
-         .closed_form = "4 pi; two spherical triangles per texel, x^2 2^-53 by cancellation",
-         .test = test,
-         .rows = solid_angle_rows},
-        {.name = "cube_seams",
-         .construction =
-             "lookups in a sky of random texels along great circles across edges and corners of the cube: largest "
-             "change over a short step, relative to that over a step 100 times as long",
-         .x_label = "texels along an edge",
-         .y_label = "ratio (1: a jump)",
-         .log_x = true,
-         .log_y = true,
-         .limit = 0.1,
-         .closed_form = "1 / 100: the interpolation is continuous",
-         .test = test,
-         .rows = seam_rows},
-        {.name = "short_directions",
-         .construction = "the lecture's direction (-3.2, 5.1, -8.4), x long: error of its point on the face",
-         .x_label = "length",
-         .y_label = "error (faces)",
-         .log_x = true,
-         .log_y = true,
-         .limit = 1e-3,
-         .closed_form = "half a step of denormals over the length",
-         .test = test,
-         .rows = short_rows},
+    const std::vector<Sweep> others = {
         {.name = "sun_flux",
          .construction = "one bright texel of a face of x texels: largest error of the flux over all mips",
          .x_label = "texels along an edge",
@@ -280,6 +285,9 @@ std::vector<Sweep> sky_sweeps() {
          .test = test,
          .rows = pole_rows},
     };
+    std::vector<Sweep> all = cube_sweeps();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
 }
 
 } // namespace stability
