@@ -4,7 +4,8 @@ namespace stability {
 
 std::vector<Theme> all_themes() {
     return {
-        {"curvature", curvature_sweeps},
+        {"curvature", curvature_sweeps}, {"slope", slope_sweeps},     {"chart", chart_sweeps},
+        {"relief", relief_sweeps},       {"warning", warning_sweeps},
     };
 }
 

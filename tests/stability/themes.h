@@ -5,5 +5,9 @@
 namespace stability {
 
 std::vector<Sweep> curvature_sweeps();
+std::vector<Sweep> slope_sweeps();
+std::vector<Sweep> chart_sweeps();
+std::vector<Sweep> relief_sweeps();
+std::vector<Sweep> warning_sweeps();
 
 } // namespace stability
