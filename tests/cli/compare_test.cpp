@@ -131,8 +131,8 @@ TEST_SUITE("cli") {
                 "bad.exr: 1 pixel is NaN or Inf, the first at column 12, row 7");
         refused(3, {"a.exr", "absent.exr"}, "absent.exr");
         refused(3, {"a.exr", torus}, "is a picture, where a mesh is expected");
-        refused(3, {"scene.toml", "a.exr"}, "scene.toml: is a scene");
-        refused(2, {"a.png"}, "other");
+        refused(2, {"scene.toml", "a.exr"}, "a.exr: the methods of one scene are compared; leave the second file out");
+        refused(2, {"a.png"}, "a.png: what is it compared with?");
         refused(2, {"a.png", "b.png", "--limit", "flip"}, "--limit flip: is not METRIC=VALUE");
         refused(2, {"a.png", "b.png", "--limit", "flip=x"}, "--limit flip");
         refused(2, {"a.png", "b.png", "--limit", "angle=1"}, "--limit angle: is not computed here");

@@ -10,7 +10,8 @@ using namespace bake::test;
 namespace {
 
 const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_meshes() / "torus.obj").string(),
-                  scene = (own_meshes() / "scene.toml").string();
+                  scene = (own_meshes() / "scene.toml").string(),
+                  relief_scene = (own_meshes() / "torus_methods.toml").string();
 
 struct Option {
     std::string flag, type; ///< as --help shows them; no type: a flag
@@ -48,7 +49,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
         values.insert(values.end(), {"nan", ""});
     };
     if (is_one_of(type, {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME",
-                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]"}))
+                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]", "OUT.html"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
@@ -83,6 +84,10 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
     REQUIRE_MESSAGE(lines.contains(verb), "add a command line of " << verb << " to this test");
     std::vector<std::string> line = lines.at(verb);
     line.insert(line.begin(), verb);
+    // Options of `compare` for a scene.
+    if (verb == "compare" && is_one_of(flag, {"--spp", "--size", "--repeats", "--object", "--methods", "--reference",
+                                              "--camera", "--csv", "--no-causes", "--report"}))
+        line = {verb, relief_scene};
     if (flag == "--roughness") line.insert(line.end(), {"--specular", "ggx"});
     return line;
 }

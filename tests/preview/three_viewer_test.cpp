@@ -5,6 +5,7 @@
 #include "bake/preview/render.h"
 #include "bake/preview/scene_io.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "browser.h"
 #include "cli/command.h"
 #include "preview/little_scenes.h"
 #include <algorithm>
@@ -17,16 +18,6 @@ using namespace bake::test;
 using nlohmann::json;
 
 namespace {
-
-/// Whether the tests are skipped: three.js or Chromium is not installed, and $BAKE_NEEDS_THREE does not ask for them. They
-/// are skipped under sanitizers too, where the pictures would take minutes.
-bool no_viewer() {
-#ifdef __SANITIZE_ADDRESS__
-    return true;
-#endif
-    return !std::getenv("BAKE_NEEDS_THREE") &&
-           !(fs::exists("/usr/bin/chromium") && fs::exists(source_folder() / "build/three_viewer/node_modules/three"));
-}
 
 /// A mesh with one normal map, and glTF files of them.
 struct Baked {
@@ -207,7 +198,7 @@ void check_normals(const Baked& baked) {
 
 } // namespace
 
-TEST_SUITE("cli" * doctest::skip(no_viewer())) {
+TEST_SUITE("cli" * doctest::skip(no_browser())) {
 
     TEST_CASE("three.js: shading normals of a baked torus") {
         Baked baked;
@@ -254,7 +245,7 @@ TEST_SUITE("cli" * doctest::skip(no_viewer())) {
     }
 }
 
-TEST_SUITE("real" * doctest::skip(no_shared_data() || no_viewer())) {
+TEST_SUITE("real" * doctest::skip(no_shared_data() || no_browser())) {
 
     TEST_CASE("three.js: shading normals of a boombox and of tiles with mirrored uvs") {
         Baked boombox, tiles;

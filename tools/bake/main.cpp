@@ -73,7 +73,7 @@ constexpr VerbEntry verbs[] = {
     {"surface", "Normals, tangents, derivatives and curvature of a shape, a mesh or a subdivision surface",
      surface_verb},
     {"check", "Report what is in meshes and images, and what is wrong with them", check_verb},
-    {"compare", "Compare two pictures, two normal maps or two meshes: metrics, error picture, limits", compare_verb},
+    {"compare", "Compare methods of relief in a scene, or two pictures, normal maps or meshes", compare_verb},
     {"cubemap", "Assemble, convert, filter and capture environments: six faces or one picture", cubemap_verb},
     {"render", "Render a preview of a scene, a mesh, or a map on a shape", render_verb},
     {"explain", "Print every step from the height file to the shaded pixel for one texel", explain_verb},

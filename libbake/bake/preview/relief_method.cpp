@@ -27,8 +27,6 @@ constexpr std::pair<std::string_view, Shade> words[] = {
     {"displace+normal", Shade::displace_normal},
 };
 
-bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
-
 /// Tables and maps of slopes per unit of u and v.
 BumpTableOptions table_options(const ReliefOptions& options) {
     BumpTableOptions table;
@@ -90,9 +88,9 @@ Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const Relie
 }
 
 /// Memory for a displaced mesh in a scene, beside the mesh: normals of its corners, two triangles per face, their copy in
-/// world space and Embree's tree, measured 86 bytes per triangle.
+/// world space and Embree's tree.
 std::uint64_t scene_bytes(const DisplaceCount& count) noexcept {
-    const std::uint64_t per_corner = sizeof(Vec3f), per_triangle = 12 + 16 + 86;
+    const std::uint64_t per_corner = sizeof(Vec3f), per_triangle = 12 + 16 + tree_bytes_per_triangle;
     return count.corners * per_corner + (count.corners - 2 * count.faces) * per_triangle + count.points * 12;
 }
 

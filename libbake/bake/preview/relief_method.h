@@ -21,6 +21,9 @@ enum class Shade {
     displace_normal, ///< a displaced mesh with a map of the exact normals relative to it: residual_map()
 };
 
+/// Whether the mesh itself is displaced.
+constexpr bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
+
 struct ShadeMethod {
     Shade shade = Shade::exact;
     int levels = 4; ///< displace: every edge becomes 2^levels; negative: as many as memory allows
@@ -34,6 +37,9 @@ std::string name(const ShadeMethod& method);
 inline constexpr const char* shade_names = "\"plain\", \"roughness\", \"constant-scale\", \"blinn\", \"exact\", "
                                            "\"bump\", \"bump+roughness\", \"normal\", \"displace:16\" or another "
                                            "power of two, \"displace:max\", \"displace+normal:16\"";
+
+/// Of Embree's tree with its copy of the corners, as measured.
+inline constexpr int tree_bytes_per_triangle = 86;
 
 /// What the values of a height mean on one shape.
 struct ReliefOptions {

@@ -24,5 +24,9 @@ struct Surfel {
 
 /// `direction`: of the ray that hit, with unit length; `cone`: around it.
 Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone = {}) noexcept;
+/// The same for a point that the viewer may not see, such as the counterpart of a hit on another shape, with a material of
+/// the caller's. `inside` says on which side of the surface the viewer counts as being.
+Surfel make_surfel(const Scene& scene, const Hit& hit, const Vec3f& direction, const RayCone& cone,
+                   const Material& material, bool inside) noexcept;
 
 } // namespace bake

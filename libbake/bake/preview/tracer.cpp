@@ -39,9 +39,9 @@ struct Path {
     /// All that is not directly from a light of the scene.
     void add_rest(const Surfel& s, const Hit& hit, int bounces, int diffuse_bounces, Radiance& sum,
                   FirstHit* first) noexcept;
+    void add_lights(const Surfel& s, Radiance& sum) noexcept;
 
 private:
-    void add_lights(const Surfel& s, Radiance& sum) noexcept;
     void add_sky_sample(const Surfel& s, Radiance& sum, FirstHit* first) noexcept;
     void add_bsdf_sample(const Surfel& s, int bounces, int diffuse_bounces, Radiance& sum) noexcept;
     bool sky_lights(SkyLighting how) const noexcept {
@@ -316,6 +316,18 @@ void Block::describe(int lane, bool details) noexcept {
 }
 
 } // namespace
+
+Radiance shade(const Scene& scene, Surfel s, const HitPoint& from, const Hit& hit, Sampler sampler,
+               int bounces) noexcept {
+    RenderStats stats;
+    FirstHit first;
+    Path path{scene, sampler, stats};
+    Radiance sum{.emitted = s.bsdf.emission + s.bsdf.ambient * scene.ambient};
+    path.add_lights(s, sum);
+    s.at = from;
+    path.add_rest(s, hit, bounces, scene.settings.diffuse_bounces, sum, &first);
+    return sum;
+}
 
 RenderStats& RenderStats::operator+=(const RenderStats& more) noexcept {
     rays += more.rays, bad_samples += more.bad_samples, hits += more.hits;

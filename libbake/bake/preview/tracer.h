@@ -6,6 +6,7 @@
 namespace bake {
 
 struct LightTerm;
+struct Surfel;
 
 struct RenderStats {
     std::int64_t rays = 0;        ///< of every kind
@@ -63,5 +64,10 @@ struct PrimaryHit {
 /// the same to the last bit only among the same rays.
 void trace(const Scene& scene, std::span<PrimaryRay, packet_size> rays, PacketMask active, int bounces, bool details,
            std::span<PrimaryHit, packet_size> results) noexcept;
+
+/// What trace() adds up for one primary hit that is prepared already: light of the lights from surfel.at, and mirror rays
+/// from `from`. A caller can put the surfel together from several points.
+Radiance shade(const Scene& scene, Surfel surfel, const HitPoint& from, const Hit& hit, Sampler sampler,
+               int bounces) noexcept;
 
 } // namespace bake

@@ -1,0 +1,111 @@
+#include "bake/verdict/chart/line_chart.h"
+#include "bake/verdict/chart/svg.h"
+#include "verdict/chart/svg_pieces.h"
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace bake;
+using test::is_well_formed;
+using test::svg_all;
+using test::SvgPiece;
+
+namespace {
+
+LineChart chart() {
+    LineChart out;
+    out.title = "Sphere: height over radius";
+    out.x_label = "height / radius";
+    out.y_label = "error, deg";
+    return out;
+}
+
+std::size_t words(const std::string& text) {
+    std::size_t count = 1;
+    for (const char c : text) count += c == ' ';
+    return count;
+}
+
+} // namespace
+
+TEST_SUITE("unit") {
+    TEST_CASE("line_chart_svg: points stand at their values, the mark at its own") {
+        LineChart c = chart();
+        c.series = {{"blinn", {{0, 0}, {1, 5}, {2, 10}}}};
+        c.marks = {{1, "closed form"}};
+        const std::string svg = line_chart_svg(c);
+        REQUIRE(is_well_formed(svg));
+        const SvgPiece p = svg_all(svg, "rect").at(1);
+        const double left = p.number("x"), w = p.number("width"), top = p.number("y"), h = p.number("height");
+        const std::vector<SvgPiece> dots = svg_all(svg, "circle");
+        REQUIRE(dots.size() == 3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double share = (0.06 + 0.5 * double(i)) / 1.12;
+            CHECK(dots[i].number("cx") == doctest::Approx(left + w * share).epsilon(1e-4));
+            CHECK(dots[i].number("cy") == doctest::Approx(top + h * (1 - share)).epsilon(1e-4));
+        }
+        double mark = 0;
+        for (const SvgPiece& line : svg_all(svg, "line"))
+            if (line.value("stroke") == "#a33") mark = line.number("x1");
+        CHECK(mark == doctest::Approx(left + w / 2).epsilon(1e-4));
+        CHECK(svg.find(">closed form</text>") != std::string::npos);
+    }
+
+    TEST_CASE("line_chart_svg: what is not finite interrupts the line") {
+        LineChart c = chart();
+        c.series = {{"a", {{0, 1}, {1, 2}, {2, NAN}, {3, 4}, {4, INFINITY}, {5, 6}, {6, 7}, {7, 8}}}};
+        const std::string svg = line_chart_svg(c);
+        const std::vector<SvgPiece> lines = svg_all(svg, "polyline");
+        REQUIRE(lines.size() == 3);
+        CHECK(words(lines[0].value("points")) == 2);
+        CHECK(words(lines[1].value("points")) == 1);
+        CHECK(words(lines[2].value("points")) == 3);
+        CHECK(svg_all(svg, "circle").size() == 6);
+    }
+
+    TEST_CASE("line_chart_svg: zero on a logarithmic axis stands in a strip; many series are told apart") {
+        LineChart c = chart();
+        c.logarithmic_x = c.logarithmic_y = true;
+        for (int i = 0; i < 21; ++i) c.series.push_back({"series " + std::to_string(i), {{1.0 + i, 1}, {100, 0}}});
+        const std::string svg = line_chart_svg(c);
+        REQUIRE(is_well_formed(svg));
+        const SvgPiece p = svg_all(svg, "rect").at(1);
+        CHECK(svg_all(svg, "circle").at(1).number("cy") == doctest::Approx(p.number("y") + p.number("height") - 15));
+        std::vector<std::string> styles;
+        for (const SvgPiece& line : svg_all(svg, "polyline")) {
+            const std::string style = line.value("stroke") + line.value("stroke-dasharray");
+            for (const std::string& other : styles) CHECK(other != style);
+            styles.push_back(style);
+        }
+        CHECK(styles.size() == 21);
+    }
+
+    TEST_CASE("line_chart_svg: labels of marks at nearly one place do not overlap") {
+        LineChart c = chart();
+        c.series = {{"a", {{0, 1}, {1, 2}}}};
+        for (int i = 0; i < 12; ++i) c.marks.push_back({0.5 + 0.002 * i, "measured " + std::to_string(i)});
+        const std::string svg = line_chart_svg(c);
+        struct Place {
+            double left, right, base;
+        };
+        std::vector<Place> places;
+        for (const SvgPiece& text : svg_all(svg, "text")) {
+            if (text.text.compare(0, 8, "measured") != 0) continue;
+            const double half = text_width(text.text, 11) / 2;
+            const Place place{text.number("x") - half, text.number("x") + half, text.number("y")};
+            CHECK(place.base > 30); // beneath the title
+            for (const Place& other : places)
+                CHECK((place.base != other.base || place.left >= other.right || other.left >= place.right));
+            places.push_back(place);
+        }
+        CHECK(places.size() == 12);
+    }
+
+    TEST_CASE("line_chart_svg: nothing to draw, and text that XML must escape") {
+        CHECK(is_well_formed(line_chart_svg(chart())));
+        LineChart c = chart();
+        c.title = "<&>";
+        c.series = {{"\"<", {}}};
+        c.marks = {{NAN, "a"}, {1, "<b>"}};
+        CHECK(is_well_formed(line_chart_svg(c)));
+    }
+}
