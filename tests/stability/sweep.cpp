@@ -17,11 +17,17 @@ std::string number(double value) {
     return text;
 }
 
-/// Text without what separates fields of a csv or cells of a table.
-std::string plain(std::string text) {
+/// Text without what separates the fields of a csv.
+std::string field(std::string text) {
     std::replace(text.begin(), text.end(), ',', ';');
     std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// Text without what separates the cells of a table.
+std::string cell(std::string text) {
     std::replace(text.begin(), text.end(), '|', '/');
+    std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
 
@@ -46,7 +52,7 @@ std::string answers(const std::vector<Row>& rows) {
     std::string text;
     for (const Row& row : rows)
         if (std::find(seen.begin(), seen.end(), row.program) == seen.end()) {
-            text += (text.empty() ? "" : " → ") + plain(row.program);
+            text += (text.empty() ? "" : " → ") + cell(row.program);
             seen.push_back(row.program);
         }
     return text;
@@ -94,16 +100,16 @@ std::optional<double> breaks_at(const Sweep& sweep, const std::vector<Row>& rows
 }
 
 std::string table_line(const Sweep& sweep, const std::vector<Row>& rows) {
-    return "| [" + sweep.name + "](charts/stability/" + sweep.name + ".svg) | " + plain(sweep.construction) + " | " +
-           breaks(sweep, rows, false) + " | " + breaks(sweep, rows, true) + ": " + plain(sweep.closed_form) + " | " +
+    return "| [" + sweep.name + "](charts/stability/" + sweep.name + ".svg) | " + cell(sweep.construction) + " | " +
+           breaks(sweep, rows, false) + " | " + breaks(sweep, rows, true) + ": " + cell(sweep.closed_form) + " | " +
            answers(rows) + " | " + sweep.test + " |\n";
 }
 
 std::string csv_lines(const Sweep& sweep, const std::vector<Row>& rows) {
     std::string text;
     for (const Row& row : rows)
-        text += sweep.name + "," + plain(row.series) + "," + number(row.x) + "," + number(row.measured) + "," +
-                (row.predicted ? number(*row.predicted) : "") + "," + plain(row.program) + "\n";
+        text += sweep.name + "," + field(row.series) + "," + number(row.x) + "," + number(row.measured) + "," +
+                (row.predicted ? number(*row.predicted) : "") + "," + field(row.program) + "\n";
     return text;
 }
 

@@ -21,6 +21,11 @@ std::string escaped(const std::string& plain) {
     return out;
 }
 
+/// A point of the picture.
+struct Vec2 {
+    double x = 0, y = 0;
+};
+
 /// One axis: from values to pixels.
 struct Axis {
     bool log = false;
@@ -94,12 +99,32 @@ std::string curve(const std::vector<Row>& rows, const std::string& series, const
            "' stroke-width='4.5' stroke-linecap='round' stroke-opacity='.6'/></g>\n";
 }
 
-std::string legend(const std::vector<std::string>& series, double x) {
+/// The corner with the fewest points of the curves.
+Vec2 free_corner(const std::vector<Row>& rows, const Axis& x, const Axis& y, double wide, double tall) {
+    Vec2 best;
+    std::size_t fewest = rows.size() + 1;
+    for (const double at_y : {top, height - bottom - tall - 6})
+        for (const double at_x : {left, width - right - wide - 10}) {
+            const auto inside = [&](const Row& row) {
+                const double px = x.pixel(row.x), py = y.pixel(row.measured);
+                return px > at_x && px < at_x + wide + 10 && py > at_y && py < at_y + tall + 6;
+            };
+            const auto count = std::size_t(std::count_if(rows.begin(), rows.end(), inside));
+            if (count < fewest) fewest = count, best = {at_x, at_y};
+        }
+    return best;
+}
+
+std::string legend(const std::vector<std::string>& series, const std::vector<Row>& rows, const Axis& x_axis,
+                   const Axis& y_axis) {
     std::string out;
     if (series.size() == 1 && series[0].empty()) return out;
+    std::size_t longest = 0;
+    for (const std::string& name : series) longest = std::max(longest, name.size());
+    const auto [x, first] = free_corner(rows, x_axis, y_axis, 24 + 6 * double(longest), 13 * double(series.size()));
     for (std::size_t i = 0; i < series.size(); ++i) {
-        const double y = top + 14 + 13 * double(i);
-        out += text("<rect x='%.0f' y='%.0f' width='%.0f' height='13' fill='#fff' fill-opacity='.75'/>", left + 4,
+        const double y = first + 14 + 13 * double(i);
+        out += text("<rect x='%.0f' y='%.0f' width='%.0f' height='13' fill='#fff' fill-opacity='.75'/>", x + 4,
                     y - 10, 24 + 6 * double(series[i].size()));
         out += text("<path d='M%.0f %.0fh14' stroke='%s' stroke-width='1.6'/>", x + 6, y - 4, colours[i % 7]);
         out += text("<text x='%.0f' y='%.0f'>", x + 24, y) + escaped(series[i]) + "</text>\n";
@@ -132,7 +157,7 @@ std::string chart_svg(const Sweep& sweep, const std::vector<Row>& rows) {
                     width - right);
     const std::vector<std::string> series = series_of(rows);
     for (std::size_t i = 0; i < series.size(); ++i) svg += curve(rows, series[i], x, y, colours[i % 7]);
-    svg += legend(series, sweep.falls ? 0.58 * width : left); // away from the curves
+    svg += legend(series, rows, x, y);
     svg += text("<text x='%.0f' y='%.0f' text-anchor='middle'>", (left + width - right) / 2, height - 8) +
            escaped(sweep.x_label) + "</text>\n";
     svg += text("<text transform='translate(13 %.0f) rotate(-90)' text-anchor='middle'>", (top + height - bottom) / 2) +

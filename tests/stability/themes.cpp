@@ -5,12 +5,16 @@ namespace stability {
 std::vector<Theme> all_themes() {
     return {
         {"curvature", curvature_sweeps},
-        {"tilt", tilt_sweeps},     // normals
-        {"shadow", shadow_sweeps}, // and silhouettes
+        {"slope", slope_sweeps},
+        {"chart", chart_sweeps},
+        {"relief", relief_sweeps},
+        {"warning", warning_sweeps},
+        {"tilt", tilt_sweeps},
+        {"shadow", shadow_sweeps},
         {"minification", minification_sweeps},
-        {"sky", sky_sweeps},             // environments
-        {"distance", distance_sweeps},   // and size
-        {"precision", precision_sweeps}, // float against double
+        {"sky", sky_sweeps},
+        {"distance", distance_sweeps},
+        {"precision", precision_sweeps},
         {"thread", thread_sweeps},
     };
 }

@@ -5,6 +5,10 @@
 namespace stability {
 
 std::vector<Sweep> curvature_sweeps();
+std::vector<Sweep> slope_sweeps();
+std::vector<Sweep> chart_sweeps();
+std::vector<Sweep> relief_sweeps();
+std::vector<Sweep> warning_sweeps();
 std::vector<Sweep> tilt_sweeps();
 std::vector<Sweep> shadow_sweeps();
 std::vector<Sweep> minification_sweeps();
