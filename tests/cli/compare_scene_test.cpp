@@ -42,6 +42,7 @@ material = "studs"
 /// A command line that takes little time.
 std::vector<std::string> quick(std::vector<std::string> more = {}) {
     std::vector<std::string> line = {"compare", "s.toml", "--spp", "2", "--reference", "displace:4"};
+    if (more.empty() || more.back() != "--json") line.push_back("--no-causes");
     line.insert(line.end(), more.begin(), more.end());
     return line;
 }
@@ -53,7 +54,8 @@ TEST_SUITE("cli") {
         "compare SCENE: a row per method, the same numbers in JSON and CSV, and pictures and charts in the folder") {
         const Folder folder;
         write_scene(folder);
-        const Run text = run_bake(folder, quick({"--methods", "plain,bump,displace:4", "-o", "out/"}));
+        const Run text =
+            run_bake(folder, quick({"--methods", "plain,bump,displace:4", "-o", "out/", "--report", "all.html"}));
         CHECK(text.err == "");
         REQUIRE(text.code == 0);
         for (const char* part : {"ring, ball: the methods against true displacement", "48 x 32, 2 samples per pixel",
@@ -64,6 +66,7 @@ TEST_SUITE("cli") {
               "displace_4_error.png", "contact.png", "chart.svg", "chart_bytes.svg", "compare.csv", "compare.json"})
             CHECK_MESSAGE(fs::exists(folder.path / "out" / name), std::string(name));
         CHECK(read_image(folder / "out/plain.png").width() == 48);
+        CHECK(has(contents(folder / "all.html"), "displace:4"));
         const auto json = nlohmann::json::parse(contents(folder / "out/compare.json"));
         REQUIRE(json["methods"].size() == 3);
         CHECK(json["methods"][1]["command"] == "bake compare s.toml --spp 2 --reference displace:4 --methods bump");
@@ -142,8 +145,24 @@ TEST_SUITE("cli") {
         check_refused(folder, quick({"s.toml"}), 2, "leave the second file out");
         check_refused(folder, quick({"--csv", "--json"}), 2, "--csv: ");
         check_refused(folder, quick({"--camera", "top"}), 2, "--camera top: ");
+        check_refused(folder, quick({"--report", "no/such/all.html"}), 5, "no/such/all.html: ");
         check_refused(folder, quick({"-o", "no/such/folder"}), 5, "no/such/folder: ");
         CHECK(folder.names() == before);
+    }
+
+    TEST_CASE("compare SCENE: the shares of the error by cause sum to 1, and --no-causes leaves them out") {
+        const Folder folder;
+        write_scene(folder);
+        const Run run = run_bake(folder, quick({"--methods", "bump", "--json"}));
+        REQUIRE(run.code == 0);
+        const auto row = nlohmann::json::parse(run.out)["methods"][0];
+        double sum = 0;
+        for (const auto& share : row["shares"]) sum += share.get<double>();
+        CHECK(row["shares"].size() == 5);
+        CHECK(sum == doctest::Approx(1).epsilon(1e-9));
+        CHECK(row["shares_of"]["mean_square"].get<double>() > 0);
+        const Run without = run_bake(folder, quick({"--methods", "bump", "--no-causes", "--json"}));
+        CHECK_FALSE(nlohmann::json::parse(without.out)["methods"][0].contains("shares"));
     }
 
     TEST_CASE("compare SCENE: Ctrl-C keeps the methods that were rendered, and exits with 130") {

@@ -49,7 +49,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
         values.insert(values.end(), {"nan", ""});
     };
     if (is_one_of(type, {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME",
-                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]"}))
+                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]", "OUT.html"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
@@ -86,7 +86,7 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
     line.insert(line.begin(), verb);
     // Options of `compare` for a scene.
     if (verb == "compare" && is_one_of(flag, {"--spp", "--size", "--repeats", "--object", "--methods", "--reference",
-                                              "--camera", "--csv", "--report"}))
+                                              "--camera", "--csv", "--no-causes", "--report"}))
         line = {verb, relief_scene};
     if (flag == "--roughness") line.insert(line.end(), {"--specular", "ggx"});
     return line;

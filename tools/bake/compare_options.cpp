@@ -87,6 +87,9 @@ void add_method_options(CLI::App& sub, MethodCompareArgs& args) {
     add_integer_option(sub, "--repeats", args.repeats, 1, 1000,
                        "Scene: how often each method is prepared and rendered, for the median of the times")
         ->capture_default_str();
+    sub.add_option("--report", args.report, "Scene: one HTML file with the pictures, the charts and the table")
+        ->type_name("OUT.html");
+    sub.add_flag("--no-causes", args.no_causes, "Scene: leave out the share of the error by cause, which takes time");
     sub.add_flag("--csv", args.csv, "Scene: print the table as CSV");
 }
 
@@ -131,8 +134,8 @@ Comparing check_compare_usage(CompareArgs& args, const CLI::App& sub) {
     if (is(Comparing::methods)) refuse("--normals", "belongs to two pictures, and this is a scene");
     if (!is(Comparing::meshes)) refuse("--samples", "belongs to meshes; leave it out");
     if (!is(Comparing::methods))
-        for (const char* flag :
-             {"--object", "--methods", "--reference", "--size", "--spp", "--camera", "--repeats", "--csv"})
+        for (const char* flag : {"--object", "--methods", "--reference", "--size", "--spp", "--camera", "--repeats",
+                                 "--no-causes", "--csv"})
             refuse(flag, "belongs to a scene; leave it out");
     expect_kinds(args, what);
     return what;

@@ -12,7 +12,7 @@ struct MethodCompareArgs {
     std::string object, camera, methods, reference = "auto", report;
     std::optional<std::pair<int, int>> size; ///< none: the scene's
     int spp = 16, repeats = 1;
-    bool csv = false;
+    bool csv = false, no_causes = false;
 };
 
 struct CompareArgs {

@@ -3,6 +3,7 @@
 #include "bake/picture/image_io.h"
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/compare/comparison_pictures.h"
+#include "bake/verdict/report/report_page.h"
 #include "compare_options.h"
 #include "render_progress.h"
 #include <filesystem>
@@ -29,7 +30,7 @@ std::vector<ShadeMethod> parse_methods(const std::string& list) {
 std::optional<ShadeMethod> parse_reference(const std::string& word) {
     if (word == "auto") return {};
     const ShadeMethod method = parse_method("--reference", word);
-    if (method.shade != Shade::displace && method.shade != Shade::displace_normal)
+    if (!displaces(method.shade))
         throw Error(Refusal::usage,
                     "--reference " + word + ": shows no true relief; write auto, displace:N or displace:max");
     return method;
@@ -105,6 +106,14 @@ void write_outputs(const SceneComparison& comparison, const OutputFolder& folder
     write_text(folder.file("compare.json"), json + "\n");
 }
 
+std::vector<ReportPicture> report_pictures(const SceneComparison& comparison) {
+    std::vector<ReportPicture> pictures;
+    pictures.push_back({comparison.reference.method, mean_picture(comparison.reference.picture.halves), {}});
+    for (const MethodRow& row : comparison.rows)
+        pictures.push_back({row.method, mean_picture(row.picture.halves), copied(row.errors.flip)});
+    return pictures;
+}
+
 } // namespace
 
 int compare_methods(const CompareArgs& args, const CommonArgs& common) {
@@ -113,9 +122,14 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     SceneCompareOptions options{.methods = parse_methods(args.methods.methods),
                                 .reference = parse_reference(args.methods.reference),
                                 .repeats = args.methods.repeats,
+                                .causes = !args.methods.no_causes,
                                 .flip = args.pictures.flip,
                                 .limits = args.limits,
                                 .told = {}};
+    if (!args.methods.report.empty()) {
+        require_report_page();
+        OutputFile(args.methods.report); // a file that cannot be written is refused before the work
+    }
     Stopwatch watch;
     const SceneEntries entries = read_entries(args);
     const OutputFolder folder(args.out);
@@ -126,10 +140,9 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     watch.lap("compare");
     const std::string json =
         with_flags(to_json(comparison, args.file, [&](const std::string& method) { return command_of(args, method); }));
-    if (folder) {
-        write_outputs(comparison, folder, json);
-        watch.lap("write");
-    }
+    if (folder) write_outputs(comparison, folder, json);
+    if (!args.methods.report.empty()) write_text(args.methods.report, report_page(json, report_pictures(comparison)));
+    if (folder || !args.methods.report.empty()) watch.lap("write");
     const std::string text = args.methods.csv ? to_csv(comparison) : to_text(comparison);
     if (args.methods.csv) {
         common.outputs->commit();

@@ -27,8 +27,6 @@ constexpr std::pair<std::string_view, Shade> words[] = {
     {"displace+normal", Shade::displace_normal},
 };
 
-bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
-
 /// Tables and maps of slopes per unit of u and v.
 BumpTableOptions table_options(const ReliefOptions& options) {
     BumpTableOptions table;

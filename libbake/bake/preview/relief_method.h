@@ -21,6 +21,9 @@ enum class Shade {
     displace_normal, ///< a displaced mesh with a map of the exact normals relative to it: residual_map()
 };
 
+/// Whether the mesh itself is displaced.
+constexpr bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
+
 struct ShadeMethod {
     Shade shade = Shade::exact;
     int levels = 4; ///< displace: every edge becomes 2^levels; negative: as many as memory allows

@@ -166,8 +166,7 @@ SmoothMesh read_entry(const MeshEntry& entry, const Vec2f& repeat, Scene& scene)
 }
 
 bool displaces(const ReliefEntry& relief) noexcept {
-    if (relief.file.empty() || !relief.shade) return false;
-    return relief.shade->shade == Shade::displace || relief.shade->shade == Shade::displace_normal;
+    return !relief.file.empty() && relief.shade && displaces(relief.shade->shade);
 }
 
 /// Notes, once, relief of a map or height that the mesh has already.

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/preview/nearest_key.h"
 #include "bake/preview/relief_method.h"
+#include "bake/verdict/compare/twin_points.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -109,7 +110,7 @@ void ComparedScene::read_pictures() {
 /// What load() chooses by the size of the meshes is chosen once, by the meshes without relief.
 void ComparedScene::fix_view() {
     const std::optional<GroundEntry> ground = std::exchange(entries_.ground, std::nullopt);
-    const MethodScene plain = load({Shade::plain});
+    const MethodScene plain = load(ShadeMethod{Shade::plain});
     notes_ = plain.scene.notes;
     triangles_ = object_triangles(plain);
     entries_.cameras = {entry_of(plain.scene.camera)};
@@ -121,19 +122,20 @@ void ComparedScene::fix_view() {
     // The lowest point of the relief is not known before it is displaced.
     int levels = 0;
     while (levels < 6 && double(triangles_) * std::exp2(2 * levels) < 3e4) ++levels;
-    const Bounds displaced = bounds(load({Shade::displace, levels}).scene);
+    const Bounds displaced = bounds(load(ShadeMethod{Shade::displace, levels}).scene);
     if (!ground->height) entries_.ground->height = float(std::min(box.min.y, displaced.min.y) - 1e-4 * across);
     if (!ground->size) entries_.ground->size = float(20 * across);
 }
 
-MethodScene ComparedScene::load(const ShadeMethod& method) const {
+SceneEntries ComparedScene::entries_of(const ShadeMethod& method) const {
     SceneEntries entries = entries_;
+    for (const int material : materials_) entries.materials[std::size_t(material)].relief.shade = method;
+    return entries;
+}
+
+MethodScene ComparedScene::load(const SceneEntries& entries) const {
     std::set<std::string> names;
-    for (const int material : materials_) {
-        MaterialEntry& entry = entries.materials[std::size_t(material)];
-        entry.relief.shade = method;
-        names.insert(entry.name);
-    }
+    for (const int material : materials_) names.insert(entries.materials[std::size_t(material)].name);
     MethodScene result{.scene = bake::load(entries), .of_object = {}};
     for (const Instance& instance : result.scene.instances)
         result.of_object.push_back(names.contains(instance.material->name));
@@ -142,6 +144,18 @@ MethodScene ComparedScene::load(const ShadeMethod& method) const {
         result.height_bytes = std::int64_t(image.width()) * image.height() * std::int64_t(sizeof(float));
     }
     return result;
+}
+
+MethodScene ComparedScene::load(const ShadeMethod& method) const { return load(entries_of(method)); }
+
+MethodScene ComparedScene::load_unfiltered(const ShadeMethod& method) const {
+    SceneEntries entries = entries_of(method);
+    entries.settings.filter = TextureFilter::off;
+    return load(entries);
+}
+
+Scene ComparedScene::load_base(const ShadeMethod& method) const {
+    return bake::load(without_heights(entries_of(method)));
 }
 
 std::int64_t object_triangles(const MethodScene& scene) {

@@ -22,6 +22,10 @@ public:
 
     /// Bakes what the method needs, and builds the scene. Throws the errors of load().
     MethodScene load(const ShadeMethod& method) const;
+    /// The same without filters: textures are looked up at points.
+    MethodScene load_unfiltered(const ShadeMethod& method) const;
+    /// The meshes of a method that displaces, with heights of 0: see without_heights().
+    Scene load_base(const ShadeMethod& method) const;
 
     const std::string& object() const noexcept { return object_; }
     /// Triangles of the object's meshes without relief.
@@ -31,6 +35,8 @@ public:
     const RenderSettings& settings() const noexcept { return entries_.settings; }
 
 private:
+    SceneEntries entries_of(const ShadeMethod& method) const;
+    MethodScene load(const SceneEntries& entries) const;
     void choose(const std::string& object);
     void read_pictures();
     void fix_view();

@@ -6,6 +6,7 @@
 #include "bake/base/text.h"
 #include "bake/preview/passes.h"
 #include "bake/verdict/chart/pareto.h"
+#include "bake/verdict/compare/cause_judge.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -31,13 +32,10 @@ Seconds seconds_of(std::vector<double> times) {
     return {median, times.front(), times.back()};
 }
 
-bool displaces(Shade shade) noexcept { return shade == Shade::displace || shade == Shade::displace_normal; }
-
 /// What is rendered of a method, and what that cost.
 struct Rendered {
     MethodCost cost;
     MethodPicture picture;
-    int segments = 0;
 };
 
 /// Mean shading normals.
@@ -72,7 +70,9 @@ private:
     int finest_levels() const;
     int first_levels() const;
     double smallest_error(const SceneComparison& result) const;
-    void take_reference(SceneComparison& result, Rendered rendered, int levels) const;
+    void add_causes(SceneComparison& result) const;
+    void compare(SceneComparison& result);
+    static void take_reference(SceneComparison& result, Rendered rendered, const ShadeMethod& method);
     void tell(const std::string& line) const {
         if (options_.told) options_.told(line);
     }
@@ -128,8 +128,9 @@ int Comparison::first_levels() const {
     return std::min(levels, most_levels);
 }
 
-void Comparison::take_reference(SceneComparison& result, Rendered rendered, int levels) const {
-    result.reference.method = name({Shade::displace, levels});
+void Comparison::take_reference(SceneComparison& result, Rendered rendered, const ShadeMethod& method) {
+    result.reference.method = name(method);
+    result.reference.shade = method;
     result.reference.cost = rendered.cost;
     result.reference.picture = std::move(rendered.picture);
 }
@@ -141,14 +142,13 @@ void Comparison::begin(SceneComparison& result) {
     result.spp = settings.spp + settings.spp % 2;
     result.notes = scene_.notes();
     if (options_.reference) {
-        Rendered rendered = render(*options_.reference);
-        take_reference(result, std::move(rendered), 0);
-        result.reference.method = name(*options_.reference);
+        take_reference(result, render(*options_.reference), *options_.reference);
         result.reference.why = "as asked for";
     } else {
         for (levels_ = first_levels();; --levels_) {
             try {
-                take_reference(result, render({Shade::displace, levels_}), levels_);
+                const ShadeMethod method{Shade::displace, levels_};
+                take_reference(result, render(method), method);
                 break;
             } catch (const Error& error) {
                 if (levels_ == 0 || error.refusal != Refusal::unsuitable) throw;
@@ -166,7 +166,7 @@ void Comparison::begin(SceneComparison& result) {
 
 void Comparison::render_methods(SceneComparison& result) {
     for (const ShadeMethod& method : options_.methods) {
-        MethodRow row{.method = name(method), .cost = {}, .picture = {}, .errors = {}};
+        MethodRow row{.method = name(method), .shade = method, .cost = {}, .picture = {}, .errors = {}, .shares = {}};
         Rendered rendered = render(method);
         row.cost = rendered.cost;
         row.picture = std::move(rendered.picture);
@@ -208,7 +208,7 @@ void Comparison::refine_reference(SceneComparison& result) {
         const auto pixels = pixels_of_either(reference.picture.mask, finer.picture.mask);
         const Estimate change = square_error(reference.picture.halves, finer.picture.halves, result.exposure, pixels);
         ++levels_, ++reference.refinements;
-        take_reference(result, std::move(finer), levels_);
+        take_reference(result, std::move(finer), {Shade::displace, levels_});
         reference.change = root(change);
         reference.smallest = smallest_error(result);
         tell(format("reference %s: changes the one before by rmse %.4g +- %.1g", reference.method.c_str(),
@@ -255,11 +255,18 @@ void Comparison::judge(SceneComparison& result) const {
     }
 }
 
-SceneComparison Comparison::run() {
-    if (options_.methods.empty()) options_.methods = default_methods(scene_.triangles());
-    over_limits(figures(PictureErrors{}), options_.limits); // names, before the long work
-    SceneComparison result;
-    begin(result);
+void Comparison::add_causes(SceneComparison& result) const {
+    std::int64_t pixels = 0;
+    for (const MethodRow& row : result.rows) pixels = std::max(pixels, row.errors.object.pixels);
+    const CauseJudge judge(scene_, result.reference.shade, result.exposure, pixels);
+    for (MethodRow& row : result.rows) {
+        row.shares = judge.shares(row.shade, progress_);
+        if (progress_) progress_->finish();
+    }
+}
+
+/// What Ctrl-C ends; what is there by then is kept.
+void Comparison::compare(SceneComparison& result) {
     try {
         render_methods(result);
         refine_reference(result);
@@ -271,6 +278,21 @@ SceneComparison Comparison::run() {
     if (progress_) progress_->start("compare", 0);
     judge(result);
     if (progress_) progress_->finish();
+    if (!options_.causes || result.interrupted) return;
+    try {
+        add_causes(result);
+    } catch (const Error& error) {
+        if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
+        result.interrupted = true;
+    }
+}
+
+SceneComparison Comparison::run() {
+    if (options_.methods.empty()) options_.methods = default_methods(scene_.triangles());
+    over_limits(figures(PictureErrors{}), options_.limits); // names, before the long work
+    SceneComparison result;
+    begin(result);
+    compare(result);
     return result;
 }
 

@@ -2,6 +2,7 @@
 //
 // Every method renders the same camera, lights and samples. The reference is a true displacement, as fine as it must be.
 #pragma once
+#include "bake/verdict/compare/causes.h"
 #include "bake/verdict/compare/compared_scene.h"
 #include "bake/verdict/compare/figures.h"
 #include "bake/verdict/compare/picture_errors.h"
@@ -14,6 +15,7 @@ struct SceneCompareOptions {
     std::vector<ShadeMethod> methods;     ///< empty: default_methods()
     std::optional<ShadeMethod> reference; ///< none: displaced, refined until the next refinement changes little
     int repeats = 1;                      ///< renderings that are timed
+    bool causes = true;                   ///< whether the share of the error by cause is computed
     FlipOptions flip;
     std::vector<Limit> limits; ///< over the object's pixels; of every method
     /// Receives a line when a method is rendered.
@@ -33,15 +35,18 @@ struct MethodCost {
 };
 
 struct MethodRow {
-    std::string method;
+    std::string method; ///< name(shade)
+    ShadeMethod shade;
     MethodCost cost;
     MethodPicture picture;
     PictureErrors errors;
+    std::optional<CauseShares> shares;                  ///< none: not asked for, or interrupted
     bool on_time_front = false, on_bytes_front = false; ///< see pareto_front()
 };
 
 struct ReferenceRow {
-    std::string method;
+    std::string method; ///< name(shade)
+    ShadeMethod shade;
     MethodCost cost;
     MethodPicture picture;
     int refinements = 0; ///< that were rendered to settle it

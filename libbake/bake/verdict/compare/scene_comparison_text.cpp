@@ -4,13 +4,23 @@
 #include "bake/verdict/compare/scene_comparison.h"
 #include "bake/verdict/finding_text.h"
 #include "bake/verdict/report_text.h"
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace bake {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Shares of the total by name, and the interaction; 0 without an error.
+std::vector<std::pair<std::string, double>> parts(const CauseShares& shares) {
+    const double scale = shares.total > 0 ? 1 / shares.total : 0;
+    return {{"silhouette", shares.silhouette * scale}, {"self_shadow", shares.self_shadow * scale},
+            {"parallax", shares.parallax * scale},     {"normal", shares.normal * scale},
+            {"filtering", shares.filtering * scale},   {"interaction", shares.interaction * scale}};
+}
 
 Json number_or_word(double value) { return std::isinf(value) ? Json("inf") : Json(value); }
 
@@ -47,6 +57,11 @@ Json json_of(const std::string& method, const MethodCost& cost) {
             {"texture_bytes", cost.texture_bytes}};
 }
 
+void add_shares(const CauseShares& shares, Json& json) {
+    for (const auto& [cause, part] : parts(shares)) (cause == "interaction" ? json : json["shares"])[cause] = part;
+    json["shares_of"] = {{"mean_square", shares.total}, {"pixels", shares.pixels}};
+}
+
 Json json_of(const MethodRow& row) {
     const PictureErrors& errors = row.errors;
     Json json = json_of(row.method, row.cost);
@@ -54,6 +69,7 @@ Json json_of(const MethodRow& row) {
     json["frame"] = json_of(errors.frame);
     json["normals_deg"] = {{"mean", errors.angles.mean}, {"p95", errors.angles.p95}, {"max", errors.angles.max}};
     if (errors.outline.known) json["silhouette_px"] = {{"mean", errors.outline.mean}, {"max", errors.outline.max}};
+    if (row.shares) add_shares(*row.shares, json);
     json["worst"] = {
         {"x", errors.worst.x}, {"y", errors.worst.y}, {"width", errors.worst.width}, {"height", errors.worst.height}};
     json["on_time_front"] = row.on_time_front;
@@ -69,6 +85,23 @@ std::string reference_text(const SceneComparison& comparison) {
         text += format("; %d refinement%s, the last changed rmse %.2g +- %.1g", reference.refinements,
                        reference.refinements == 1 ? "" : "s", reference.change.value, reference.change.error);
     return text + (reference.why.empty() ? "" : "; " + reference.why);
+}
+
+std::string cause_table(const SceneComparison& comparison) {
+    const auto has_shares = [](const MethodRow& row) { return row.shares.has_value(); };
+    if (std::none_of(comparison.rows.begin(), comparison.rows.end(), has_shares)) return {};
+    std::string text =
+        "  share of the squared error by cause; interaction is what the causes do together beyond each alone\n";
+    text += format("  %-18s %10s %11s %9s %8s %10s %12s\n", "method", "silhouette", "self-shadow", "parallax", "normal",
+                   "filtering", "interaction");
+    for (const MethodRow& row : comparison.rows) {
+        if (!row.shares) continue;
+        const auto all = parts(*row.shares);
+        const auto cent = [&](int i) { return 100 * all[std::size_t(i)].second; };
+        text += format("  %-18s %8.1f %% %9.1f %% %7.1f %% %6.1f %% %8.1f %% %10.1f %%\n", row.method.c_str(), cent(0),
+                       cent(1), cent(2), cent(3), cent(4), cent(5));
+    }
+    return text;
 }
 
 std::string table_row(const MethodRow& row) {
@@ -101,6 +134,7 @@ std::string to_text(const SceneComparison& comparison) {
     text +=
         "  Errors are over the pixels that show the object in either picture. front: no other method is as good in\n"
         "  both rmse and time (t) or bytes (b), and better in one.\n";
+    text += cause_table(comparison);
     return text + finding_rows({.warnings = comparison.warnings, .notes = comparison.notes});
 }
 
@@ -137,7 +171,8 @@ std::string to_csv(const SceneComparison& comparison) {
     std::string text =
         "method,prepare_s,render_s,render_least_s,render_most_s,triangles,memory_bytes,texture_bytes,rmse,"
         "rmse_error,psnr,ssim,ssim_error,flip,flip_error,flip_p95,flip_p99,hdr_flip,hdr_flip_error,"
-        "frame_rmse,frame_flip,normal_mean_deg,normal_p95_deg,outline_mean_px,outline_max_px\n";
+        "frame_rmse,frame_flip,normal_mean_deg,normal_p95_deg,outline_mean_px,outline_max_px,silhouette,self_shadow,"
+        "parallax,normal,filtering,interaction\n";
     for (const MethodRow& row : comparison.rows) {
         const AreaErrors& object = row.errors.object;
         text += row.method +
@@ -150,6 +185,8 @@ std::string to_csv(const SceneComparison& comparison) {
               object.hdr_flip.value, object.hdr_flip.error, row.errors.frame.rmse.value, row.errors.frame.flip.value,
               row.errors.angles.mean, row.errors.angles.p95, row.errors.outline.mean, row.errors.outline.max})
             text += format(",%.6g", value);
+        for (const auto& [cause, part] : parts(row.shares.value_or(CauseShares{})))
+            text += row.shares ? format(",%.4f", part) : ",";
         text += "\n";
     }
     return text;
