@@ -93,7 +93,7 @@ def row(case, which, note):
     seconds = statistics.median(r[which][0] for r in found)
     ratio = statistics.median(r[which][0] / r[0][0] for r in found)
     print(f"tracer_file,{case},1048576,{os.cpu_count()},{1e9 * seconds / pixels:.4g},0,0,0,{ratio:.3g},bake render,"
-          f"{seconds:.3g} s of rendering{note}", flush=True)
+          f"no error: one sample per pixel; pictures of three programs are not compared; {seconds:.3g} s of rendering{note}", flush=True)
 
 
 row("bake render", 0, f"; {statistics.median(r[0][1] / r[0][0] for r in found) * 1e-6:.3g} M rays/s")

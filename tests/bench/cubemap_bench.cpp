@@ -61,17 +61,19 @@ void rows(int width, int threads) {
     const Environment spots = suns(width, directions);
     const std::pair<const char*, Samples> ways[] = {
         {"one", Samples::one}, {"4x4", Samples::grid4}, {"exact", Samples::exact}};
-    Cube results[3];
-    std::vector<std::function<void()>> works;
-    for (int i = 0; i < 3; ++i) works.push_back([&, i] { results[i] = to_cube(sky, {n, false}, {ways[i].second}); });
-    const auto times = bench::in_turn(width > 4096 ? 1 : 3, works);
-    for (int i = 0; i < 3; ++i) {
+    std::vector<bench::Work> works;
+    for (const auto& way : ways)
+        works.push_back({[&sky, n, samples = way.second] {
+                             return to_cube(sky, {n, false}, {samples});
+                         },
+                         [](const Cube& cube) { return bench::errors_of(test::smooth_errors(cube, false)); }});
+    const auto found = bench::in_turn(width > 4096 ? 1 : 3, {}, works).works;
+    for (std::size_t i = 0; i < 3; ++i) {
         const double deviation = flux_deviation(to_cube(spots, {n, false}, {ways[i].second}), directions);
-        bench::print_row("cubemap", ways[i].first, n, 1e9 * times[i].median() / (6.0 * n * n),
-                         bench::errors_of(test::smooth_errors(results[i], false)), times[i].ratio_to(times[0]),
-                         "one look per texel",
-                         bench::text("radiance relative to its mean; flux of 250 suns off by %.3g rms; %.2f Mtexel/s",
-                                     deviation, 6e-6 * n * n / times[i].median()));
+        bench::print_row(found[i],
+                         {"cubemap", ways[i].first, n, 6.0 * n * n, found[i].ratio_to(found[0]), "one look per texel",
+                          bench::text("radiance relative to its mean; flux of 250 suns off by %.3g rms; %.2f Mtexel/s",
+                                      deviation, 6e-6 * n * n / found[i].median())});
     }
 }
 

@@ -101,27 +101,28 @@ void run(const Case& c, int threads, Seam seam) {
     DisplaceOptions options;
     options.rates.levels = c.levels;
     options.seam = seam;
-    Displaced out = displace(c.base, height, options);
-    const std::size_t bytes = 12 * (out.mesh.positions.size() + out.mesh.normals.size() + out.mesh.corners()) +
-                              8 * out.mesh.uvs.size() + 4 * out.mesh.faces();
-    const auto times =
+    std::size_t bytes = 0;
+    double points = 0, position = 0;
+    {
+        const Displaced out = displace(c.base, height, options);
+        bytes = 12 * (out.mesh.positions.size() + out.mesh.normals.size() + out.mesh.corners()) +
+                8 * out.mesh.uvs.size() + 4 * out.mesh.faces();
+        points = double(out.mesh.positions.size());
+    }
+    const auto turns =
         bench::in_turn(5, {[&] {
-                               const std::unique_ptr<char[]> fresh(new char[bytes]);
-                               for_rows(std::int64_t(bytes >> 20), 1, [&](std::int64_t begin, std::int64_t end) {
-                                   std::memset(fresh.get() + (begin << 20), int(begin), std::size_t(end - begin) << 20);
-                               });
-                           },
-                           [&] {
-                               out = {};
-                               out = displace(c.base, height, options);
-                           }});
-    double position = 0;
-    const bench::Errors errors = normal_errors(c, r, out.mesh, position);
-    const double points = double(out.mesh.positions.size());
-    bench::print_row("displace_shapes", c.name + (seam == Seam::blend ? "_blend" : ""), std::int64_t(points),
-                     1e9 * times[1].median() / points, errors, times[1].ratio_to(times[0]), "writing the bytes",
-                     (c.form ? bench::text("position %.2g of the diagonal; ", position) : std::string()) +
-                         bench::text("%.0f MB; %.0f ms", double(bytes) / 1e6, 1e3 * times[1].median()));
+                           const std::unique_ptr<char[]> fresh(new char[bytes]);
+                           for_rows(std::int64_t(bytes >> 20), 1, [&](std::int64_t begin, std::int64_t end) {
+                               std::memset(fresh.get() + (begin << 20), int(begin), std::size_t(end - begin) << 20);
+                           });
+                       }},
+                       {{[&] { return displace(c.base, height, options); },
+                         [&](const Displaced& out) { return normal_errors(c, r, out.mesh, position); }}});
+    const bench::Measured& ours = turns.works[0];
+    bench::print_row(ours, {"displace_shapes", c.name + (seam == Seam::blend ? "_blend" : ""), std::int64_t(points),
+                            points, ours.ratio_to(turns.limits[0]), "writing the bytes",
+                            (c.form ? bench::text("position %.2g of the diagonal; ", position) : std::string()) +
+                                bench::text("%.0f MB; %.0f ms", double(bytes) / 1e6, 1e3 * ours.median())});
 }
 
 } // namespace

@@ -66,15 +66,16 @@ void method_rows(const std::string& name, const Mesh& mesh, int size) {
     for (const NormalMethod method : all_normal_methods) {
         const NormalMapOptions options = oracle::relief_options({}, size, Filter::c2, method);
         const HeightField field(height, options.height_options, options.filter, size, size);
-        Image<float> map;
         NormalMapReport report;
-        const auto times = bench::in_turn(3, {[&] { read_16_write_12(target.raster.hits, height.values, room); },
-                                              [&] { map = normal_map(field, target, options, report); }});
-        const bench::Times &limit = times[0], &bake = times[1];
-        bench::print_row("normal_map", name + "_" + std::string(bake::name(method)), size, 1e9 * bake.median() / texels,
-                         map_errors(map, target), bake.ratio_to(limit), "read+write pass",
-                         bench::text("limit %.2f ns; %.0f ms in all; %zu triangles", 1e9 * limit.median() / texels,
-                                     1e3 * bake.median(), target.surface.triangles.size()));
+        const auto turns = bench::in_turn(3, {[&] { read_16_write_12(target.raster.hits, height.values, room); }},
+                                          {{[&] { return normal_map(field, target, options, report); },
+                                            [&](const Image<float>& map) { return map_errors(map, target); }}});
+        const bench::Measured& bake = turns.works[0];
+        bench::print_row(
+            bake, {"normal_map", name + "_" + std::string(bake::name(method)), size, texels,
+                   bake.ratio_to(turns.limits[0]), "read+write pass",
+                   bench::text("limit %.2f ns; %.0f ms in all; %zu triangles", 1e9 * turns.limits[0].median() / texels,
+                               1e3 * bake.median(), target.surface.triangles.size())});
     }
 }
 
@@ -85,55 +86,70 @@ void plane_row(int size) {
     const HeightField field(height, options.height_options, options.filter, size, size);
     Image<TexelHit> hits(size, size, 1);
     std::fill_n(hits.data(), hits.size(), TexelHit{0, 0, 0});
-    Image<float> map, room(size, size, 3);
-    const auto times = bench::in_turn(3, {[&] { read_16_write_12(hits, height.values, room); },
-                                          [&] { map = normal_map(field, Vec2d(1, 1), options); }});
-    std::vector<float> errors;
-    for (int y = 0; y < size; y += 3)
-        for (int x = 0; x < size; ++x) {
-            const Height<double> h = oracle::relief(r, (x + 0.5) / size, 1 - (y + 0.5) / size);
-            const Vec3f t = decode_normal({map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2)}, false);
-            errors.push_back(float(oracle::angle_deg(Vec3d(t), {-h.b_u, -h.b_v, 1})));
-        }
-    const double texels = double(size) * size;
-    bench::print_row("normal_map", "plane_exact", size, 1e9 * times[1].median() / texels,
-                     bench::errors_of(std::move(errors)), times[1].ratio_to(times[0]), "read+write pass",
-                     bench::text("%.0f ms in all", 1e3 * times[1].median()));
+    Image<float> room(size, size, 3);
+    const auto turns = bench::in_turn(
+        3, {[&] { read_16_write_12(hits, height.values, room); }},
+        {{[&] { return normal_map(field, Vec2d(1, 1), options); },
+          [&](const Image<float>& map) {
+              std::vector<float> errors;
+              for (int y = 0; y < size; y += 3)
+                  for (int x = 0; x < size; ++x) {
+                      const Height<double> h = oracle::relief(r, (x + 0.5) / size, 1 - (y + 0.5) / size);
+                      const Vec3f t = decode_normal({map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2)}, false);
+                      errors.push_back(float(oracle::angle_deg(Vec3d(t), {-h.b_u, -h.b_v, 1})));
+                  }
+              return bench::errors_of(std::move(errors));
+          }}});
+    const bench::Measured& bake = turns.works[0];
+    bench::print_row(bake, {"normal_map", "plane_exact", size, double(size) * size, bake.ratio_to(turns.limits[0]),
+                            "read+write pass", bench::text("%.0f ms in all", 1e3 * bake.median())});
 }
 
-/// What make_bake_target does, step by step; the tangents' oracle is the closed form of dp/du.
-void step_rows(const Mesh& mesh, int size) {
-    MeshSurface surface;
-    std::vector<Vec4f> tangents;
-    UvRaster raster;
-    const auto times = bench::in_turn(3, {[&] { surface = make_mesh_surface(mesh); },
-                                          [&] { tangents = corner_tangents(mesh, surface.triangles, surface.n); },
-                                          [&] { raster = uv_raster(mesh, surface.triangles, size, size); }});
-    const auto triangles = std::int64_t(surface.triangles.size());
-    std::vector<float> tangent_errors, surface_errors, raster_errors;
-    for (std::size_t c = 0; c < tangents.size(); ++c) {
+/// Angles to the closed form of dp/du at the corners.
+template <class Vectors> bench::Errors tangent_errors(const Mesh& mesh, const Vectors& found) {
+    std::vector<float> errors;
+    for (std::size_t c = 0; c < found.size(); ++c) {
         const Vec2d uv(mesh.uvs[mesh.corner_uv[c]]);
-        const Vec3d p_u = oracle::unit_torus(uv.x, uv.y).p_u;
-        tangent_errors.push_back(float(oracle::angle_deg(Vec3d(Vec3f(tangents[c])), p_u)));
-        surface_errors.push_back(float(oracle::angle_deg(Vec3d(surface.p_u[c]), p_u)));
+        errors.push_back(float(oracle::angle_deg(Vec3d(Vec3f(found[c])), oracle::unit_torus(uv.x, uv.y).p_u)));
     }
+    return bench::errors_of(std::move(errors));
+}
+
+bench::Errors raster_errors(const Mesh& mesh, const MeshSurface& surface, const UvRaster& raster) {
+    const int size = raster.hits.width();
+    std::vector<float> errors;
     for (int y = 0; y < size; y += 7)
         for (int x = 0; x < size; x += 7) {
             const TexelHit& hit = raster.hits.at(x, y);
             const auto& corner = surface.triangles[hit.triangle].corner;
             const auto uv = [&](int k) { return Vec2d(mesh.uvs[mesh.corner_uv[corner[k]]]); };
             const Vec2d found = uv(0) + double(hit.b1) * (uv(1) - uv(0)) + double(hit.b2) * (uv(2) - uv(0));
-            raster_errors.push_back(float(360 * glm::length(found - Vec2d((x + 0.5) / size, 1 - (y + 0.5) / size))));
+            errors.push_back(float(360 * glm::length(found - Vec2d((x + 0.5) / size, 1 - (y + 0.5) / size))));
         }
-    const auto row = [&](const char* name, std::int64_t items, double seconds, std::vector<float> errors,
+    return bench::errors_of(std::move(errors));
+}
+
+/// What make_bake_target does, step by step; the tangents' oracle is the closed form of dp/du.
+void step_rows(const Mesh& mesh, int size) {
+    const MeshSurface surface = make_mesh_surface(mesh); // what the second and the third step start from
+    const auto found =
+        bench::in_turn(3, {},
+                       {{[&] { return make_mesh_surface(mesh); },
+                         [&](const MeshSurface& s) { return tangent_errors(mesh, s.p_u); }},
+                        {[&] { return corner_tangents(mesh, surface.triangles, surface.n); },
+                         [&](const std::vector<Vec4f>& tangents) { return tangent_errors(mesh, tangents); }},
+                        {[&] { return uv_raster(mesh, surface.triangles, size, size); },
+                         [&](const UvRaster& raster) { return raster_errors(mesh, surface, raster); }}})
+            .works;
+    const auto triangles = std::int64_t(surface.triangles.size());
+    const auto row = [&](const char* name, std::int64_t counted, double items, const bench::Measured& step,
                          const char* note) {
-        bench::print_row(
-            "normal_map", name, items, 1e9 * seconds / double(items == size ? std::int64_t(size) * size : items),
-            bench::errors_of(std::move(errors)), 0, "", bench::text("%.0f ms in all; %s", 1e3 * seconds, note));
+        bench::print_row(step, {"normal_map", name, counted, items, 0, "",
+                                bench::text("%.0f ms in all; %s", 1e3 * step.median(), note)});
     };
-    row("step_surface", triangles, times[0].median(), surface_errors, "per triangle; error of p_u at the corners");
-    row("step_tangents", triangles, times[1].median(), tangent_errors, "per triangle; error of T at the corners");
-    row("step_raster", size, times[2].median(), raster_errors, "per texel; error in uv as if one unit were 360 deg");
+    row("step_surface", triangles, double(triangles), found[0], "per triangle; error of p_u at the corners");
+    row("step_tangents", triangles, double(triangles), found[1], "per triangle; error of T at the corners");
+    row("step_raster", size, double(size) * size, found[2], "per texel; error in uv as if one unit were 360 deg");
 }
 
 } // namespace

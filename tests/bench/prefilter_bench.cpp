@@ -39,12 +39,12 @@ Cube sun_sky(int n, bool on_smooth) {
     });
 }
 
-struct Measured {
+struct Found {
     bench::Errors errors;
     double rmse = 0; ///< all over the mean
 };
 template <class Expected>
-Measured measure(const Cube& out, Expected&& expected, std::vector<float>* errors_out = nullptr) {
+Found measure(const Cube& out, Expected&& expected, std::vector<float>* errors_out = nullptr) {
     std::vector<double> right;
     double mean = 0;
     test::for_each_texel(out, [&](int face, int x, int y, const float*) {
@@ -64,25 +64,30 @@ Measured measure(const Cube& out, Expected&& expected, std::vector<float>* error
 
 double texels(const Cube& cube) { return 6.0 * cube.size() * cube.size(); }
 
-/// Two works in turn; seconds are the median's of the second, on the clock and of all threads together.
-struct Timed {
-    double seconds = 0, cpu_seconds = 0, ratio = 0;
-};
-Timed timed(const std::function<void()>& yardstick, const std::function<void()>& work) {
+/// The row of a work beside a yardstick, timed in turn. The work's time is on the clock and of all threads together, and its
+/// result is measured by found_of(result). scale is what the ratio is multiplied by.
+template <class Run, class FoundOf>
+void row(const std::string& what, int size, double items, const std::function<void()>& yardstick, Run&& run,
+         FoundOf&& found_of, const std::string& against, double scale = 1) {
     std::vector<double> cpu;
-    const auto times = bench::in_turn(3, {yardstick, [&] {
-                                              const std::clock_t start = std::clock();
-                                              work();
-                                              cpu.push_back(double(std::clock() - start) / CLOCKS_PER_SEC);
-                                          }});
-    return {times[1].median(), bench::median_of(cpu), times[1].ratio_to(times[0])};
-}
-
-void row(const std::string& what, int size, const Timed& time, double items, const Measured& measured, double ratio,
-         const std::string& against) {
-    bench::print_row("prefilter", what, size, time.seconds * 1e9 / items, measured.errors, ratio, against,
-                     bench::text("%.3g s and %.3g CPU s; errors over the mean; RMSE/mean %.3g", time.seconds,
-                                 time.cpu_seconds, measured.rmse));
+    double rmse = 0;
+    const auto turns = bench::in_turn(3, {yardstick},
+                                      {{[&] {
+                                            const std::clock_t start = std::clock();
+                                            auto result = run();
+                                            cpu.push_back(double(std::clock() - start) / CLOCKS_PER_SEC);
+                                            return result;
+                                        },
+                                        [&](const std::invoke_result_t<Run&>& result) {
+                                            const Found found = found_of(result);
+                                            rmse = found.rmse;
+                                            return found.errors;
+                                        }}});
+    cpu.erase(cpu.begin()); // of the round that is not counted
+    const bench::Measured& ours = turns.works[0];
+    bench::print_row(ours, {"prefilter", what, size, items, scale * ours.ratio_to(turns.limits[0]), against,
+                            bench::text("%.3g s and %.3g CPU s; errors over the mean; RMSE/mean %.3g", ours.median(),
+                                        bench::median_of(cpu), rmse)});
 }
 
 /// Reads every value once and writes as many as a mip chain has.
@@ -105,18 +110,18 @@ std::vector<Cube> box_chain(const Cube& sky) {
 void mip_rows(const Cube& sky) {
     std::vector<float> scratch(6 * (sky.faces[0].size() / 4));
     for (const bool tent : {true, false}) {
-        std::vector<Cube> chain;
-        const Timed time =
-            timed([&] { read_and_write(sky, scratch); }, [&] { chain = tent ? mip_chain(sky) : box_chain(sky); });
-        std::vector<float> errors;
-        double squares = 0;
-        for (const Cube& level : chain) {
-            errors.push_back(float(std::abs(test::flux(level) / test::flux(sky) - 1)));
-            squares += double(errors.back()) * double(errors.back());
-        }
-        row(tent ? "mips_tent_flux" : "mips_box_flux", sky.size(), time, texels(sky),
-            {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))}, time.ratio,
-            "read+quarter write pass");
+        const auto found = [&](const std::vector<Cube>& chain) -> Found {
+            std::vector<float> errors;
+            double squares = 0;
+            for (const Cube& level : chain) {
+                errors.push_back(float(std::abs(test::flux(level) / test::flux(sky) - 1)));
+                squares += double(errors.back()) * double(errors.back());
+            }
+            return {bench::errors_of(errors), std::sqrt(squares / double(errors.size()))};
+        };
+        row(
+            tent ? "mips_tent_flux" : "mips_box_flux", sky.size(), texels(sky), [&] { read_and_write(sky, scratch); },
+            [&] { return tent ? mip_chain(sky) : box_chain(sky); }, found, "read+quarter write pass");
     }
 }
 
@@ -132,28 +137,26 @@ void irradiance_rows(const Cube& sky, bool on_smooth) {
                                                                {"sh9", {.method = sh, .bands = 9}},
                                                                {"sh33", {.method = sh, .bands = 33}},
                                                                {"direct", {.method = direct}}};
-    for (const auto& [name, options] : cases) {
-        Cube out;
-        const Timed time =
-            timed([&] { read_and_write(sky, scratch); }, [&, &o = options] { out = irradiance(sky, o); });
-        row(std::string("irradiance_") + name + (on_smooth ? "_sun_and_sky" : "_sun"), sky.size(), time, texels(sky),
-            measure(out, expected), time.ratio, "read+quarter write pass");
-    }
+    for (const auto& one : cases)
+        row(
+            std::string("irradiance_") + one.first + (on_smooth ? "_sun_and_sky" : "_sun"), sky.size(), texels(sky),
+            [&] { read_and_write(sky, scratch); }, [&] { return irradiance(sky, one.second); },
+            [&](const Cube& out) { return measure(out, expected); }, "read+quarter write pass");
 }
 
 template <class Lobe, class Kernel>
 void lobe_row(const std::string& name, const Cube& sky, int size, const Lobe& lobe, double roughness, SpecularLobe kind,
               Kernel&& kernel) {
     const oracle::ConvolvedSun exact(sun, kernel);
-    std::vector<Cube> chain;
-    Cube few;
+    constexpr int few = 2; // texels along a face of the plain sum, which takes long
     const RadianceTree tree(sky);
-    const Timed time = timed([&] { few = convolve(tree, lobe, 2, {.node_width = 0, .tolerance = 0}); },
-                             [&] { chain = prefilter(sky, {.lobe = kind, .roughness = {roughness}, .size = size}); });
-    const Cube& out = chain[0];
-    row(name, size, time, texels(out),
-        measure(out, [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)) / exact.norm; }),
-        time.ratio * texels(few) / texels(out), "sum over every texel");
+    row(
+        name, size, 6.0 * size * size, [&] { convolve(tree, lobe, few, {.node_width = 0, .tolerance = 0}); },
+        [&] { return prefilter(sky, {.lobe = kind, .roughness = {roughness}, .size = size}); },
+        [&](const std::vector<Cube>& chain) {
+            return measure(chain[0], [&](const Vec3d& n) { return exact(glm::dot(n, sun_direction)) / exact.norm; });
+        },
+        "sum over every texel", double(few * few) / (double(size) * size));
 }
 
 void lobe_rows(const Cube& sky) {
@@ -183,7 +186,7 @@ void print_errors(char** levels, int count) {
         const Cube cube = read_faces(find_faces(levels[i + 1]).files);
         const auto expected = [&](const Vec3d& n) { return exact(n.y) / exact.norm; };
         std::vector<float> errors;
-        const Measured measured = measure(cube, expected, &errors);
+        const Found measured = measure(cube, expected, &errors);
         all.insert(all.end(), errors.begin(), errors.end());
         std::fprintf(stderr, "%s%g: %.2g", i > 0 ? ", " : "", alpha, measured.rmse);
     }

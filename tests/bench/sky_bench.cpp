@@ -74,83 +74,79 @@ Vec3f simple(const Scene& scene, const Ray& ray, Sampler& sampler, bool cosine) 
 enum class Method { mis, even, cosine };
 constexpr const char* names[] = {"mis", "even", "cosine"};
 
-/// The picture, and the seconds that it took.
-struct Measured {
-    std::vector<Vec3f> picture;
-    double seconds = 0;
-};
-
-Measured render_by(const Scene& scene, Method method, int spp, std::uint32_t seed) {
+std::vector<Vec3f> render_by(const Scene& scene, Method method, int spp, std::uint32_t seed) {
     const int n = scene.settings.width;
-    Measured out{std::vector<Vec3f>(std::size_t(n) * n)};
+    std::vector<Vec3f> out(std::size_t(n) * n);
     const CameraFrame frame = camera_frame(scene);
-    out.seconds = bench::seconds([&] {
-        for_rows(n, 1, [&](std::int64_t begin, std::int64_t end) {
-            for (int y = int(begin); y < int(end); ++y)
-                for (int x = 0; x < n; ++x) {
-                    Vec3d sum(0);
-                    RenderStats stats;
-                    for (int i = 0; i < spp; ++i) {
-                        Sampler sampler(x, y, i, seed);
-                        // Through the pixel's centre, so that edges in the picture have no part in the error.
-                        sampler.next2();
-                        const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, n, n);
-                        sum += Vec3d(method == Method::mis ? test::trace_one(scene, ray, 0, sampler).radiance.total()
-                                                           : simple(scene, ray, sampler, method == Method::cosine));
-                    }
-                    out.picture[std::size_t(y) * n + x] = Vec3f(sum / double(spp));
+    for_rows(n, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (int y = int(begin); y < int(end); ++y)
+            for (int x = 0; x < n; ++x) {
+                Vec3d sum(0);
+                for (int i = 0; i < spp; ++i) {
+                    Sampler sampler(x, y, i, seed);
+                    // Through the pixel's centre, so that edges in the picture have no part in the error.
+                    sampler.next2();
+                    const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, n, n);
+                    sum += Vec3d(method == Method::mis ? test::trace_one(scene, ray, 0, sampler).radiance.total()
+                                                       : simple(scene, ray, sampler, method == Method::cosine));
                 }
-        });
+                out[std::size_t(y) * n + x] = Vec3f(sum / double(spp));
+            }
     });
     return out;
 }
 
-struct Row {
-    int spp = 0;
-    double seconds = 0, rmse = 0;
-    bench::Errors errors;
-};
-
-Row compare(const Measured& measured, int spp, const std::vector<Vec3f>& right) {
+/// Over the mean radiance; the root of the mean square error in place of the mean error.
+bench::Errors compare(const std::vector<Vec3f>& picture, const std::vector<Vec3f>& right) {
     double mean = 0, squares = 0;
     for (const Vec3f& v : right) mean += double(v.x + v.y + v.z) / 3 / double(right.size());
     std::vector<float> errors;
     for (std::size_t i = 0; i < right.size(); ++i) {
-        const Vec3f d = (measured.picture[i] - right[i]) / float(mean);
+        const Vec3f d = (picture[i] - right[i]) / float(mean);
         squares += double(glm::dot(d, d)) / 3 / double(right.size());
         errors.push_back(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}));
     }
-    return {spp, measured.seconds, std::sqrt(squares), bench::errors_of(std::move(errors))};
+    bench::Errors out = bench::errors_of(std::move(errors));
+    out.mean = std::sqrt(squares);
+    return out;
 }
+
+struct Row {
+    int spp;
+    bench::Measured measured;
+    double seconds() const { return measured.median(); }
+    double rmse() const { return measured.errors().mean; }
+};
 
 /// The error after these seconds, by a power law between two rows, and beyond the last as the square root of time.
 double error_at(const std::vector<Row>& rows, double seconds) {
     std::size_t i = 0;
-    while (i + 1 < rows.size() && rows[i + 1].seconds < seconds) ++i;
+    while (i + 1 < rows.size() && rows[i + 1].seconds() < seconds) ++i;
     const Row& a = rows[i];
     double power = -0.5;
-    if (i + 1 < rows.size() && seconds >= a.seconds)
-        power = std::log(rows[i + 1].rmse / a.rmse) / std::log(rows[i + 1].seconds / a.seconds);
-    return a.rmse * std::pow(seconds / a.seconds, power);
+    if (i + 1 < rows.size() && seconds >= a.seconds())
+        power = std::log(rows[i + 1].rmse() / a.rmse()) / std::log(rows[i + 1].seconds() / a.seconds());
+    return a.rmse() * std::pow(seconds / a.seconds(), power);
 }
 
 void measure_sampling(const std::string& file, const std::string& sky, int reference, int crop) {
     const Scene scene = make_scene(file, crop);
-    const std::vector<Vec3f> right = render_by(scene, Method::mis, reference, 77).picture;
+    const std::vector<Vec3f> right = render_by(scene, Method::mis, reference, 77);
     std::vector<Row> rows[3];
     for (const Method method : {Method::even, Method::cosine, Method::mis})
         for (int spp = 1; spp <= 1024; spp *= 4)
-            rows[int(method)].push_back(compare(render_by(scene, method, spp, 5), spp, right));
+            rows[int(method)].push_back(
+                {spp, bench::once({[&, method, spp] { return render_by(scene, method, spp, 5); },
+                                   [&](const std::vector<Vec3f>& picture) { return compare(picture, right); }})});
     for (const Method method : {Method::mis, Method::cosine, Method::even})
         for (std::size_t i = 1; i < rows[int(method)].size(); ++i) {
             const Row &row = rows[int(method)][i], &before = rows[int(method)][i - 1];
-            bench::Errors errors = row.errors;
-            errors.mean = row.rmse;
-            const double order = std::log(row.rmse / before.rmse) / std::log(double(row.spp) / before.spp);
-            bench::print_row("sky_light", sky + "_" + names[int(method)], row.spp,
-                             1e9 * row.seconds / (double(row.spp) * crop * crop), errors,
-                             row.rmse / error_at(rows[int(Method::even)], row.seconds), "even directions at equal time",
-                             bench::text("rmse p95 max over the mean radiance; order %.2f", order));
+            const double order = std::log(row.rmse() / before.rmse()) / std::log(double(row.spp) / before.spp);
+            bench::print_row(row.measured,
+                             {"sky_light", sky + "_" + names[int(method)], row.spp, double(row.spp) * crop * crop,
+                              row.rmse() / error_at(rows[int(Method::even)], row.seconds()),
+                              "even directions at equal time",
+                              bench::text("rmse p95 max over the mean radiance; order %.2f", order)});
         }
 }
 
@@ -162,24 +158,30 @@ void measure_levels(const std::string& file, const std::string& sky, const char*
     add(scene, "sphere", reflectance, {});
     scene.camera = {.position = {0, 0, 8}, .target = {0, 0, 0}, .fov_deg = 12};
     set_sky(scene, file, size);
-    const std::vector<Vec3f> sampled = render_by(scene, Method::mis, spp, 5).picture;
+    const std::vector<Vec3f> sampled = render_by(scene, Method::mis, spp, 5);
     complete(levels, scene.sky.cube);
-    std::vector<Vec3f> filtered, right;
     const CameraFrame frame = camera_frame(scene);
+    std::vector<Surfel> ball;
+    std::vector<Vec3f> right;
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const Ray ray = primary_ray(frame, x + 0.5, y + 0.5, size, size);
             const Hit hit = scene.bvh->intersect(ray);
             if (!hit) continue;
-            const Surfel s = make_surfel(scene, hit, ray.direction);
-            const BsdfValue light = reflected(levels, scene.sky, s.bsdf, s.n, s.v);
-            filtered.push_back(light.diffuse + light.specular), right.push_back(sampled[std::size_t(y) * size + x]);
+            ball.push_back(make_surfel(scene, hit, ray.direction)), right.push_back(sampled[std::size_t(y) * size + x]);
         }
-    const Row row = compare({filtered, 0}, 1, right);
-    bench::Errors errors = row.errors;
-    errors.mean = row.rmse;
-    bench::print_row("sky_levels", sky + "_" + name, 1, 0, errors, 0, "sampled",
-                     "rmse p95 max over the mean radiance of the ball");
+    const bench::Measured measured =
+        bench::once({[&] {
+                         std::vector<Vec3f> filtered;
+                         for (const Surfel& s : ball) {
+                             const BsdfValue light = reflected(levels, scene.sky, s.bsdf, s.n, s.v);
+                             filtered.push_back(light.diffuse + light.specular);
+                         }
+                         return filtered;
+                     },
+                     [&](const std::vector<Vec3f>& filtered) { return compare(filtered, right); }});
+    bench::print_row(measured, {"sky_levels", sky + "_" + name, 1, double(ball.size()), 0, "sampled",
+                                "rmse p95 max over the mean radiance of the ball"});
 }
 
 } // namespace

@@ -2,8 +2,7 @@
 // the level whose error is closest to that of bake) and Far (patch table, patch map and basis weights). All are in double, on
 // one thread, over the same lattice of each patch. The construction of surfaces, tables and control points is not timed; its
 // time is in the note. The error is the angle between the normal of the timed output and that of exact limit masks at all
-// points of the lattice; the position error is in the note. MESHES is the folder that contains opensubdiv/ and spot/.
-// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
+// points of the lattice, or, without derivatives, the distance over the diagonal; the largest distance is in the note. MESHES is the folder that contains opensubdiv/ and spot/.
 // size counts points; ratio is the time over that of Bfr at its defaults for the same derivatives.
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/surface/subdivision/subdivision.h"
@@ -38,16 +37,13 @@ std::vector<std::uint32_t> some_patches(std::uint32_t all) {
 
 Vec2d lattice_point(std::size_t i) { return Vec2d(double(i % (rate + 1)) / rate, double(i / (rate + 1)) / rate); }
 
-struct Errors {
-    bench::Errors normal_deg;
-    double position = 0; ///< largest error, relative to the diagonal
-};
-
-Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patches, const oracle::Cage& fine,
-                 double diagonal, bool normals) {
+/// Angles of the normals where there are derivatives, else distances over the diagonal. The largest of these is also left in
+/// position.
+bench::Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patches, const oracle::Cage& fine,
+                        double diagonal, bool normals, double& position) {
     const oracle::LimitMasks masks(fine);
-    std::vector<float> angles;
-    Errors errors;
+    std::vector<float> angles, distances;
+    position = 0;
     for (std::uint32_t f = 0; f < fine.faces.size(); ++f)
         for (std::uint32_t k = 0; k < 4; ++k) {
             const oracle::Cage::Face& face = fine.faces[f];
@@ -57,13 +53,13 @@ Errors errors_of(const Samples& samples, const std::vector<std::uint32_t>& patch
             const auto index =
                 std::size_t(found - patches.begin()) * per_patch + std::size_t(at.y) * (rate + 1) + std::size_t(at.x);
             const oracle::Limit limit = masks.at(f, k);
-            errors.position = std::max(errors.position, glm::distance(samples[index].p, limit.p) / diagonal);
+            distances.push_back(float(glm::distance(samples[index].p, limit.p) / diagonal));
+            position = std::max(position, double(distances.back()));
             if (normals && limit.normal && glm::length(*limit.normal) > 1e-12 * diagonal * diagonal)
                 angles.push_back(
                     float(oracle::angle_deg(*limit.normal, glm::cross(samples[index].p_s, samples[index].p_t))));
         }
-    errors.normal_deg = bench::errors_of(std::move(angles));
-    return errors;
+    return bench::errors_of(normals ? std::move(angles) : std::move(distances));
 }
 
 struct Value {
@@ -231,7 +227,8 @@ double case_of(const std::string& name, const std::string& file) {
         const auto patch_of = [&](Samples& samples, std::size_t i) {
             return std::span(samples).subspan(i * per_patch, per_patch);
         };
-        const std::vector<std::function<void()>> works = {
+        std::vector<double> position(5);
+        const std::vector<std::function<void()>> ways = {
             [&] { bfr->evaluate(derivatives, out[0]); }, [&] { fine_bfr->evaluate(derivatives, out[1]); },
             [&] { far->evaluate(patches, derivatives, out[2]); },
             [&] {
@@ -242,24 +239,29 @@ double case_of(const std::string& name, const std::string& file) {
                 for (std::size_t i = 0; i < patches.size(); ++i)
                     ours->evaluate_lattice(patches[i], rate, order, patch_of(out[4], i));
             }};
-        const std::vector<bench::Times> times = bench::in_turn(51, works);
+        std::vector<bench::Work> works;
+        for (std::size_t i = 0; i < ways.size(); ++i)
+            works.push_back({[&, i]() -> const Samples& { return ways[i](), out[i]; },
+                             [&, i](const Samples& samples) {
+                                 return errors_of(samples, patches, fine, size, derivatives, position[i]);
+                             }});
+        const std::vector<bench::Measured> found = bench::in_turn(51, {}, works).works;
         const char* names[] = {"bfr", "bfr_level10", "far_level10", "points", "lattice"};
         const double made[] = {make_bfr, make_fine, make_far, make_ours, make_ours};
-        for (std::size_t i = 0; i < works.size(); ++i) {
-            const Errors errors = errors_of(out[i], patches, fine, size, derivatives);
-            bench::print_row("subdivision", name + (derivatives ? "_P_Du_Dv_" : "_P_") + names[i], std::int64_t(count),
-                             times[i].median() / double(count) * 1e9, errors.normal_deg, times[i].ratio_to(times[0]),
-                             "bfr",
-                             bench::text("position error %.2g of the diagonal; %.1f M points/s; made in %.1f ms",
-                                         errors.position, double(count) / times[i].median() * 1e-6, made[i] * 1e3));
-        }
-        if (derivatives) speed_up = 1 / times[4].ratio_to(times[0]);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            bench::print_row(found[i],
+                             {"subdivision", name + (derivatives ? "_P_Du_Dv_" : "_P_") + names[i], std::int64_t(count),
+                              double(count), found[i].ratio_to(found[0]), "bfr",
+                              (derivatives ? "" : "errors are distances over the diagonal; ") +
+                                  bench::text("position error %.2g of the diagonal; %.1f M points/s; made in %.1f ms",
+                                              position[i], double(count) / found[i].median() * 1e-6, made[i] * 1e3)});
+        if (derivatives) speed_up = 1 / found[4].ratio_to(found[0]);
     }
     std::vector<LimitPoint> patch(per_patch);
     const auto lattices = [&] {
         for (const std::uint32_t p : patches) ours->evaluate_lattice(p, rate, Derivatives::second, patch);
     };
-    const bench::Times second = bench::in_turn(51, {lattices})[0];
+    const bench::Times second = bench::in_turn(51, {lattices}, {}).limits[0];
     std::printf("# %s: second derivatives too, lattice by lattice in the cache: %.1f ns per point\n", name.c_str(),
                 second.median() / double(count) * 1e9);
     return speed_up;

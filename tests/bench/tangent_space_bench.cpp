@@ -1,17 +1,11 @@
 // tangent_space_bench [FOLDER]: time and error of corner_tangents on a torus of 250,000 triangles, the oracle being the
 // closed-form dp/du, and on each FOLDER/*.f32, the oracle being the reference tangents stored there.
-// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts triangles; ratio is the time over that of reading the input once and writing the output once.
-#include "bake/base/parallel.h"
 #include "bake/base/vec.h"
 #include "bake/surface/chart/tangent_space.h"
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
+#include "bench.h"
 #include <filesystem>
 #include <fstream>
-#include <string>
 
 using namespace bake;
 
@@ -57,49 +51,37 @@ Corners stored(const std::filesystem::path& file) {
     return out;
 }
 
-template <class Work> double seconds(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 void row(const std::string& name, const Corners& mesh, int threads) {
     const ThreadLimit limit(threads);
     const std::size_t corners = mesh.positions.size();
     std::vector<std::uint32_t> face_begin;
     for (std::size_t c = 0; c <= corners; c += 3) face_begin.push_back(std::uint32_t(c));
 
-    std::vector<Vec4f> tangents, copy;
-    std::vector<double> times, passes;
-    for (int run = 0; run < 5; ++run) {
-        times.push_back(
-            seconds([&] { tangents = corner_tangents(mesh.positions, mesh.normals, mesh.uvs, face_begin); }));
-        passes.push_back(seconds([&] {
+    std::vector<Vec4f> copy;
+    double difference = 0;
+    int signs = 0;
+    const auto turns = bench::in_turn(
+        5, {[&] {
             copy = std::vector<Vec4f>(corners);
             for (std::size_t c = 0; c < corners; ++c)
                 copy[c] = Vec4f(mesh.positions[c] + mesh.normals[c], mesh.uvs[c].x + mesh.uvs[c].y);
-        }));
-    }
-    const double first = times[0];
-    std::sort(times.begin(), times.end());
-    std::sort(passes.begin(), passes.end());
-
-    std::vector<double> errors;
-    double sum = 0, difference = 0;
-    int signs = 0;
-    for (std::size_t c = 0; c < corners; ++c) {
-        const Vec3d a(tangents[c]), b(mesh.oracle[c]);
-        errors.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / pi);
-        sum += errors.back();
-        difference = std::max(difference, glm::length(a - b));
-        signs += tangents[c].w != mesh.oracle[c].w;
-    }
-    std::sort(errors.begin(), errors.end());
-    std::printf("tangent_space,%s,%zu,%d,%.1f,%.3g,%.3g,%.3g,%.1f,read+write pass,", name.c_str(), corners / 3,
-                thread_count(), times[2] * 1e9 / double(corners / 3), sum / double(corners), errors[corners * 95 / 100],
-                errors.back(), times[2] / passes[2]);
-    std::printf("first run %.2f ms; median %.2f ms; max |dT| %.2g; %d signs differ\n", first * 1e3, times[2] * 1e3,
-                difference, signs);
+        }},
+        {{[&] { return corner_tangents(mesh.positions, mesh.normals, mesh.uvs, face_begin); },
+          [&](const std::vector<Vec4f>& tangents) {
+              std::vector<float> errors;
+              for (std::size_t c = 0; c < corners; ++c) {
+                  const Vec3d a(tangents[c]), b(mesh.oracle[c]);
+                  errors.push_back(float(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / pi));
+                  difference = std::max(difference, glm::length(a - b));
+                  signs += tangents[c].w != mesh.oracle[c].w;
+              }
+              return bench::errors_of(std::move(errors));
+          }}});
+    const bench::Measured& ours = turns.works[0];
+    bench::print_row(
+        ours, {"tangent_space", name, std::int64_t(corners / 3), double(corners / 3), ours.ratio_to(turns.limits[0]),
+               "read+write pass",
+               bench::text("median %.2f ms; max |dT| %.2g; %d signs differ", ours.median() * 1e3, difference, signs)});
 }
 
 } // namespace

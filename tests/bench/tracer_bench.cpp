@@ -202,18 +202,20 @@ private:
     RTCScene scene_;
 };
 
-/// In the columns of errors: the RMSE in each of them.
-bench::Errors picture_error(const Scene& scene) {
+/// In the columns of errors: the RMSE of a part of the picture in each of them.
+bench::Errors picture_error(const Scene& scene, const Image<float>& picture) {
     RenderSettings fine = scene.settings;
     fine.spp = 4096;
     fine.part = PixelRect{3 * pixels / 8, 5 * pixels / 8, 128, 128};
-    RenderSettings coarse = scene.settings;
-    coarse.part = fine.part;
-    const Image<float> a = render(scene, coarse), b = render(scene, fine);
+    const Image<float> right = render(scene, fine);
     double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(double(a.data()[i]) - b.data()[i], 2);
-    const double rmse = std::sqrt(sum / double(a.size()));
-    return {rmse, rmse, rmse};
+    for (int y = 0; y < right.height(); ++y)
+        for (int x = 0; x < right.width(); ++x)
+            for (int c = 0; c < right.channels(); ++c)
+                sum +=
+                    std::pow(double(picture.at(fine.part->x + x, fine.part->y + y, c)) - double(right.at(x, y, c)), 2);
+    const double rmse = std::sqrt(sum / double(right.size()));
+    return {rmse, rmse, rmse, right.size()};
 }
 
 void run(int levels) {
@@ -225,24 +227,40 @@ void run(int levels) {
     Bare bare(displaced), bare_flat(bumpy);
     RenderStats phong_stats, bump_stats;
     std::int64_t rays[2] = {};
-    const auto times =
-        bench::in_turn(5, {[&] { rays[0] = bare.one_by_one(); }, [&] { bare.in_packets(); },
-                           [&] { phong_stats = {}, render(displaced, displaced.settings, &phong_stats); },
-                           [&] { rays[1] = bare_flat.one_by_one(); },
-                           [&] { bump_stats = {}, render(bumpy, bumpy.settings, &bump_stats); }});
-    const auto row = [&](const char* name, int which, std::int64_t count, int against, std::int64_t their_count,
-                         const bench::Errors& errors) {
-        const double per_ray = times[std::size_t(which)].median() / double(count);
-        const double ratio =
-            times[std::size_t(which)].ratio_to(times[std::size_t(against)]) * double(their_count) / double(count);
-        bench::print_row("tracer", name, std::int64_t(bare.triangles()), 1e9 * per_ray, errors, ratio, "rtcIntersect1",
-                         bench::text("%.2f M rays/s; %.0f %% of rtcIntersect1; error: RMSE against 4096 spp",
-                                     1e-6 / per_ray, 100 / ratio));
+    const auto rendering = [](const Scene& scene, RenderStats& stats) {
+        return bench::Work([&] { return stats = {}, render(scene, scene.settings, &stats); },
+                           [&](const Image<float>& picture) { return picture_error(scene, picture); });
     };
-    row("rtcIntersect1", 0, rays[0], 0, rays[0], {});
-    row("rtcIntersect16", 1, rays[0], 0, rays[0], {});
-    row("phong", 2, phong_stats.rays, 0, rays[0], picture_error(displaced));
-    row("bump_table_mirror", 4, bump_stats.rays, 3, rays[1], picture_error(bumpy));
+    const auto turns = bench::in_turn(
+        5,
+        {[&] { rays[0] = bare.one_by_one(); }, [&] { bare.in_packets(); }, [&] { rays[1] = bare_flat.one_by_one(); }},
+        {rendering(displaced, phong_stats), rendering(bumpy, bump_stats)});
+    // Of a time, its rays, and the bare loop it is compared with.
+    const auto row = [&](const char* name, const bench::Times& times, std::int64_t count, int against,
+                         std::int64_t their_count) {
+        const double ratio = times.ratio_to(turns.limits[std::size_t(against)]) * double(their_count) / double(count);
+        return bench::Row{
+            "tracer",
+            name,
+            std::int64_t(bare.triangles()),
+            double(count),
+            ratio,
+            "rtcIntersect1",
+            bench::text("%.2f M rays/s; %.0f %% of rtcIntersect1", 1e-6 * double(count) / times.median(), 100 / ratio)};
+    };
+    const char* const bare_loop = "it traces rays and makes no picture";
+    bench::print_row_without_error(turns.limits[0], row("rtcIntersect1", turns.limits[0], rays[0], 0, rays[0]),
+                                   bare_loop);
+    bench::print_row_without_error(turns.limits[1], row("rtcIntersect16", turns.limits[1], rays[0], 0, rays[0]),
+                                   bare_loop);
+    const auto rendered = [&](const char* name, const bench::Measured& ours, std::int64_t count, int against,
+                              std::int64_t their_count) {
+        bench::Row line = row(name, ours.times(), count, against, their_count);
+        line.note += "; error: RMSE against 4096 spp";
+        bench::print_row(ours, line);
+    };
+    rendered("phong", turns.works[0], phong_stats.rays, 0, rays[0]);
+    rendered("bump_table_mirror", turns.works[1], bump_stats.rays, 2, rays[1]);
 }
 
 } // namespace

@@ -1,15 +1,9 @@
 // uv_raster_bench: time and error of uv_raster. The error is the distance in uv from the hit's point to the texel's
 // centre, on a chart that wraps 360 degrees, over all texels whose centre lies in the chart.
-// Rows: bench,case,size,threads,ns_per_item,error_mean_deg,error_p95_deg,error_max_deg,ratio,against,note
 // size counts texels along a side; ratio is the time over that of writing as many hits once, on as many threads.
-#include "bake/base/parallel.h"
 #include "bake/surface/chart/uv_raster.h"
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
+#include "bench.h"
 #include <glm/common.hpp>
-#include <string>
 
 using namespace bake;
 
@@ -50,33 +44,9 @@ Chart sheet(int cells, double margin) {
     return chart;
 }
 
-template <class Work> double seconds(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void row(const std::string& name, const Chart& chart, int size, int threads) {
-    const ThreadLimit limit(threads);
-    UvRaster raster;
-    std::vector<double> times, writes;
-    for (int run = 0; run < 3; ++run) {
-        raster = {};
-        times.push_back(seconds([&] { raster = uv_raster(chart.mesh, chart.triangles, size, size); }));
-        writes.push_back(seconds([&] {
-            Image<TexelHit> plain(size, size, 1);
-            for_rows(size, 16, [&](std::int64_t begin, std::int64_t end) {
-                std::fill(plain.row(int(begin)), plain.row(int(begin)) + (end - begin) * size,
-                          TexelHit{no_index, 0, 0});
-            });
-        }));
-    }
-    const double first = times[0];
-    std::sort(times.begin(), times.end());
-    std::sort(writes.begin(), writes.end());
-
-    std::vector<double> errors;
-    double sum = 0;
+bench::Errors errors_of(const Chart& chart, const UvRaster& raster) {
+    const int size = raster.hits.width();
+    std::vector<float> errors;
     for (int y = 0; y < size; y += 3)
         for (int x = 0; x < size; x += 3) {
             const TexelHit hit = raster.hits.at(x, y);
@@ -91,17 +61,32 @@ void row(const std::string& name, const Chart& chart, int size, int threads) {
             for (int k = 0; k < 3; ++k)
                 uv[k] = chart.mesh.uvs[chart.mesh.corner_uv[chart.triangles[hit.triangle].corner[k]]];
             const Vec2d found = uv[0] + double(hit.b1) * (uv[1] - uv[0]) + double(hit.b2) * (uv[2] - uv[0]);
-            const double error = glm::length(found - centre) * 360;
-            errors.push_back(error);
-            sum += error;
+            errors.push_back(float(glm::length(found - centre) * 360));
         }
-    std::sort(errors.begin(), errors.end());
-    std::printf("uv_raster,%s,%d,%d,%.2f,%.3g,%.3g,%.3g,%.2f,write pass,", name.c_str(), size, thread_count(),
-                times[1] * 1e9 / (double(size) * size), sum / double(errors.size()), errors[errors.size() * 95 / 100],
-                errors.back(), times[1] / writes[1]);
-    std::printf("%zu triangles; first run %.0f ms; median %.0f ms; covered %lld border %lld overlapped %lld\n",
-                chart.triangles.size(), first * 1e3, times[1] * 1e3, static_cast<long long>(raster.covered),
-                static_cast<long long>(raster.border), static_cast<long long>(raster.overlapped));
+    return bench::errors_of(std::move(errors));
+}
+
+void row(const std::string& name, const Chart& chart, int size, int threads) {
+    const ThreadLimit limit(threads);
+    std::int64_t covered = 0, border = 0, overlapped = 0;
+    const auto turns =
+        bench::in_turn(3, {[&] {
+                           Image<TexelHit> plain(size, size, 1);
+                           for_rows(size, 16, [&](std::int64_t begin, std::int64_t end) {
+                               std::fill(plain.row(int(begin)), plain.row(int(begin)) + (end - begin) * size,
+                                         TexelHit{no_index, 0, 0});
+                           });
+                       }},
+                       {{[&] { return uv_raster(chart.mesh, chart.triangles, size, size); },
+                         [&](const UvRaster& raster) {
+                             covered = raster.covered, border = raster.border, overlapped = raster.overlapped;
+                             return errors_of(chart, raster);
+                         }}});
+    const bench::Measured& ours = turns.works[0];
+    bench::print_row(ours, {"uv_raster", name, size, double(size) * size, ours.ratio_to(turns.limits[0]), "write pass",
+                            bench::text("%zu triangles; median %.0f ms; covered %lld border %lld overlapped %lld",
+                                        chart.triangles.size(), ours.median() * 1e3, static_cast<long long>(covered),
+                                        static_cast<long long>(border), static_cast<long long>(overlapped))});
 }
 
 } // namespace

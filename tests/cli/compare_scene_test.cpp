@@ -150,6 +150,21 @@ TEST_SUITE("cli") {
         CHECK(folder.names() == before);
     }
 
+    TEST_CASE("compare SCENE: the shares of the error by cause sum to 1, and --no-causes leaves them out") {
+        const Folder folder;
+        write_scene(folder);
+        const Run run = run_bake(folder, quick({"--methods", "bump", "--json"}));
+        REQUIRE(run.code == 0);
+        const auto row = nlohmann::json::parse(run.out)["methods"][0];
+        double sum = 0;
+        for (const auto& share : row["shares"]) sum += share.get<double>();
+        CHECK(row["shares"].size() == 5);
+        CHECK(sum == doctest::Approx(1).epsilon(1e-9));
+        CHECK(row["shares_of"]["mean_square"].get<double>() > 0);
+        const Run without = run_bake(folder, quick({"--methods", "bump", "--no-causes", "--json"}));
+        CHECK_FALSE(nlohmann::json::parse(without.out)["methods"][0].contains("shares"));
+    }
+
     TEST_CASE("compare SCENE: Ctrl-C keeps the methods that were rendered, and exits with 130") {
         const Folder folder;
         write_scene(folder);

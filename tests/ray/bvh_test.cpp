@@ -1,5 +1,6 @@
 #include "bake/base/parallel.h"
 #include "bake/ray/bvh.h"
+#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -192,6 +193,33 @@ TEST_SUITE("stability") {
         const Bvh bvh = make_bvh({empty, flat, broken, triangle(-1)});
         for (const float y : {0.0f, 0.01f, 0.2f}) CHECK(bvh.intersect({{0.3f, y, 1}, {0, 0, -1}}).mesh == 3);
         CHECK(!bvh.intersect({{0.3f, -0.1f, 1}, {0, 0, -1}}));
+    }
+
+    TEST_CASE("bvh: hits do not depend on the unit of length, from 1e-30 to 1e17") {
+        const auto hit_at = [](float size) {
+            const Soup soup{{{0, 0, 0}, {size, 0, 0}, {0, size, 0.25f * size}}, {{0, 1, 2}}};
+            const Bvh bvh = make_bvh({soup});
+            const Ray ray{{0.25f * size, 0.5f * size, size}, {0, 0, -1}};
+            const Hit hit = bvh.intersect(ray);
+            std::array<Ray, packet_size> rays;
+            std::array<Hit, packet_size> hits;
+            rays.fill(ray);
+            bvh.intersect(rays, 1, hits);
+            CAPTURE(size);
+            REQUIRE(hit);
+            CHECK(bvh.occluded(ray));
+            CHECK((bvh.occluded(rays, 3) & 0xffff) == 3);
+            CHECK(!bvh.occluded({ray.origin, ray.direction, 0, 0.5f * size}));
+            CHECK(hits[0].t == hit.t);
+            CHECK(hit.t == doctest::Approx(0.875f * size).epsilon(1e-6));
+            CHECK(hit.b1 == doctest::Approx(0.25).epsilon(1e-6));
+            CHECK(hit.b2 == doctest::Approx(0.5).epsilon(1e-6));
+            const HitPoint at = bvh.point(hit);
+            CHECK(at.p.z == doctest::Approx(0.125f * size).epsilon(1e-6));
+            CHECK(at.offset > 0);
+            CHECK(at.offset < 1e-5f * size);
+        };
+        for (const float size : {1e-30f, 1e-20f, 1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f, 1e17f}) hit_at(size);
     }
 
 } // TEST_SUITE

@@ -26,6 +26,16 @@ nlohmann::json to_json(const ErrorBudget& budget) {
     return json;
 }
 
+nlohmann::json to_json(const MethodError& error, NormalMethod method) {
+    nlohmann::json json = {{"largest_deg", error.largest_deg},
+                           {"largest_height_x_curvature", error.bend},
+                           {"uv", {error.uv.x, error.uv.y}},
+                           {"samples", error.samples}};
+    if (method == NormalMethod::constant_scale) json.update({{"stretch", error.stretch}, {"skew_deg", error.skew_deg}});
+    else json["bound_deg"] = error.bound_deg;
+    return json;
+}
+
 std::string to_text(const FilterAdvice& advice) {
     return format("--filter %s would be within %.4f deg on this height", std::string(name(advice.filter)).c_str(),
                   advice.total_deg);

@@ -47,7 +47,8 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
         {{"bilinear", Interpolation::bilinear}, {"catmull-rom", Interpolation::catmull_rom}, {"c2", Interpolation::c2}},
         "Between texels; c2: cubic spline, smooth to the second derivative");
     sub.add_flag("--measure", args.measure, "Measure the distance of the result from the displaced surface");
-    sub.add_flag("--margin", args.margin, "Write the fold margin, smallest 1 + b a, as an attribute (fold_margin)");
+    sub.add_flag("--margin", args.margin,
+                 "Write the fold margin, smallest 1 + b a or stretch, as an attribute (fold_margin)");
     sub.add_flag("--audit", args.audit, "Test the result for self-intersections and orientation, exactly (slow)");
     add_memory_option(sub, args.max_memory);
 }

@@ -48,8 +48,9 @@ std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& o) {
     if (r.seam_points > 0)
         text += format("uv seams: %llu points, largest mismatch %.6g at %s; %s\n", count(r.seam_points),
                        r.seam_mismatch, place(r.seam_worst).c_str(), name(args.seam));
-    text += format("fold margin (1 + b a, to stay above 0): %.4g at %s, uv (%.6g, %.6g); %llu points folded\n",
-                   r.fold_margin, place(r.fold_worst).c_str(), r.fold_worst_uv.x, r.fold_worst_uv.y, count(r.folded));
+    text += format("fold margin (%s, to stay above 0): %.4g at %s, uv (%.6g, %.6g); %llu points folded\n",
+                   args.vector ? "stretch" : "1 + b a", r.fold_margin, place(r.fold_worst).c_str(), r.fold_worst_uv.x,
+                   r.fold_worst_uv.y, count(r.folded));
     if (args.measure || args.max_error)
         text += format("distance from the displaced surface: max %.4g, rms %.4g (%.4g %% of the diagonal)\n",
                        r.error_max, r.error_rms, 100 * r.error_max / o.size);
@@ -80,7 +81,12 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutc
                             "no edge is cut into more than %d "
                             "segments; a finer mesh, a smoother height or a larger --max-error",
                             base.c_str(), r.error_max, o.max_error, 4 * Rates{}.most));
-    if (r.folded > 0)
+    if (r.folded > 0 && args.vector)
+        note(common, format("%s: %llu points face against the surface they were moved from: the vectors fold it, or it "
+                            "hangs over (smallest stretch %.3g); a smaller --amplitude, and --audit tells whether it "
+                            "cuts itself",
+                            base.c_str(), count(r.folded), r.fold_margin));
+    else if (r.folded > 0)
         note(common, format("%s: %llu points are turned inside out, the displacement being beyond the radius of "
                             "curvature; a smaller --amplitude, "
                             "or a --midlevel that moves it the other way",

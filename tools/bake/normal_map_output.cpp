@@ -40,6 +40,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (!result.mesh_notes.empty()) object["mesh_notes"] = result.mesh_notes;
     if (!result.notes.empty()) object["notes"] = result.notes;
     if (result.advice) object["better_filter"] = to_json(*result.advice);
+    if (options.method != NormalMethod::exact) object["method_error"] = to_json(result.method_error, options.method);
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
                             {"uncovered", r.uncovered},

@@ -1,6 +1,7 @@
 // What the verb normal-map prints.
 #pragma once
 #include "bake/relief/map/bake_budget.h"
+#include "bake/relief/map/method_error.h"
 #include "normal_map_options.h"
 
 namespace bake {
@@ -11,6 +12,7 @@ struct NormalMapResult {
     NormalMapReport report;
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
+    MethodError method_error;
     double tilt_deg = 0; ///< of the normal, by one level of the height
     Filter filter = Filter::central;
     std::vector<std::string> notes, mesh_notes; ///< doubts about the height; of reading the mesh

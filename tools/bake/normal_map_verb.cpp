@@ -27,6 +27,7 @@ void bake_mesh(const HeightTexture& height, const HeightField& field, const Bake
                            : normal_map(field, target, options, result.report, &progress);
     const BudgetInput input = mesh_budget(height, field, options, target, depth);
     result.budget = error_budget(input);
+    result.method_error = method_error(input);
     result.advice = better_filter(input, result.budget);
     result.tilt_deg =
         step_tilt_deg(height.step, options.height_options.amplitude, target.scale.u, height.values.width());
@@ -71,6 +72,8 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     note_all(common, args.mesh, result.mesh_notes);
     warn(common, args, result.report);
     note(common, default_amplitude_note(args.height, height.info, options.height_options, whole_of(args, mesh)));
+    if (const std::string doubt = describe(result.method_error, options.method); !doubt.empty())
+        note(common, doubt + "; use --method exact");
     if (result.advice) note(common, to_text(*result.advice));
     return 0;
 }

@@ -1,7 +1,7 @@
 #include "bake/preview/gltf_objects.h"
 #include "bake/mesh/face_subset.h"
-#include "bake/mesh/origin.h"
 #include "bake/preview/gltf_materials.h"
+#include "bake/preview/scene_positions.h"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -51,7 +51,7 @@ std::vector<GltfObject> load_gltf_objects(const std::string& path, const GltfObj
     for (const std::string& note : gltf.notes) scene.notes.push_back(path + ": " + note);
     Mesh mesh = flatten(std::move(gltf));
     for (const std::string& note : mesh.notes) scene.notes.push_back(path + ": " + note);
-    move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+    make_absolute(mesh, path, scene.notes);
 
     materials.emplace_back(); // of faces without a material
     GltfImages images(path, files, scene.notes);

@@ -1,6 +1,7 @@
 #include "bake/preview/scene.h"
 #include "bake/base/error.h"
 #include "bake/base/pages.h"
+#include "bake/base/text.h"
 #include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,20 @@ BvhTree tree_for(const RenderSettings& settings, double triangles) noexcept {
     return triangles > 8e6 && triangles > samples ? BvhTree::quick : BvhTree::fast;
 }
 
+/// Areas of relief are squares of lengths, and their squares underflow.
+constexpr float least_relief_size = 1e-10f;
+
+void note_small_relief(Scene& scene) {
+    const bool relief = std::any_of(scene.instances.begin(), scene.instances.end(),
+                                    [](const Instance& instance) { return has_relief(*instance.material); });
+    const double size = diagonal(bounds(scene));
+    if (!relief || size == 0 || size >= least_relief_size) return;
+    scene.notes.push_back(
+        format("the scene is %.2g across: below %g relief is lost in the rounding of floats; scale the "
+               "scene up",
+               size, double(least_relief_size)));
+}
+
 } // namespace
 
 void add_instance(Scene& scene, Shape& shape, const Material& material, const Placement& placement) {
@@ -85,6 +100,7 @@ void add_instance(Scene& scene, Shape& shape, const Material& material, const Pl
 
 void build(Scene& scene) {
     scene.origin = far_centre(bounds(scene));
+    note_small_relief(scene);
     std::vector<BvhMesh> meshes;
     double triangles = 0;
     for (const Instance& instance : scene.instances) {

@@ -6,10 +6,11 @@
 #include "bake/environment/sky/test_sky.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/mesh/gltf/material.h"
-#include "bake/mesh/origin.h"
 #include "bake/preview/counted_twice.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/gltf_objects.h"
+#include "bake/preview/relief_doubt.h"
+#include "bake/preview/scene_positions.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/preview/smooth_mesh.h"
 #include "bake/relief/height/picture_height.h"
@@ -140,7 +141,11 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
         throw Error(Refusal::unsuitable, "\"shade\" " + name(options.method) +
                                              " looks up a table that repeats; give the height the wrap "
                                              "\"repeat\", or take another method such as \"blinn\"");
-    if (shade == Shade::roughness || shade == Shade::constant_scale) add_derivatives(shape.surface); // for their mean
+    const bool looked_up = shade == Shade::blinn || shade == Shade::bump || shade == Shade::bump_roughness;
+    if (shade == Shade::roughness || shade == Shade::constant_scale || looked_up)
+        add_derivatives(shape.surface); // for their mean, and for relief_doubt()
+    if (const std::string doubt = relief_doubt(shape, *height, options); !doubt.empty())
+        scene.notes.push_back("material \"" + material.name + "\": " + doubt + "; use shade = \"exact\"");
     ReliefModel model = with_relief(material, shape, *height, options);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
@@ -159,7 +164,7 @@ SmoothMesh read_entry(const MeshEntry& entry, const Vec2f& repeat, Scene& scene)
     if (!entry.shape.empty()) return {repeated(shape_mesh(entry.shape, entry.columns, entry.rows)), nullptr};
     Mesh mesh = read_mesh(entry.file, {.flip_v = entry.flip_v, .uv_set = entry.uv_set});
     for (const std::string& note : mesh.notes) scene.notes.push_back(entry.file + ": " + note);
-    move_origin(mesh, Vec3d(0)); // scenes are in 32-bit floats
+    make_absolute(mesh, entry.file, scene.notes);
     mesh = repeated(std::move(mesh));
     if (entry.subdivide) return limit_mesh(std::move(mesh), *entry.subdivide, entry.file, entry.columns);
     return {std::move(mesh), nullptr};

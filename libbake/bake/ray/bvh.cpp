@@ -26,9 +26,28 @@ bool usable(const Ray& ray) noexcept {
     return ray.t_max >= std::max(0.0f, ray.t_min);                        // false if empty, or NaN
 }
 
+/// The ray among positions that are multiplied by `scale`; its direction stays, so that t is multiplied too.
+Ray scaled(Ray ray, float scale) noexcept {
+    ray.origin *= scale, ray.t_min *= scale, ray.t_max *= scale;
+    return ray;
+}
+
+/// The power of two by which positions are multiplied for Embree, which has lengths of its own: it takes barycentrics as 0
+/// where an area is below 1e-18, and products of three lengths overflow from 7e12 on. Powers of two change no digits.
+/// 1 if the largest coordinate is between 1 and 2^20.
+float scale_for(const std::vector<BvhMesh>& meshes) noexcept {
+    float most = 0;
+    for (const BvhMesh& mesh : meshes)
+        for (const Vec3f& p : mesh.positions)
+            if (usable(p)) most = std::max(most, largest(p));
+    if (most == 0 || (most >= 1 && most <= 0x1p20f)) return 1;
+    return std::ldexp(1.0f, std::clamp(9 - std::ilogb(most), -126, 126));
+}
+
 /// Converts a ray. False for a ray that Embree cannot process.
-bool to_embree(const Ray& ray, RTCRay& out) noexcept {
-    if (!usable(ray)) return false;
+bool to_embree(const Ray& given, float scale, RTCRay& out) noexcept {
+    const Ray ray = scaled(given, scale);
+    if (!usable(given) || !usable(ray)) return false;
     out.org_x = ray.origin.x;
     out.org_y = ray.origin.y;
     out.org_z = ray.origin.z;
@@ -46,11 +65,12 @@ bool to_embree(const Ray& ray, RTCRay& out) noexcept {
 
 /// Rays of a packet for Embree, with -1 in `valid` for each that takes part. The others are filled in as well, because
 /// Embree computes with them.
-PacketMask to_embree(std::span<const Ray, packet_size> rays, PacketMask active, RTCRay16& out, int* valid) noexcept {
+PacketMask to_embree(std::span<const Ray, packet_size> rays, PacketMask active, float scale, RTCRay16& out,
+                     int* valid) noexcept {
     PacketMask used = 0;
     for (int i = 0; i < packet_size; ++i) {
-        const Ray& given = rays[std::size_t(i)];
-        const bool take = (active >> i & 1) && usable(given);
+        const Ray given = scaled(rays[std::size_t(i)], scale);
+        const bool take = (active >> i & 1) && usable(rays[std::size_t(i)]) && usable(given);
         const Ray& ray = take ? given : Ray{Vec3f(0), Vec3f(0, 0, 1), 0, 0};
         valid[i] = take ? -1 : 0;
         used |= PacketMask(take) << i;
@@ -83,12 +103,14 @@ struct Bvh::Impl {
         std::vector<std::array<std::uint32_t, 3>> triangles;
         PassFilter passes_seen, passes_light;
         std::uint32_t number = 0; ///< of the mesh
+        float unscale = 1;        ///< 1 / Impl::scale
 
         bool is_behind(std::uint32_t triangle, const Vec3f& direction) const noexcept;
         template <bool seen> static void filter(const RTCFilterFunctionNArguments* args) noexcept;
     };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    float scale = 1, unscale = 1; ///< of the positions in the buffers, see scale_for(); and its reciprocal
     std::vector<Buffers> meshes;
 
     Impl() = default;
@@ -117,6 +139,7 @@ template <bool seen> void Bvh::Impl::Buffers::filter(const RTCFilterFunctionNArg
         Crossing at;
         at.origin = {RTCRayN_org_x(args->ray, count, i), RTCRayN_org_y(args->ray, count, i),
                      RTCRayN_org_z(args->ray, count, i)};
+        at.origin *= mesh.unscale;
         at.direction = {RTCRayN_dir_x(args->ray, count, i), RTCRayN_dir_y(args->ray, count, i),
                         RTCRayN_dir_z(args->ray, count, i)};
         at.mesh = mesh.number;
@@ -136,11 +159,16 @@ Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree) : impl_(std::make_unique<Imp
     rtcSetSceneFlags(impl_->scene,
                      RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (quick ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE)));
     rtcSetSceneBuildQuality(impl_->scene, quality);
+    impl_->scale = scale_for(meshes), impl_->unscale = 1 / impl_->scale;
     impl_->meshes.resize(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         Impl::Buffers& own = impl_->meshes[i];
         own.positions = std::move(meshes[i].positions);
         const std::size_t count = own.positions.size();
+        own.unscale = impl_->unscale;
+        if (impl_->scale != 1)
+            for (Vec3f& p : own.positions)
+                if (usable(p)) p *= impl_->scale; // others are to stay beyond what Embree takes
         own.positions.push_back(Vec3f(0));
         own.triangles = std::move(meshes[i].triangles);
         if (own.triangles.empty()) continue;
@@ -170,18 +198,18 @@ Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 
 Hit Bvh::intersect(const Ray& ray) const noexcept {
     RTCRayHit query;
-    if (!to_embree(ray, query.ray)) return {};
+    if (!to_embree(ray, impl_->scale, query.ray)) return {};
     query.hit.geomID = query.hit.primID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(impl_->scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+    return {query.ray.tfar * impl_->unscale, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
 }
 
 bool Bvh::occluded(const Ray& ray) const noexcept {
     RTCRay query;
-    if (!to_embree(ray, query)) return false;
+    if (!to_embree(ray, impl_->scale, query)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(impl_->scene, &context, &query);
@@ -196,19 +224,19 @@ void Bvh::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
         query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         hits[std::size_t(i)] = {};
     }
-    if (to_embree(rays, active, query.ray, valid) == 0) return;
+    if (to_embree(rays, active, impl_->scale, query.ray, valid) == 0) return;
     RTCIntersectContext context = packet_context();
     rtcIntersect16(valid, impl_->scene, &context, &query);
     for (int i = 0; i < packet_size; ++i)
         if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-            hits[std::size_t(i)] = {query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i], query.hit.u[i],
-                                    query.hit.v[i]};
+            hits[std::size_t(i)] = {query.ray.tfar[i] * impl_->unscale, query.hit.geomID[i], query.hit.primID[i],
+                                    query.hit.u[i], query.hit.v[i]};
 }
 
 PacketMask Bvh::occluded(std::span<const Ray, packet_size> rays, PacketMask active) const noexcept {
     alignas(64) int valid[packet_size];
     alignas(64) RTCRay16 query;
-    if (to_embree(rays, active, query, valid) == 0) return 0;
+    if (to_embree(rays, active, impl_->scale, query, valid) == 0) return 0;
     RTCIntersectContext context = packet_context();
     rtcOccluded16(valid, impl_->scene, &context, &query);
     PacketMask hidden = 0;
@@ -221,10 +249,10 @@ HitPoint Bvh::point(const Hit& hit) const noexcept {
     const std::array<std::uint32_t, 3>& corner = mesh.triangles[hit.triangle];
     const Vec3f p0 = mesh.positions[corner[0]], p1 = mesh.positions[corner[1]], p2 = mesh.positions[corner[2]];
     HitPoint at;
-    at.p = (1 - hit.b1 - hit.b2) * p0 + hit.b1 * p1 + hit.b2 * p2;
+    at.p = impl_->unscale * ((1 - hit.b1 - hit.b2) * p0 + hit.b1 * p1 + hit.b2 * p2);
     at.normal = Vec3f(unit_or_zero(glm::cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0))));
     // About four roundings in p and as many in Embree's plane test, each relative to the largest coordinate.
-    at.offset = 0x1p-19f * std::max({largest(p0), largest(p1), largest(p2)});
+    at.offset = impl_->unscale * (0x1p-19f * std::max({largest(p0), largest(p1), largest(p2)}));
     return at;
 }
 

@@ -192,4 +192,15 @@ TEST_SUITE("stability") {
         }
     }
 
+    TEST_CASE("irradiance: a sun of one texel on skies of odd sizes, where nodes of the tree are single texels") {
+        for (const int n : {9, 33, 65}) {
+            Cube sky = test::even_sky(n, 1, 0);
+            sky.faces[4].at(n / 2, n / 2) = float(1 / test::texel_solid_angle(n, n / 2, n / 2));
+            CAPTURE(n);
+            const Cube out = irradiance(sky, {.size = 5});
+            test::for_each_texel(out, [](int, int, int, const float* value) { REQUIRE(std::isfinite(*value)); });
+            CHECK(out.faces[4].at(2, 2) == doctest::Approx(1).epsilon(1e-3));
+        }
+    }
+
 } // TEST_SUITE

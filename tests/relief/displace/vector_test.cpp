@@ -91,3 +91,49 @@ TEST_SUITE("oracle") {
     }
 
 } // TEST_SUITE
+
+TEST_SUITE("stability") {
+
+    TEST_CASE(
+        "displace, vectors that fold: along the surface at 1 over their slope; heights on a plane and turns within "
+        "it never do") {
+        const BaseSurface base(
+            polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+        const auto report = [&](VectorSpace space, double amplitude, Wrap wrap, auto value) {
+            Relief r;
+            r.values = Image<float>(64, 64, 3);
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        r.values.at(x, y, c) = float(value((x + 0.5) / 64, 1 - (y + 0.5) / 64)[c]);
+            r.height = {.amplitude = amplitude, .midlevel = 0, .wrap_u = wrap, .wrap_v = wrap};
+            r.vector = space;
+            DisplaceOptions options;
+            options.rates.levels = 4, options.margin = true;
+            const Displaced out = displace(base, r, options);
+            CHECK(*std::min_element(out.margin.begin(), out.margin.end()) == doctest::Approx(out.report.fold_margin));
+            return out.report;
+        };
+        const auto along = [](double u, double) { return Vec3d(std::sin(2 * pi * u), 0, 0); };
+        const auto up = [](double u, double) { return Vec3d(0, 0, std::sin(2 * pi * u)); };
+        for (const VectorSpace space : {VectorSpace::object, VectorSpace::tangent}) {
+            CAPTURE(int(space));
+            for (const double x : {0.5, 0.99, 1.01, 3.0}) { // amplitude times 2 pi
+                const DisplaceReport r = report(space, x / (2 * pi), Wrap::repeat, along);
+                CHECK(r.fold_margin == doctest::Approx(1 - x).epsilon(1e-3));
+                CHECK((r.folded > 0) == (x > 1));
+            }
+            CHECK(report(space, 10, Wrap::repeat, up).fold_margin == doctest::Approx(1).epsilon(1e-6));
+        }
+        // p + d is p turned by 120 degrees about (.5, .5), and then point-reflected through it, which turns both axes round.
+        const auto turned = [](double degrees) {
+            return [angle = glm::radians(degrees)](double u, double v) {
+                const double x = u - 0.5, y = v - 0.5;
+                return Vec3d(std::cos(angle) * x - std::sin(angle) * y - x,
+                             std::sin(angle) * x + std::cos(angle) * y - y, 0);
+            };
+        };
+        CHECK(report(VectorSpace::object, 1, Wrap::clamp, turned(120)).folded == 0);
+    }
+
+} // TEST_SUITE

@@ -1,37 +1,17 @@
 #include "bake/base/parallel.h"
 #include "bake/verdict/metric/ssim.h"
+#include "browser.h"
+#include "cli/command.h"
 #include "verdict/metric/pictures.h"
+#include "verdict/metric/plain_ssim.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <doctest/doctest.h>
+#include <sstream>
 
 using namespace bake;
 using namespace bake::test;
-
-namespace {
-
-/// SSIM of one window from its definition: weighted means, then weighted mean products of the differences from them.
-double plain_ssim(const Image<float>& a, const Image<float>& b, int left, int top) {
-    double total = 0, mean_a = 0, mean_b = 0, aa = 0, bb = 0, ab = 0;
-    const auto each = [&](const auto& visit) {
-        for (int y = 0; y < 11; ++y)
-            for (int x = 0; x < 11; ++x) {
-                const double w = std::exp(-((x - 5) * (x - 5) + (y - 5) * (y - 5)) / (2 * 1.5 * 1.5));
-                visit(w, double(a.at(left + x, top + y)), double(b.at(left + x, top + y)));
-            }
-    };
-    each([&](double w, double va, double vb) { total += w, mean_a += w * va, mean_b += w * vb; });
-    mean_a /= total, mean_b /= total;
-    each([&](double w, double va, double vb) {
-        aa += w / total * (va - mean_a) * (va - mean_a);
-        bb += w / total * (vb - mean_b) * (vb - mean_b);
-        ab += w / total * (va - mean_a) * (vb - mean_b);
-    });
-    const double c1 = 1e-4, c2 = 9e-4;
-    return (2 * mean_a * mean_b + c1) / (mean_a * mean_a + mean_b * mean_b + c1) * (2 * ab + c2) / (aa + bb + c2);
-}
-
-} // namespace
 
 TEST_SUITE("unit") {
     TEST_CASE("ssim: every window is what the definition gives, and the mean is theirs") {
@@ -108,5 +88,41 @@ TEST_SUITE("oracle") {
         check(ssim(levels(rough), levels(shaken)), 0.9645817980090016, 0.9296999515762397, 0.9738876734019436);
         check(ssim(levels(ramp), levels(half)), 0.736517397375708, 0.7307239054487447, 0.7366154202720351);
         check(ssim(levels(rough), levels(ramp)), 0.08660774620919778, 0.07918054141192048, 0.04192382528246683);
+    }
+}
+
+TEST_SUITE("oracle" *
+           doctest::skip(no_browser() || !fs::exists(source_folder() / "build/three_viewer/node_modules/ssim.js"))) {
+    TEST_CASE("ssim: the package ssim.js itself on twenty pairs of pictures, from equal ones to unrelated ones") {
+        constexpr int width = 64, height = 48, pairs = 20;
+        const Folder folder;
+        const auto level = [](int pair, bool second, int x, int y) {
+            const double own = 255 * noise(x / 3, y / 3, 0, unsigned(pair)),
+                         other = 255 * noise(x, y, 1, unsigned(pair));
+            return int(second ? own + (other - own) * pair / (pairs - 1.0) : own);
+        };
+        for (int pair = 0; pair < pairs; ++pair)
+            for (const bool second : {false, true}) {
+                std::string bytes;
+                for (int y = 0; y < height; ++y)
+                    for (int x = 0; x < width; ++x) bytes += char(level(pair, second, x, y));
+                write_file(folder / ((second ? "b" : "a") + std::to_string(pair)), bytes);
+            }
+        const std::string command = "'" + (source_folder() / "scripts/three_viewer").string() + "' --run '" +
+                                    (source_folder() / "tests/verdict/metric/ssim_js.mjs").string() + "' '" +
+                                    folder.path.string() + "' " + std::to_string(width) + " " + std::to_string(height) +
+                                    " " + std::to_string(pairs) + " >'" + (folder / "said") + "' 2>&1";
+        REQUIRE_MESSAGE(std::system(command.c_str()) == 0, contents(folder / "said"));
+        std::istringstream said(contents(folder / "said"));
+        for (int pair = 0; pair < pairs; ++pair) {
+            double expected = -1;
+            const bool printed = bool(said >> expected);
+            REQUIRE(printed);
+            const auto grey = [&](bool second) {
+                return picture(width, height, 1, [&](int x, int y, int) { return level(pair, second, x, y) / 255.0; });
+            };
+            CAPTURE(pair);
+            CHECK(ssim(grey(false), grey(true)).mean == doctest::Approx(expected).epsilon(1e-5));
+        }
     }
 }

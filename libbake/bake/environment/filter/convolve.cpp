@@ -124,7 +124,8 @@ void add_nodes(const std::vector<SkyNode>& nodes, const Lobe& lobe, const Direct
                Sums& sums) noexcept {
     float K[tile_directions], K1[tile_directions];
     for (const SkyNode& s : nodes) {
-        const float r = std::sqrt(3 * s.h), half_h = 0.5f * s.h;
+        // Of a single texel, at the border of a level of odd size, the variance is 0, or a hair below by rounding.
+        const float r = std::sqrt(std::max(3 * s.h, 1e-12f)), half_h = 0.5f * s.h;
         for (int k = 0; k < tile.count; ++k) {
             const float x = tile.nx[k] - s.d.x, y = tile.ny[k] - s.d.y, z = tile.nz[k] - s.d.z;
             const float t = 0.5f * (x * x + y * y + z * z) + s.h;

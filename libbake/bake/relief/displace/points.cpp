@@ -56,6 +56,9 @@ void store_normal(Mesh& mesh, std::uint32_t index, const Vec3d& unit, PointTally
 void write_patch_vertices(const Displacer& to, const PatchVertices& v, Mesh& mesh, PointTally& tally) {
     thread_local std::vector<ReliefValue> values;
     const bool heights = to.surface.values_are_heights(), along_normal = to.surface.along_normal();
+    const auto margin_of = [&](const Jet<double>& jet, const ReliefValue& value, double b) {
+        return along_normal ? fold_margin(jet, b) : fold_margin(jet, value);
+    };
     const bool blended = to.blend.touches(v.patch);
     if (!heights) {
         values.resize(v.index.size());
@@ -71,7 +74,7 @@ void write_patch_vertices(const Displacer& to, const PatchVertices& v, Mesh& mes
         tally.height(b);
         if (point.jet.n == Vec3d(0)) tally.no_normal += to.surface.uses_normal();
         else if (point.jet.sigma == 0) ++tally.no_tangents;
-        const double margin = along_normal && point.curved ? fold_margin(point.jet, b) : 1.0;
+        const double margin = point.curved ? margin_of(point.jet, value, b) : 1.0;
         tally.fold(margin, point);
         to.store(mesh, v.index[k], d.p, margin, tally);
         store_normal(mesh, v.index[k], point.curved ? unit_or_zero(d.normal) : Vec3d(0), tally);
@@ -112,8 +115,9 @@ void combine_sides(const Displacer& to, const JunctionVertices& v, std::span<con
         if (!point.curved) continue; // its normal is computed from the faces
         ReliefValue value = views[k].value;
         if (heights) value.at = shared.value;
-        if (surface.along_normal())
-            out.margin = std::min(out.margin, fold_margin(point.jet, surface.height_of(point, value)));
+        out.margin =
+            std::min(out.margin, surface.along_normal() ? fold_margin(point.jet, surface.height_of(point, value))
+                                                        : fold_margin(point.jet, value));
         // The normal of a normal group is the mean over its uv groups.
         out.normal[v.sides[k].normal_group] += unit_or_zero(surface.displaced(point, value).normal);
     }

@@ -96,6 +96,21 @@ inline double fold_margin(const Jet<double>& s, double b) noexcept {
     return 1 + b * mean - std::abs(b) * half;
 }
 
+/// The same of any displacement d, with q = p + d: the smallest eigenvalue of the map F of the tangent plane that takes p_s
+/// to the part of q_s in that plane, and p_t likewise. Where the two are complex, sqrt(det F): a turn within the plane is no
+/// fold. 0 or less where the displaced surface faces against n, by a fold or by an overhang. Along the normal F = 1 + b A,
+/// and this is fold_margin(jet, b).
+inline double fold_margin(const Jet<double>& s, const ReliefValue& value) noexcept {
+    const double area = glm::dot(s.n, glm::cross(s.p_u, s.p_v));
+    if (area == 0 || s.sigma == 0) return 1;
+    const double per_area = 1 / area;
+    const Vec3d q_s = s.p_u + value.s, q_t = s.p_v + value.t;
+    const double half_trace = 0.5 * per_area * glm::dot(s.n, glm::cross(q_s, s.p_v) + glm::cross(s.p_u, q_t));
+    const double determinant = per_area * glm::dot(s.n, glm::cross(q_s, q_t));
+    const double square = half_trace * half_trace - determinant;
+    return square < 0 ? std::sqrt(determinant) : half_trace - std::sqrt(square);
+}
+
 /// Whether the parameters of the jet are u and v; otherwise they are those of the patch.
 inline bool along_chart(const SurfacePoint& point) noexcept {
     return point.uv_s == Vec2d(1, 0) && point.uv_t == Vec2d(0, 1);

@@ -78,9 +78,9 @@ struct DisplaceReport {
     double seam_mismatch = 0; ///< largest difference of b across a seam, object units
     Vec3d seam_worst{0};      ///< where, on the base surface
 
-    // The local test min(1 + b a_i) > 0.
+    // The local test min(1 + b a_i) > 0, and for vectors the same of the stretch along the surface (fold_margin()).
     std::uint64_t folded = 0; ///< points that fail it
-    double fold_margin = 1;   ///< smallest 1 + b a_i
+    double fold_margin = 1;   ///< smallest 1 + b a_i, or stretch
     Vec3d fold_worst{0};
     Vec2d fold_worst_uv{0};
 
@@ -94,7 +94,7 @@ struct DisplaceReport {
 struct Displaced {
     Mesh mesh; ///< quads where the rates allow, triangles elsewhere; uvs, groups and materials of the base
     DisplaceReport report;
-    std::vector<float> margin; ///< positions, or none: smallest 1 + b a_i there
+    std::vector<float> margin; ///< positions, or none: smallest 1 + b a_i, or stretch, there
 };
 
 } // namespace bake

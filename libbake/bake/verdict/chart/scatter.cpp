@@ -142,14 +142,18 @@ Labels place(const ScatterChart& chart, const std::vector<Placed>& dots, const F
     return out;
 }
 
+std::string draw_leader(const PlacedLabel& place) {
+    if (!place.far) return {};
+    return svg_line(place.from.x, place.from.y, place.to.x, place.to.y, "stroke=\"#bbb\" stroke-width=\"0.8\"");
+}
+
+/// On a white ground, so that a line beneath does not strike the text through.
 std::string draw_label(const ChartDot& dot, bool front, const PlacedLabel& place) {
-    std::string out;
-    if (place.far)
-        out = svg_line(place.from.x, place.from.y, place.to.x, place.to.y, "stroke=\"#bbb\" stroke-width=\"0.8\"");
-    // The base line of a text is about a quarter of its height above its lower border. The text is as wide as its box at
-    // most: it starts at the side of its dot.
-    const double middle = (place.box.left + place.box.right) / 2;
-    return out + svg_text(middle, place.box.bottom - 3, dot.label,
+    const Box& b = place.box;
+    std::string out = "<rect x=\"" + px(b.left) + "\" y=\"" + px(b.top) + "\" width=\"" + px(b.right - b.left) +
+                      "\" height=\"" + px(b.bottom - b.top) + "\" fill=\"#fff\" fill-opacity=\"0.75\"/>\n";
+    // The base line of a text is about a quarter of its height above its lower border.
+    return out + svg_text((b.left + b.right) / 2, b.bottom - 3, dot.label,
                           {.size = label_size, .anchor = Anchor::middle, .colour = front ? "#123c6e" : "#555"});
 }
 
@@ -164,19 +168,25 @@ std::string scatter_svg(const ScatterChart& chart) {
 
     std::vector<std::string> notes{"Filled, on the line: no other method is both as cheap and as accurate."};
     if (!chart.note.empty()) notes.push_back(chart.note);
-    std::string names;
+    std::string leaders, names;
     for (std::size_t i = 0; i < dots.size(); ++i) {
-        const ChartDot& dot = chart.dots[dots[labels.order[i]].index];
-        if (labels.places[i]) names += draw_label(dot, dots[labels.order[i]].front, *labels.places[i]);
-        else notes.push_back("No room for: " + dot.label + " (" + figures(chart, dot) + ")");
+        const Placed& placed = dots[labels.order[i]];
+        const ChartDot& dot = chart.dots[placed.index];
+        if (labels.places[i]) {
+            leaders += draw_leader(*labels.places[i]);
+            names += draw_label(dot, placed.front, *labels.places[i]);
+        } else {
+            notes.push_back("No room for: " + dot.label + " (" + figures(chart, dot) + ")");
+        }
     }
     for (const ChartDot& dot : chart.dots)
         if (!can_draw(dot)) notes.push_back("Not drawn: " + dot.label + " (" + figures(chart, dot) + ")");
 
     std::string out = draw_frame(text, frame, note_height * double(notes.size()));
     out += draw_front(front_line(dots));
+    out += leaders + names;
     for (const Placed& dot : dots) out += draw_dot(chart, dot);
-    return out + names + draw_notes(text, notes) + "</svg>\n";
+    return out + draw_notes(text, notes) + "</svg>\n";
 }
 
 } // namespace bake

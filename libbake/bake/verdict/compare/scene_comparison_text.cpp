@@ -57,13 +57,9 @@ Json json_of(const std::string& method, const MethodCost& cost) {
             {"texture_bytes", cost.texture_bytes}};
 }
 
-/// Parts of the error; the last one is that of causes which act together.
-Json json_of(const CauseShares& shares) {
-    Json json = Json::object();
-    for (const auto& [cause, part] : parts(shares)) json[cause] = part;
-    json["mean_square"] = shares.total;
-    json["pixels"] = shares.pixels;
-    return json;
+void add_shares(const CauseShares& shares, Json& json) {
+    for (const auto& [cause, part] : parts(shares)) (cause == "interaction" ? json : json["shares"])[cause] = part;
+    json["shares_of"] = {{"mean_square", shares.total}, {"pixels", shares.pixels}};
 }
 
 Json json_of(const MethodRow& row) {
@@ -73,7 +69,7 @@ Json json_of(const MethodRow& row) {
     json["frame"] = json_of(errors.frame);
     json["normals_deg"] = {{"mean", errors.angles.mean}, {"p95", errors.angles.p95}, {"max", errors.angles.max}};
     if (errors.outline.known) json["silhouette_px"] = {{"mean", errors.outline.mean}, {"max", errors.outline.max}};
-    if (row.shares) json["shares"] = json_of(*row.shares);
+    if (row.shares) add_shares(*row.shares, json);
     json["worst"] = {
         {"x", errors.worst.x}, {"y", errors.worst.y}, {"width", errors.worst.width}, {"height", errors.worst.height}};
     json["on_time_front"] = row.on_time_front;

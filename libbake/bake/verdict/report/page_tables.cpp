@@ -210,7 +210,7 @@ std::string facts(const Json& report) {
     if (number(report, "exposure")) fact(out, "exposure", format("%+.3g stops", number_or(report, "exposure", 0)));
     if (const auto s = number(report, "reference/prepare_seconds")) reference += format(", %.3g s to prepare", *s);
     if (const auto s = number(report, "reference/render_seconds")) reference += format(", %.3g s to render", *s);
-    fact(out, "reference", reference + (note.empty() ? "" : ". " + note));
+    fact(out, "reference", reference + (note.empty() ? "" : "; " + note));
     return out;
 }
 
