@@ -1,6 +1,7 @@
 // Every way of showing a relief, against the closed form of the displaced normal.
 #include "bake/base/error.h"
 #include "bake/preview/relief_method.h"
+#include "bake/preview/shape_mesh.h"
 #include "preview/little_scenes.h"
 #include <doctest/doctest.h>
 
@@ -136,6 +137,18 @@ TEST_SUITE("oracle") {
 } // TEST_SUITE
 
 TEST_SUITE("unit") {
+    TEST_CASE("relief_method: a baked map of normals says so where faces share its texels") {
+        const HeightTexture height = waves(32);
+        const auto cube = make_shape(shape_mesh("cube:a=1", 2, 2)); // each side has the whole unit square
+        for (const char* word : {"normal", "displace+normal:2"}) {
+            const ReliefModel m = model(word, *cube, height);
+            REQUIRE(m.notes.size() == 1);
+            CHECK(m.notes[0].starts_with(word));
+            CHECK(m.notes[0].find("lie in more than one face") != std::string::npos);
+        }
+        CHECK(model("bump", *cube, height).notes.empty());
+        CHECK(model("normal", *make_shape(torus_mesh(16, 8)), height).notes.empty());
+    }
 
     TEST_CASE("relief method: words are read, and others are none") {
         for (const char* word :

@@ -1,6 +1,7 @@
 #include "bake/preview/relief_method.h"
 #include "bake/base/error.h"
 #include "bake/base/memory.h"
+#include "bake/base/text.h"
 #include "bake/preview/widen.h"
 #include "bake/relief/displace/displace.h"
 #include "bake/relief/map/residual_map.h"
@@ -73,9 +74,22 @@ NormalMapOptions map_options(const ReliefOptions& options, const HeightTexture& 
     return map;
 }
 
+/// Texels of two faces that a note is worth, as a share of all that are covered.
+constexpr double noted_overlap = 0.001;
+
+/// A face that shares its texels with another one, or has none, is shaded wrongly by a map that is baked for this mesh.
+void note_shared_texels(const NormalMapReport& report, const ReliefOptions& options, std::vector<std::string>& notes) {
+    const double overlap = double(report.overlapped) / double(std::max<std::int64_t>(1, report.covered));
+    if (overlap <= noted_overlap && report.outside_faces == 0) return;
+    notes.push_back(format("%s: %.2g %% of the texels of its map lie in more than one face, and %lld faces outside the "
+                           "unit square of uvs have none; their normals are those of other faces. Unwrap the mesh, or "
+                           "take a method without a map of normals, such as \"bump\"",
+                           name(options.method).c_str(), 100 * overlap, static_cast<long long>(report.outside_faces)));
+}
+
 /// Tangent-space normals of the height on a mesh; relative to `displaced`, if given.
 Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const ReliefOptions& options,
-                      const Mesh* displaced = nullptr) {
+                      std::vector<std::string>& notes, const Mesh* displaced = nullptr) {
     const NormalMapOptions map = map_options(options, height);
     const auto target_of = [&](const Mesh& of) { return make_bake_target(of, "the mesh", map.width, map.height); };
     const BakeTarget target = target_of(mesh);
@@ -83,6 +97,7 @@ Texture baked_normals(const Mesh& mesh, const HeightTexture& height, const Relie
     NormalMapReport report;
     Image<float> normals = displaced ? residual_map(field, target, target_of(*displaced), map, report)
                                      : normal_map(field, target, map, report);
+    note_shared_texels(report, options, notes);
     for (std::size_t i = 0; i < normals.size(); ++i) normals.data()[i] = 2 * normals.data()[i] - 1;
     return std::make_shared<const Image<float>>(std::move(normals));
 }
@@ -187,11 +202,11 @@ ReliefModel with_relief(const Material& material, const Shape& shape, const Heig
         m.always_moments = options.method.shade == Shade::bump_roughness;
         m.bump_table = std::make_shared<const Image<float>>(bump_table(height, table_options(options)));
         break;
-    case Shade::normal: m.normal_map = baked_normals(shape.mesh, height, options); break;
+    case Shade::normal: m.normal_map = baked_normals(shape.mesh, height, options, model.notes); break;
     case Shade::displace: displace_shape(model, shape, height, options); break;
     case Shade::displace_normal:
         displace_shape(model, shape, height, options);
-        m.normal_map = baked_normals(shape.mesh, height, options, &model.shape->mesh);
+        m.normal_map = baked_normals(shape.mesh, height, options, model.notes, &model.shape->mesh);
     }
     return model;
 }

@@ -5,6 +5,7 @@
 #include "bake/relief/height/slope_filter.h"
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bake {
 
@@ -54,6 +55,7 @@ struct ReliefModel {
     Material material;
     std::unique_ptr<Shape> shape; ///< displaced; null: the shape as it was
     int segments = 0;             ///< of displaced edges
+    std::vector<std::string> notes;
 };
 
 /// Bakes what the method needs, by the functions that the commands call. Throws their errors: Error{Refusal::unsuitable} for

@@ -150,6 +150,7 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
                               " segments per edge, the most that memory allows");
+    for (const std::string& line : model.notes) scene.notes.push_back("material \"" + material.name + "\": " + line);
     scene.materials.push_back(std::make_unique<Material>(std::move(model.material)));
     if (model.shape) scene.shapes.push_back(std::move(model.shape));
     return {scene.materials.back().get(), model.segments > 0 ? scene.shapes.back().get() : &shape};

@@ -61,12 +61,12 @@ Image<float> comparison_sheet(const SceneComparison& comparison) {
     tiles.push_back({{"FLIP error of a pixel", "left 0, right 1"}, colour_scale(comparison.width, comparison.height)});
     for (const MethodRow& row : comparison.rows) {
         const std::string outline =
-            row.errors.outline.known ? format(", outline %.2f px", row.errors.outline.mean) : std::string();
+            row.errors.outline.known ? format("outline %.2f px", row.errors.outline.mean) : std::string();
         tiles.push_back(
             {{row.method, format("%.2f s, %.3g MB", row.cost.seconds(), double(row.cost.object_bytes) * 1e-6)},
              shown_picture(row.picture, comparison.exposure)});
         tiles.push_back({{format("FLIP %.3f, RMSE %.4f", row.errors.object.flip.value, row.errors.object.rmse.value),
-                          format("normal %.1f deg", row.errors.angles.mean) + outline},
+                          format("normal %.1f deg", row.errors.angles.mean), outline},
                          false_colour(row.errors.flip)});
     }
     return contact_sheet(tiles, {.columns = 4, .title = comparison.object + ": the methods against true displacement"});

@@ -36,6 +36,7 @@ Seconds seconds_of(std::vector<double> times) {
 struct Rendered {
     MethodCost cost;
     MethodPicture picture;
+    std::vector<std::string> notes; ///< of loading
 };
 
 /// Mean shading normals.
@@ -103,6 +104,7 @@ Rendered Comparison::render(const ShadeMethod& method) const {
         result.picture.halves = render_halves(scene->scene, scene->scene.settings, nullptr, progress_);
         times.push_back(seconds_since(start));
     }
+    result.notes = scene->scene.notes;
     result.picture.normals = normals_of(scene->scene);
     result.picture.mask = object_mask(scene->scene, scene->of_object, rays_per_pixel_edge);
     result.cost = {seconds_of(prepare), seconds_of(times), object_triangles(*scene), object_bytes(*scene),
@@ -164,11 +166,18 @@ void Comparison::begin(SceneComparison& result) {
                 result.reference.cost.render.median));
 }
 
+/// Notes that were not told before.
+void add_new(const std::vector<std::string>& notes, std::vector<std::string>& told) {
+    for (const std::string& line : notes)
+        if (std::find(told.begin(), told.end(), line) == told.end()) told.push_back(line);
+}
+
 void Comparison::render_methods(SceneComparison& result) {
     for (const ShadeMethod& method : options_.methods) {
         MethodRow row{.method = name(method), .shade = method, .cost = {}, .picture = {}, .errors = {}, .shares = {}};
         Rendered rendered = render(method);
         row.cost = rendered.cost;
+        add_new(rendered.notes, result.notes);
         row.picture = std::move(rendered.picture);
         const auto pixels = pixels_of_either(result.reference.picture.mask, row.picture.mask);
         row.errors.object.square =
