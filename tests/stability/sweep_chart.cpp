@@ -124,8 +124,8 @@ std::string legend(const std::vector<std::string>& series, const std::vector<Row
     const auto [x, first] = free_corner(rows, x_axis, y_axis, 24 + 6 * double(longest), 13 * double(series.size()));
     for (std::size_t i = 0; i < series.size(); ++i) {
         const double y = first + 14 + 13 * double(i);
-        out += text("<rect x='%.0f' y='%.0f' width='%.0f' height='13' fill='#fff' fill-opacity='.75'/>", x + 4,
-                    y - 10, 24 + 6 * double(series[i].size()));
+        out += text("<rect x='%.0f' y='%.0f' width='%.0f' height='13' fill='#fff' fill-opacity='.75'/>", x + 4, y - 10,
+                    24 + 6 * double(series[i].size()));
         out += text("<path d='M%.0f %.0fh14' stroke='%s' stroke-width='1.6'/>", x + 6, y - 4, colours[i % 7]);
         out += text("<text x='%.0f' y='%.0f'>", x + 24, y) + escaped(series[i]) + "</text>\n";
     }

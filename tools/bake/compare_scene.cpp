@@ -5,15 +5,13 @@
 #include "bake/verdict/compare/comparison_pictures.h"
 #include "bake/verdict/report/report_page.h"
 #include "compare_options.h"
+#include "inputs/output_folder.h"
 #include "render_progress.h"
-#include <filesystem>
 #include <sstream>
 #include <unistd.h>
 
 namespace bake {
 namespace {
-
-namespace fs = std::filesystem;
 
 ShadeMethod parse_method(const std::string& flag, const std::string& word) {
     if (const auto method = parse_shade(word)) return *method;
@@ -59,32 +57,6 @@ std::string command_of(const CompareArgs& args, const std::string& method) {
     const std::string& methods = method.empty() ? own.methods : method;
     return methods.empty() ? text : text + " --methods " + methods;
 }
-
-/// A folder that is made if it is not there, and removed again if nothing comes into it.
-class OutputFolder {
-public:
-    explicit OutputFolder(const std::string& path) : path_(path) {
-        if (path.empty() || fs::is_directory(path)) return;
-        std::error_code error;
-        made_ =
-            fs::create_directory(fs::path(path).has_filename() ? fs::path(path) : fs::path(path).parent_path(), error);
-        if (!made_)
-            throw Error(Refusal::unwritable, path + ": is no folder and cannot be made (" + error.message() +
-                                                 "); make the folder, or give another one");
-    }
-    ~OutputFolder() {
-        std::error_code error;
-        if (made_) fs::remove(path_, error); // fails where files are in it
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-    explicit operator bool() const noexcept { return !path_.empty(); }
-    std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
-
-private:
-    std::string path_;
-    bool made_ = false;
-};
 
 void write_text(const std::string& path, const std::string& text) {
     BlockWriter out(path);

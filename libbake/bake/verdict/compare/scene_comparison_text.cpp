@@ -90,8 +90,8 @@ std::string reference_text(const SceneComparison& comparison) {
 std::string cause_table(const SceneComparison& comparison) {
     const auto has_shares = [](const MethodRow& row) { return row.shares.has_value(); };
     if (std::none_of(comparison.rows.begin(), comparison.rows.end(), has_shares)) return {};
-    std::string text =
-        "  share of the squared error by cause: the first five sum to 100 %; interaction: 100 % less each cause alone\n";
+    std::string text = "  share of the squared error by cause: the first five sum to 100 %; interaction: 100 % less "
+                       "each cause alone\n";
     text += format("  %-18s %10s %11s %9s %8s %10s %12s\n", "method", "silhouette", "self-shadow", "parallax", "normal",
                    "filtering", "interaction");
     for (const MethodRow& row : comparison.rows) {
