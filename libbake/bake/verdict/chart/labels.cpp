@@ -1,4 +1,5 @@
 #include "bake/verdict/chart/labels.h"
+#include "bake/base/vec.h"
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,6 @@ namespace {
 constexpr double rings[] = {3, 14, 26, 40, 56, 74, 94, 116, 140, 164, 180};
 /// The right is tried first, then the left, then the diagonals. In sixteenths of a turn, y downwards.
 constexpr double directions[] = {0, 8, 14, 2, 10, 6, 12, 4, 15, 1, 9, 7, 13, 3, 11, 5};
-constexpr double pi = 3.14159265358979323846;
 
 /// What a fault of a place costs, in px of distance.
 constexpr double line_under_label = 30, crossing = 60;

@@ -11,7 +11,6 @@ namespace bake {
 namespace {
 
 constexpr int tile_edge = 32;
-constexpr double to_degrees = 180 / 3.14159265358979323846;
 
 using Pixels = std::vector<std::uint8_t>;
 
@@ -145,7 +144,7 @@ ErrorSummary angles_between(const MethodPicture& x, const MethodPicture& y) {
     for (std::size_t pixel = 0; pixel < covered.size(); ++pixel) {
         const Vec3d a = normal_at(x.normals, pixel), b = normal_at(y.normals, pixel);
         if (covered[pixel] < factor * factor || a == Vec3d(0) || b == Vec3d(0)) continue;
-        angles.push_back(to_degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+        angles.push_back(180 / pi * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
     }
     return summarise(std::move(angles));
 }
