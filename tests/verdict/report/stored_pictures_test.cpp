@@ -93,6 +93,17 @@ TEST_SUITE("unit") {
         CHECK(tight.p99_levels > tight.rms_levels);
     }
 
+    TEST_CASE("stored pictures: errors take 15 % of the bytes and no more") {
+        const std::vector<ReportPicture> all = noise_pictures(3, 65);
+        for (const double budget : {30e3, 25e3, 20e3, 17e3, 14e3}) {
+            const StoredPictures stored = store_pictures(all, 0, budget);
+            double errors = 0;
+            for (const StoredPicture& p : stored.pictures) errors += double(p.errors.size());
+            CHECK(errors <= 0.15 * budget);
+            CHECK(errors > 0.1 * budget);
+        }
+    }
+
     TEST_CASE("stored pictures: 11 pictures of 1024 x 1024 leave 60 KB for the page below 3 MB") {
         CHECK(report_budget(11 * 1024.0 * 1024) * 4 / 3 + 60e3 < 3e6);
         CHECK(report_budget(100) == report_budget(11 * 1024.0 * 1024));
