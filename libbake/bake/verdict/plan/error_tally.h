@@ -1,0 +1,60 @@
+// The mean squared error of a candidate over the area of an object, from pixels that are drawn at random.
+//
+// Of each pixel two independent halves of samples are rendered with the candidate and with the reference. Common random
+// numbers do not remove the bias of a squared noisy difference, but the product of the differences of the two halves has
+// none:
+//   m = d_a . d_b / 3,   a = share of the samples that see the object in either picture
+//   R = sum m / sum a,   q = m - R a,   se^2 = (sum q^2 + max |m|^2) / (sum a)^2
+// The largest |m| counts twice, because one per cent of the pixels can carry half of the squared error, and few pixels may
+// have missed them.
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+namespace bake {
+
+struct PixelSquare {
+    double m = 0, a = 0;
+};
+
+struct SquareEstimate {
+    double square = 0;       ///< R; noise may make it negative
+    double error = 0;        ///< one standard error of R
+    std::int64_t pixels = 0; ///< with a > 0
+    bool all = false;        ///< every pixel of the object was visited
+
+    double rmse() const noexcept { return std::sqrt(std::fmax(0.0, square)); }
+    double low() const noexcept { return std::sqrt(std::fmax(0.0, square - 2 * error)); }
+    double high() const noexcept { return std::sqrt(std::fmax(0.0, square + 2 * error)); }
+};
+
+class ErrorTally {
+public:
+    void add(const PixelSquare& pixel) noexcept;
+    SquareEstimate estimate() const noexcept;
+
+private:
+    double m_ = 0, a_ = 0, mm_ = 0, ma_ = 0, aa_ = 0, largest_ = 0;
+    std::int64_t pixels_ = 0;
+};
+
+enum class Settled { within, over, open };
+
+/// Looks are taken at `first` object pixels, then at `growth` times as many each, up to `most`.
+struct StoppingRule {
+    int first = 32;
+    double growth = 1.5;
+    int most = 2048;
+    int pass_from = 256;  ///< object pixels from which a candidate can pass, unless all are visited
+    double fail_at = 0.9; ///< over when R - 2 se >= (fail_at B)^2
+    double pass_at = 1.1; ///< within when R + 2 se <= (pass_at B)^2
+};
+
+/// `reference_error`: RMSE of the reference itself against a finer one; it widens the interval on both sides.
+Settled judge(const SquareEstimate& estimate, double budget, double reference_error = 0,
+              const StoppingRule& rule = {}) noexcept;
+/// At the end of the looks, what is still open may be taken if R + se <= (pass_at B)^2.
+bool acceptable(const SquareEstimate& estimate, double budget, double reference_error = 0,
+                const StoppingRule& rule = {}) noexcept;
+
+} // namespace bake
