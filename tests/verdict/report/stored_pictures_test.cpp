@@ -102,6 +102,8 @@ TEST_SUITE("unit") {
             CHECK(errors <= 0.15 * budget);
             CHECK(errors > 0.1 * budget);
         }
+        CHECK(
+            !store_pictures(noise_pictures(2, 33), 0, 5000).pictures[1].errors.empty()); // one method and its reference
     }
 
     TEST_CASE("stored pictures: 11 pictures of 1024 x 1024 leave 60 KB for the page below 3 MB") {

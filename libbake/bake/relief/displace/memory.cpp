@@ -110,9 +110,7 @@ namespace {
 /// What the user may change: the finest level that fits, a step that may be left out.
 std::string what_would_fit(const DisplaceMemory& memory, const Plan& plan, const SeamBlend* blend) {
     const DisplaceOptions& options = memory.options();
-    const auto fits = [&](const DisplaceCount& c) {
-        return c.bytes <= memory.limit() && within_indices(c);
-    };
+    const auto fits = [&](const DisplaceCount& c) { return c.bytes <= memory.limit() && within_indices(c); };
     const bool indices = plan.layout.points < no_index && plan.layout.corners < no_index;
     std::string mend = indices ? memory.advice() : "split the mesh";
     for (std::size_t i = 0; i < options.later.size(); ++i)
