@@ -1,4 +1,3 @@
-#include "bake/base/error.h"
 #include "bake/relief/displace/reach.h"
 #include "relief/displace/displace_meshes.h"
 
@@ -13,45 +12,7 @@ Mesh square() {
 
 double waves(double u, double v) { return std::sin(2 * pi * u) + std::sin(2 * pi * v); }
 
-/// The error that the refusal names as one that can be reached; 0 if there is no refusal.
-double named_instead_of(double error) {
-    DisplaceOptions options;
-    options.rates.rule = Rates::Rule::error;
-    options.rates.error = error;
-    options.max_bytes = 2 << 20;
-    try {
-        displace(BaseSurface(square()), relief(picture(64, 64, waves), 0.02, 0), options);
-        return 0;
-    } catch (const Error& refusal) {
-        const std::string words = "set `rates.error` to ", text = refusal.what();
-        const std::size_t at = text.find(words);
-        REQUIRE_MESSAGE(at != std::string::npos, text);
-        return std::stod(text.substr(at + words.size()));
-    }
-}
-
 } // namespace
-
-TEST_SUITE("unit") {
-
-    TEST_CASE("reach: the error that a refusal names is near what can be reached, and is not refused itself") {
-        int refused = 0;
-        for (double error = 1e-3; error > 1e-8; error /= 3) {
-            const double named = named_instead_of(error);
-            if (named == 0) {
-                CHECK(refused == 0); // a smaller error needs more
-                continue;
-            }
-            ++refused;
-            CAPTURE(error);
-            CAPTURE(named);
-            CHECK(named > error);
-            CHECK(named_instead_of(named) == 0);
-            CHECK(named_instead_of(named / 6) > 0);
-        }
-        CHECK(refused > 3);
-    }
-}
 
 TEST_SUITE("oracle") {
 
