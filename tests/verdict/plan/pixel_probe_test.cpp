@@ -338,6 +338,6 @@ TEST_SUITE("oracle") {
             width += (estimate.high() - estimate.low()) / truth / seeds;
         }
         CHECK(inside >= 0.9 * seeds);
-        CHECK(width < 1); // nor is it without a meaning
+        CHECK(width < 1.2); // of the RMSE: it is not without a meaning
     }
 }
