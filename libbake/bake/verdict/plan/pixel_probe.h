@@ -26,6 +26,7 @@ struct ProbedPixel {
     std::array<Vec3f, 2> mean{};
     std::array<std::uint32_t, 2> covered{}; ///< a bit per sample: its ray hits the object first
     int samples = 16;                       ///< of each half
+    friend bool operator==(const ProbedPixel&, const ProbedPixel&) = default;
 };
 
 /// A scene and the instances that are the object, one entry per instance. Empty: every ray that hits anything or nothing
