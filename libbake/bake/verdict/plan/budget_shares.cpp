@@ -44,8 +44,10 @@ std::vector<int> share_budget(std::span<const SharingObject> objects, double bud
             for (int k = taken[i] + 1; k < int(object.options.size()); ++k) {
                 const ShareOption& option = object.options[std::size_t(k)];
                 const double saved = now.cost - option.cost, added = option.square - now.square;
-                if (!(saved > 0) || option.square > most_share * budget * budget || !fits(object, added, left)) continue;
-                const double ratio = added * area > 0 ? saved / (added * area) : std::numeric_limits<double>::infinity();
+                if (!(saved > 0) || option.square > most_share * budget * budget || !fits(object, added, left))
+                    continue;
+                const double ratio =
+                    added * area > 0 ? saved / (added * area) : std::numeric_limits<double>::infinity();
                 if (best.object < 0 || ratio > best.saved_per_error) best = {int(i), k, ratio};
             }
         }

@@ -32,7 +32,8 @@ SquareEstimate ErrorMeter::measure(const ProbedScene& candidate, int pixels) {
 }
 
 double ErrorMeter::flip(const ProbedScene& candidate) {
-    return tile_flip(candidate, reference_, probe_.pixels(), options_, {.tiles = shown_tiles, .half = shown_half}).rmse();
+    return tile_flip(candidate, reference_, probe_.pixels(), options_, {.tiles = shown_tiles, .half = shown_half})
+        .rmse();
 }
 
 } // namespace bake

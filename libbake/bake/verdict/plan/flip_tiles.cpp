@@ -13,7 +13,8 @@ struct Tile {
 };
 
 /// Tiles of a lattice that hold pixels of the object: those of the first pixels, up to the number that is wanted.
-std::vector<Tile> choose_tiles(std::span<const Pixel> pixels, const RenderSettings& settings, const TileOptions& options) {
+std::vector<Tile> choose_tiles(std::span<const Pixel> pixels, const RenderSettings& settings,
+                               const TileOptions& options) {
     std::map<std::pair<int, int>, std::size_t> known;
     std::vector<Tile> tiles;
     for (const Pixel& pixel : pixels) {
@@ -27,7 +28,8 @@ std::vector<Tile> choose_tiles(std::span<const Pixel> pixels, const RenderSettin
         known[key] = tiles.size();
         Tile tile;
         const int x = key.second * options.size, y = key.first * options.size;
-        const int right = std::min(x + options.size, settings.width), below = std::min(y + options.size, settings.height);
+        const int right = std::min(x + options.size, settings.width),
+                  below = std::min(y + options.size, settings.height);
         tile.inner = {x, y, right - x, below - y};
         const int x0 = std::max(0, x - options.margin), y0 = std::max(0, y - options.margin);
         tile.outer = {x0, y0, std::min(settings.width, right + options.margin) - x0,
@@ -68,7 +70,8 @@ SquareEstimate tile_flip(const ProbedScene& candidate, const ProbedScene& refere
     std::vector<std::pair<double, double>> sums; ///< of each tile: of FLIP, and number of pixels
     for (const Tile& tile : choose_tiles(pixels, options.settings, wanted)) {
         visited += tile.object.size();
-        const Rendered test = render_tile(candidate, tile.outer, probe), shown = render_tile(reference, tile.outer, probe);
+        const Rendered test = render_tile(candidate, tile.outer, probe),
+                       shown = render_tile(reference, tile.outer, probe);
         const Image<float> errors = flip(shown.picture, test.picture);
         auto& [sum, count] = sums.emplace_back(0.0, 0.0);
         for (const Pixel& pixel : tile.object) {

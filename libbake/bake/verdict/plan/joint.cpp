@@ -59,8 +59,7 @@ JointErrors joint_errors(PlanWork& work, std::span<const ObjectDecision> decisio
 /// Of the objects that can become finer, those over their own budget; if there is none and the frame is over its budget,
 /// the one with the largest share of the squared error.
 std::vector<std::size_t> too_coarse(const PlanWork& work, std::span<const ObjectDecision> decisions,
-                                    std::span<const std::size_t> group, const JointErrors& errors,
-                                    std::size_t camera) {
+                                    std::span<const std::size_t> group, const JointErrors& errors, std::size_t camera) {
     std::vector<std::size_t> found;
     std::size_t largest = decisions.size();
     double most = -1;
@@ -82,7 +81,8 @@ bool refine(PlanWork& work, std::span<ObjectDecision> decisions) {
     for (const std::vector<std::size_t>& group : reference_groups(decisions)) {
         std::vector<std::size_t> coarse;
         {
-            const auto reference = planned_scene(work, decisions, group), planned = planned_scene(work, decisions);
+            const auto reference = assemble_planned(work, decisions, group),
+                       planned = assemble_planned(work, decisions);
             for (std::size_t camera = 0; camera < work.scenes.cameras().size() && coarse.empty(); ++camera)
                 coarse = too_coarse(work, decisions, group,
                                     joint_errors(work, decisions, group, *reference, *planned, camera), camera);
@@ -111,10 +111,10 @@ void share_frame(const PlanWork& work, std::span<ObjectDecision> decisions) {
         object.area.resize(work.scenes.cameras().size(), 0.0);
         std::vector<int>& of = rungs.emplace_back(1, plan.chosen);
         object.options.push_back(
-            plan.chosen < 0
-                ? ShareOption{plan.reference_cost.total(work.options.weights), plan.reference_error * plan.reference_error}
-                : ShareOption{plan.rungs[std::size_t(plan.chosen)].cost.total(work.options.weights),
-                              upper_square(plan, plan.rungs[std::size_t(plan.chosen)])});
+            plan.chosen < 0 ? ShareOption{plan.reference_cost.total(work.options.weights),
+                                          plan.reference_error * plan.reference_error}
+                            : ShareOption{plan.rungs[std::size_t(plan.chosen)].cost.total(work.options.weights),
+                                          upper_square(plan, plan.rungs[std::size_t(plan.chosen)])});
         for (int k = (plan.chosen < 0 ? int(plan.rungs.size()) : plan.chosen) - 1; k >= 0; --k) {
             const Rung& rung = plan.rungs[std::size_t(k)];
             if (rung.known == Known::skipped || rung.known == Known::not_tried) continue;
@@ -135,8 +135,9 @@ void share_frame(const PlanWork& work, std::span<ObjectDecision> decisions) {
 
 void check_together(PlanWork& work, std::span<ObjectDecision> decisions) {
     const double budget = work.options.budget.value;
-    const bool alone = decisions.size() == 1 && work.scenes.objects()[std::size_t(decisions[0].object)].instances.size() ==
-                                                    work.scenes.plain().instances.size();
+    const bool alone =
+        decisions.size() == 1 && work.scenes.objects()[std::size_t(decisions[0].object)].instances.size() ==
+                                     work.scenes.plain().instances.size();
     if (decisions.empty() || alone || !(budget < 1e30)) return;
     for (int round = 0; round < most_rounds; ++round) {
         if (work.progress) work.progress->start("check all together", 0);
@@ -159,14 +160,14 @@ std::vector<std::vector<std::size_t>> reference_groups(std::span<const ObjectDec
     return groups;
 }
 
-std::unique_ptr<AssembledScene> planned_scene(PlanWork& work, std::span<const ObjectDecision> decisions,
-                                              std::span<const std::size_t> group) {
+std::unique_ptr<AssembledScene> assemble_planned(PlanWork& work, std::span<const ObjectDecision> decisions,
+                                                 std::span<const std::size_t> group) {
     BakedModels models(work.scenes.objects().size());
     for (std::size_t i = 0; i < decisions.size(); ++i) {
         const bool reference = std::find(group.begin(), group.end(), i) != group.end();
         const ObjectDecision& decision = decisions[i];
         models[std::size_t(decision.object)] =
-            work.scenes.bake(decision.object, reference ? decision.plan.reference : planned_method(decision.plan));
+            work.scenes.bake(decision.object, reference ? decision.plan.reference : chosen_method(decision.plan));
     }
     return work.scenes.assemble(std::move(models));
 }

@@ -18,7 +18,7 @@ void check_together(PlanWork& work, std::span<ObjectDecision> decisions);
 /// Decisions in groups whose references fit in memory together.
 std::vector<std::vector<std::size_t>> reference_groups(std::span<const ObjectDecision> decisions);
 /// The planned models of all, but of the group its references.
-std::unique_ptr<AssembledScene> planned_scene(PlanWork& work, std::span<const ObjectDecision> decisions,
-                                              std::span<const std::size_t> group = {});
+std::unique_ptr<AssembledScene> assemble_planned(PlanWork& work, std::span<const ObjectDecision> decisions,
+                                                 std::span<const std::size_t> group = {});
 
 } // namespace bake

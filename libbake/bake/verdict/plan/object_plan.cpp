@@ -4,6 +4,8 @@
 #include "bake/base/text.h"
 #include "bake/preview/sampler.h"
 #include "bake/verdict/plan/references.h"
+#include "bake/verdict/plan/relief_scale.h"
+#include "bake/verdict/plan/relief_waves.h"
 #include <algorithm>
 #include <cmath>
 
@@ -60,9 +62,8 @@ void Decider::list_rungs(Candidate& c) const {
         plan.rungs.push_back(std::move(rung));
     }
     const CostWeights& weights = work_.options.weights;
-    std::stable_sort(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& a, const Rung& b) {
-        return a.cost.total(weights) < b.cost.total(weights);
-    });
+    std::stable_sort(plan.rungs.begin(), plan.rungs.end(),
+                     [&](const Rung& a, const Rung& b) { return a.cost.total(weights) < b.cost.total(weights); });
     plan.reference = {Shade::displace, first_level(c)};
     plan.reference_cost = model_cost(c.cost, plan.reference);
 }
@@ -73,7 +74,9 @@ void Decider::begin(Candidate& c) {
     c.cost = {std::int64_t(object.shape->surface.triangles.size()), int(object.instances.size()), height.width(),
               height.height()};
     c.edge = edge_texels(*object.shape, height.width(), height.height());
-    c.waves = relief_waves(height);
+    c.dominant = dominant_wave(height);
+    const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
+    c.shortest = std::min(waves.u, waves.v);
     c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
     ObjectPlan& plan = c.plan();
     if (plan.rungs.empty()) list_rungs(c);
@@ -100,11 +103,11 @@ bool Decider::is_settled_unseen(Candidate& c) {
     for (; !c.done && c.next < c.plan().rungs.size(); ++c.next) {
         Rung& rung = c.rung();
         const double edge = c.edge / std::exp2(rung.method.levels);
-        if (displaces(rung.method.shade) && 2 * edge > c.waves.dominant) {
+        if (displaces(rung.method.shade) && 2 * edge > c.dominant) {
             rung.known = Known::skipped;
             rung.note = format("its edges of %.3g texels are longer than half the waves of the height, which are %.3g "
                                "texels long",
-                               edge, c.waves.dominant);
+                               edge, c.dominant);
             continue;
         }
         std::optional<ErrorBound> bound;
@@ -180,7 +183,7 @@ void Decider::finish(Candidate& c, const std::string& why) {
     c.done = true;
     c.decision->decided = true;
     c.plan().why = why;
-    const std::string method = name(planned_method(c.plan()));
+    const std::string method = name(chosen_method(c.plan()));
     if (work_.options.told) work_.options.told(c.plan().object + ": " + method + "; " + why);
 }
 
@@ -224,8 +227,7 @@ void Decider::run() {
         if (!scene) continue;
         for (Candidate& c : candidates_) {
             if (c.done) continue;
-            if (work_.progress)
-                work_.progress->start("plan " + c.plan().object + ": " + name(c.rung().method), 0);
+            if (work_.progress) work_.progress->start("plan " + c.plan().object + ": " + name(c.rung().method), 0);
             probe(c, *scene);
             if (c.done && work_.options.neighbours) {
                 add_flip(c, *scene);
@@ -245,7 +247,7 @@ void PlanWork::note(const std::string& line) {
 
 void decide(PlanWork& work, std::span<ObjectDecision> decisions) { Decider(work, decisions).run(); }
 
-const ShadeMethod& planned_method(const ObjectPlan& plan) noexcept {
+const ShadeMethod& chosen_method(const ObjectPlan& plan) noexcept {
     return plan.chosen < 0 ? plan.reference : plan.rungs[std::size_t(plan.chosen)].method;
 }
 

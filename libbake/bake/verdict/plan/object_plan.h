@@ -37,7 +37,7 @@ struct ObjectDecision {
 void decide(PlanWork& work, std::span<ObjectDecision> decisions);
 
 /// The method that the plan shows: that of the chosen rung, or of the reference.
-const ShadeMethod& planned_method(const ObjectPlan& plan) noexcept;
+const ShadeMethod& chosen_method(const ObjectPlan& plan) noexcept;
 
 /// The camera, and random numbers of its own for each `name`.
 ProbeOptions probe_options(const PlanWork& work, std::size_t camera, const std::string& name);

@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 /// Up to so many objects, each is judged in scenes of its own. More are judged in groups, whose members stand apart in the
 /// file: building as many scenes as there are objects and rungs would take a time that grows with the square of their number.
 constexpr std::size_t most_alone = 8;
-constexpr double group_triangles = 4e6; ///< of the first references of a group
-constexpr double reference_triangles = 1e5; ///< of an object, about
+constexpr double group_triangles = 4e6;              ///< of the first references of a group
+constexpr double reference_triangles = 1e5;          ///< of an object, about
 constexpr int exposure_edge = 96, exposure_spp = 16; ///< of the picture that the exposure is chosen by
 
 std::vector<std::vector<int>> groups_of(std::size_t objects) {
@@ -49,7 +49,8 @@ float chosen_exposure(PlanScenes& scenes) {
     RenderSettings settings = scenes.settings();
     const double scale = double(exposure_edge) / std::max(settings.width, settings.height);
     if (scale < 1) {
-        settings.width = std::max(1, int(settings.width * scale)), settings.height = std::max(1, int(settings.height * scale));
+        settings.width = std::max(1, int(settings.width * scale)),
+        settings.height = std::max(1, int(settings.height * scale));
         settings.part.reset();
     }
     settings.spp = exposure_spp;
@@ -92,8 +93,8 @@ void decide_together(PlanWork& work, std::vector<ObjectDecision>& decisions, Sce
         if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
         plan.interrupted = true;
     }
-    plan.over_budget = std::any_of(plan.verified.begin(), plan.verified.end(),
-                                   [](const Verification& line) { return !line.within; });
+    plan.over_budget =
+        std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
 }
 
 void plan_objects(PlanScenes& scenes, const PlanOptions& options, Progress* progress, ScenePlan& plan) {
@@ -121,7 +122,8 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
     PlanScenes scenes(entries, options.cameras);
     for (const PlannedCamera& camera : scenes.cameras()) plan.cameras.push_back(camera.name);
     plan.notes = scenes.plain().notes;
-    if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height, so that no model is chosen");
+    if (scenes.objects().empty())
+        plan.notes.push_back("no mesh has a material with a height, so that no model is chosen");
     if (options.decide_objects && !scenes.objects().empty()) plan_objects(scenes, options, progress, plan);
     if (progress) progress->finish();
     plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -136,7 +138,7 @@ SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan)
     std::map<std::pair<int, std::string>, int> made;
     for (const ObjectPlan& object : plan.objects) {
         if (object.meshes.empty()) continue;
-        const ShadeMethod method = planned_method(object);
+        const ShadeMethod method = chosen_method(object);
         const int material = entries.meshes[std::size_t(object.meshes.front())].material;
         const auto [at, added] = made.try_emplace({material, name(method)}, int(planned.materials.size()));
         if (added) {

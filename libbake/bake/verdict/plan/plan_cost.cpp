@@ -36,9 +36,11 @@ std::int64_t map_bytes(int width, int height, int channels) noexcept {
 
 RungCost model_cost(const CostInput& input, const ShadeMethod& method) noexcept {
     RungCost cost;
-    const std::int64_t own = displaces(method.shade) ? input.triangles << (2 * std::clamp(method.levels, 0, 20)) : input.triangles;
+    const std::int64_t own =
+        displaces(method.shade) ? input.triangles << (2 * std::clamp(method.levels, 0, 20)) : input.triangles;
     cost.triangles = own * input.meshes;
-    if (const int channels = channels_of(method.shade)) cost.texture_bytes = map_bytes(input.width, input.height, channels);
+    if (const int channels = channels_of(method.shade))
+        cost.texture_bytes = map_bytes(input.width, input.height, channels);
     cost.object_bytes = own * bytes_per_triangle + cost.texture_bytes;
     cost.ms = 300 + 40 * std::log2(double(std::max<std::int64_t>(cost.triangles, 1))) + lookup_ms(method.shade);
     return cost;

@@ -1,6 +1,6 @@
 #include "bake/verdict/plan/plan_scenes.h"
 #include "bake/base/error.h"
-#include "bake/base/interruption.h"
+#include "bake/base/progress.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/smooth_mesh.h"
 #include "bake/relief/height/picture_height.h"
@@ -111,7 +111,8 @@ void PlanScenes::find_parts() {
             objects_[at->second].instances.push_back(std::uint32_t(i));
     for (std::size_t i = objects_.size(); i-- > 0;)
         if (objects_[i].instances.empty())
-            objects_.erase(objects_.begin() + std::ptrdiff_t(i)), own_materials_.erase(own_materials_.begin() + std::ptrdiff_t(i));
+            objects_.erase(objects_.begin() + std::ptrdiff_t(i)),
+                own_materials_.erase(own_materials_.begin() + std::ptrdiff_t(i));
     std::map<std::string, std::shared_ptr<const HeightTexture>> heights;
     for (PlannedObject& object : objects_) {
         const Instance& instance = plain_.instances[object.instances.front()];
@@ -140,7 +141,8 @@ void PlanScenes::place_cameras(const SceneEntries& given, const std::vector<std:
     const Bounds box = bounds(plain_);
     const float aspect = float(given.settings.width) / float(given.settings.height);
     std::vector<CameraEntry> entries;
-    for (const std::string& name : names) entries.push_back(given.cameras[find_camera(given.cameras, name, given.file)]);
+    for (const std::string& name : names)
+        entries.push_back(given.cameras[find_camera(given.cameras, name, given.file)]);
     if (names.empty()) entries = given.cameras;
     if (entries.empty()) entries.emplace_back();
     const bool lit = given.any_light || !plain_.lights.empty() || has_sky(given);
@@ -232,7 +234,8 @@ std::unique_ptr<AssembledScene> PlanScenes::assemble(BakedModels models) const {
     light_for(scene, 0);
     build(scene);
     // build() looks at the materials that the scene owns, and it owns none.
-    for (const Instance& instance : scene.instances) scene.textured = scene.textured || has_textures(*instance.material);
+    for (const Instance& instance : scene.instances)
+        scene.textured = scene.textured || has_textures(*instance.material);
     result->models = std::move(models);
     return result;
 }

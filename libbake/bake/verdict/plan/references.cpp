@@ -95,7 +95,7 @@ void References::measure(std::vector<Candidate>& candidates) {
     for (Candidate& c : candidates) {
         if (c.done) continue;
         c.plan().reference_error = 0;
-        const bool resolved = c.edge / std::exp2(c.level) * edges_per_wave <= c.waves.shortest;
+        const bool resolved = c.edge / std::exp2(c.level) * edges_per_wave <= c.shortest;
         for (std::size_t camera = 0; camera < c.meters.size() && c.level > 0; ++camera) {
             work_.scenes.light_for(scene_->scene, camera), work_.scenes.light_for(coarse->scene, camera);
             const double change = c.meters[camera].measure(c.of(*coarse), measured_pixels).rmse();

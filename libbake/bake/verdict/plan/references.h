@@ -9,7 +9,6 @@
 #include "bake/verdict/plan/object_facts.h"
 #include "bake/verdict/plan/object_plan.h"
 #include "bake/verdict/plan/plan_cost.h"
-#include "bake/verdict/plan/relief_scale.h"
 
 namespace bake {
 
@@ -19,12 +18,12 @@ struct Candidate {
     std::vector<std::uint8_t> instances; ///< a flag for each of the scene
     std::optional<ObjectFacts> facts;
     CostInput cost;
-    double edge = 0; ///< of the mesh, texels
-    ReliefWaves waves;
-    std::size_t next = 0; ///< rung
-    std::size_t last = 0; ///< the last one that was probed before
-    bool probed = false;  ///< whether there is one
-    std::size_t worst = 0; ///< the camera that refused the last rung
+    double edge = 0;                   ///< of the mesh, texels
+    double dominant = 0, shortest = 0; ///< waves of the height, texels
+    std::size_t next = 0;              ///< rung
+    std::size_t last = 0;              ///< the last one that was probed before
+    bool probed = false;               ///< whether there is one
+    std::size_t worst = 0;             ///< the camera that refused the last rung
     bool done = false;
     int level = -1;                 ///< of the reference
     int most_level = 0;             ///< finer ones do not fit

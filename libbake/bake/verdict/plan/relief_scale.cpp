@@ -16,25 +16,23 @@ double wavelength(double ratio) noexcept {
 
 } // namespace
 
-ReliefWaves relief_waves(const Image<float>& height) {
+double dominant_wave(const Image<float>& height) {
     const int w = height.width(), h = height.height();
     double mean = 0;
     for (std::size_t i = 0; i < height.size(); ++i) mean += height.data()[i];
     mean /= double(height.size());
-    double values = 0, slopes = 0, bends = 0;
+    double values = 0, slopes = 0;
     for (int y = 0; y < h; ++y) {
-        const float *row = height.row(y), *next = height.row((y + 1) % h), *last = height.row((y + h - 1) % h);
+        const float *row = height.row(y), *next = height.row((y + 1) % h);
         for (int x = 0; x < w; ++x) {
-            const double b = row[x], right = row[(x + 1) % w], left = row[(x + w - 1) % w];
-            const double b_u = right - b, b_v = next[x] - b, bend = right + left + next[x] + last[x] - 4 * b;
+            const double b = row[x], b_u = row[(x + 1) % w] - b, b_v = next[x] - b;
             values += (b - mean) * (b - mean);
             slopes += b_u * b_u + b_v * b_v;
-            bends += bend * bend;
         }
     }
     // Rounding makes a flat height vary a little.
-    if (values <= 1e-12 * mean * mean * double(height.size())) return {infinite, infinite};
-    return {wavelength(std::sqrt(slopes / values)), wavelength(std::sqrt(bends / slopes))};
+    if (values <= 1e-12 * mean * mean * double(height.size())) return infinite;
+    return wavelength(std::sqrt(slopes / values));
 }
 
 double edge_texels(const Shape& shape, int width, int height) {

@@ -21,8 +21,8 @@ SquareEstimate predicted_of(const ObjectPlan& plan) {
 class Verifier {
 public:
     Verifier(PlanWork& work, std::span<const ObjectDecision> decisions, std::span<const std::size_t> group)
-        : work_(work), decisions_(decisions), group_(group), reference_(planned_scene(work, decisions, group)),
-          planned_(planned_scene(work, decisions)) {}
+        : work_(work), decisions_(decisions), group_(group), reference_(assemble_planned(work, decisions, group)),
+          planned_(assemble_planned(work, decisions)) {}
 
     void add(std::size_t camera, std::vector<Verification>& verified);
 
@@ -89,8 +89,7 @@ std::vector<Verification> verify(PlanWork& work, std::span<const ObjectDecision>
     for (const std::vector<std::size_t>& group : reference_groups(decisions)) {
         Verifier verifier(work, decisions, group);
         for (std::size_t camera = 0; camera < work.scenes.cameras().size(); ++camera) {
-            if (work.progress)
-                work.progress->start("verify " + work.scenes.cameras()[camera].name, 0);
+            if (work.progress) work.progress->start("verify " + work.scenes.cameras()[camera].name, 0);
             verifier.add(camera, verified);
         }
     }
