@@ -85,9 +85,9 @@ void Decider::begin(Candidate& c) {
     const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
     c.shortest = std::min(waves.u, waves.v);
     const HeightOptions& options = object.relief.height;
-    c.has_relief = options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(), [&](float value) {
-        return double(value) != options.midlevel;
-    });
+    c.has_relief =
+        options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
+                                              [&](float value) { return double(value) != options.midlevel; });
     const double pixels = pixels_in_view(c);
     if (candidates_.size() > 1) c.first_triangles = std::clamp(least_triangles * pixels, 4e3, 1e5);
     c.most_triangles = std::clamp(most_triangles * pixels, 1e5, 1.2e7);

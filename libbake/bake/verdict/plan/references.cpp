@@ -8,7 +8,8 @@ namespace bake {
 namespace {
 
 constexpr int most_levels = 10; ///< of a displacement
-constexpr double most_refined = 4e6; ///< triangles of all meshes, beyond which no reference is refined for its own error
+constexpr double most_refined =
+    4e6; ///< triangles of all meshes, beyond which no reference is refined for its own error
 constexpr double edges_per_wave = 12;
 constexpr int measured_pixels = 256;
 constexpr double tolerable = 0.15; ///< error of a reference, as a part of the budget
