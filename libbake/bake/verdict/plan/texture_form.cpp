@@ -36,7 +36,9 @@ void store_normals(Image<float>& image, const TextureForm& form) {
         for (auto y = int(begin); y < int(end); ++y)
             for (int x = 0; x < image.width(); ++x) {
                 float* t = &image.at(x, y);
-                const Vec3f unit = unit_or_zero(Vec3f(t[0], t[1], t[2]));
+                Vec3f unit(t[0], t[1], t[2]);
+                // A source that is kept whole stays as it is.
+                if (form.halvings > 0 || form.channels == 2) unit = unit_or_zero(unit);
                 Vec3f read = depth == Depth::float32
                                  ? unit
                                  : decode_normal(stored_normal(encode_normal(unit, false), depth), false);

@@ -1,6 +1,7 @@
 #include "bake/verdict/plan/texture_plan.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
+#include "bake/preview/picture_file.h"
 #include <algorithm>
 #include <cmath>
 
@@ -61,10 +62,9 @@ double share_of(double budget, const std::vector<SceneTexture>& textures, std::s
 /// Forms that a texture may get: a file no larger one than it has.
 std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm& source) {
     const Image<float>& image = *texture.picture;
-    auto forms = texture_forms(texture.use, image.width(), image.height(),
-                               texture.use == TextureUse::albedo && is_grey(image));
-    if (!texture.baked)
-        std::erase_if(forms, [&](const TextureForm& form) { return form.bytes() >= source.bytes(); });
+    auto forms =
+        texture_forms(texture.use, image.width(), image.height(), texture.use == TextureUse::albedo && is_grey(image));
+    if (!texture.baked) std::erase_if(forms, [&](const TextureForm& form) { return form.bytes() >= source.bytes(); });
     return forms;
 }
 
@@ -101,17 +101,16 @@ TexturePlan decide(const SceneTexture& texture, WorstProbe& probe, Scene& twin, 
         if (result.within || (texture.baked && form == forms.back())) {
             set_form(plan, form);
             plan.error = result.error;
-            plan.why = result.within
-                           ? form.text() + " errs by " + error_text(result.error) + format(" of %.2g", budget)
-                           : "no form is within " + format("%.2g", budget) + "; this is the finest, and errs by " +
-                                 error_text(result.error);
+            plan.why = result.within ? form.text() + " errs by " + error_text(result.error) + format(" of %.2g", budget)
+                                     : "no form is within " + format("%.2g", budget) +
+                                           "; this is the finest, and errs by " + error_text(result.error);
             if (!result.settled) plan.why += ", not settled";
             if (!smaller.empty()) plan.why += "; " + smaller;
             return plan;
         }
         smaller = form.text() + " errs by " + error_text(result.error);
     }
-    set_texture(twin, texture.materials, texture.use, stored(halvings[0], texture.use, {.bits = 32}));
+    set_texture(twin, texture.materials, texture.use, copied(halvings[0]));
     plan.error.all = true;
     plan.why = "the file stays as it is" + (smaller.empty() ? std::string() : "; " + smaller);
     return plan;

@@ -49,8 +49,8 @@ WorstProbe::WorstProbe(const Scene& reference, std::vector<ObjectMask> objects, 
             const ProbedScene scene{&reference, *object};
             std::vector<Pixel> pixels = object_pixels({&scene, 1}, probe);
             if (pixels.empty()) continue;
-            probes_.push_back(std::make_unique<Part>(
-                Part{object.get(), view.name, ReferenceProbe(scene, std::move(pixels), probe)}));
+            probes_.push_back(
+                std::make_unique<Part>(Part{object.get(), view.name, ReferenceProbe(scene, std::move(pixels), probe)}));
         }
     }
 }
