@@ -39,7 +39,7 @@ Scene under(Cube cube, Material material, bool wall = false) {
 PartOptions options(double budget) {
     PartOptions out;
     out.budget = budget;
-    out.rule.most = 512;
+    out.rule.most = 1024;
     return out;
 }
 
@@ -113,7 +113,8 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("sky plan: filtered light is computed anew for each sky") {
-        Scene scene = under(sky_of(32, smooth_sky), gloss(Reflectance::Model::ggx, 0.8f), true);
+        Scene scene = under(sky_of(16, smooth_sky), gloss(Reflectance::Model::ggx, 0.8f), true);
+        scene.settings.width = scene.settings.height = 12;
         scene.settings.sky_light = SkyLighting::irradiance;
         build(scene);
         const auto plan = plan_sky(scene, options(0.01));

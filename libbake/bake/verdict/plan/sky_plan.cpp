@@ -103,7 +103,10 @@ std::optional<SkyPlan> plan_sky(const Scene& scene, const PartOptions& options, 
         return plans[0];
     }
     if (progress) progress->start("sky", std::int64_t(plans.size()));
-    WorstProbe probe(scene, frame_and_materials(scene), options);
+    // Directions are drawn, and what differs between two skies is their detail, which is all noise in a pixel's mean.
+    PartOptions finer = options;
+    finer.half = 2 * options.half;
+    WorstProbe probe(scene, frame_and_materials(scene), finer);
     Scene twin = twin_of(scene);
     std::string smaller;
     for (SkyPlan& plan : plans) {

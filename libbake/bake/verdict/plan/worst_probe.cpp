@@ -45,6 +45,7 @@ WorstProbe::WorstProbe(const Scene& reference, std::vector<ObjectMask> objects, 
         probe.camera = view.camera;
         probe.exposure = options.exposure;
         probe.seed = options.seed;
+        probe.half = options.half;
         for (const auto& object : objects_) {
             const ProbedScene scene{&reference, *object};
             std::vector<Pixel> pixels = object_pixels({&scene, 1}, probe);

@@ -17,6 +17,7 @@ struct PartOptions {
     float exposure = 0;      ///< stops
     double budget = 0.01;    ///< RMSE, see budget.h
     std::uint32_t seed = 0;
+    int half = 16; ///< see ProbeOptions
     StoppingRule rule;
 };
 
