@@ -128,6 +128,9 @@ TEST_SUITE("unit") {
         build(scene);
         const auto plans = plan_textures(scene, nullptr, options(0.02));
         CHECK(plans[1].error.rmse() <= 1.1 * 0.02);
+        CHECK(plans[0].error.rmse() <= 1.1 * 0.02 * std::sqrt(0.5));
+        CHECK(plans[0].why.find(" of 0.014") != std::string::npos);
+        CHECK(plans[1].why.find(" of 0.02") != std::string::npos);
     }
 
     TEST_CASE("texture plan: what no camera sees gets the smallest form") {

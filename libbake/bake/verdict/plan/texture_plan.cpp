@@ -60,11 +60,16 @@ double share_of(double budget, const std::vector<SceneTexture>& textures, std::s
 }
 
 /// Forms that a texture may get: a file no larger one than it has.
-std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm& source) {
+std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm& source, const PartOptions& options) {
     const Image<float>& image = *texture.picture;
     auto forms =
         texture_forms(texture.use, image.width(), image.height(), texture.use == TextureUse::albedo && is_grey(image));
     if (!texture.baked) std::erase_if(forms, [&](const TextureForm& form) { return form.bytes() >= source.bytes(); });
+    std::erase_if(forms, [&](const TextureForm& form) {
+        const bool stored_alike =
+            form.channels == source.channels && form.bits == source.bits && form.half == source.half;
+        return (!options.sizes && form.halvings > 0) || (!options.formats && !stored_alike);
+    });
     return forms;
 }
 
@@ -84,10 +89,11 @@ TexturePlan start(const SceneTexture& texture, const TextureForm& source) {
 }
 
 /// Leaves the twin with the chosen form.
-TexturePlan decide(const SceneTexture& texture, WorstProbe& probe, Scene& twin, double budget) {
+TexturePlan decide(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin,
+                   double budget) {
     const TextureForm source = source_form(texture);
     TexturePlan plan = start(texture, source);
-    const std::vector<TextureForm> forms = forms_of(texture, source);
+    const std::vector<TextureForm> forms = forms_of(texture, source, options);
     if (!probe.in_view()) {
         if (!forms.empty()) set_form(plan, forms.front());
         plan.why = "no camera sees it";
@@ -164,7 +170,7 @@ std::vector<TexturePlan> plan_textures(const Scene& scene, const SceneEntries* e
         std::vector<const Material*> materials;
         for (const int m : textures[i].materials) materials.push_back(scene.materials[m].get());
         WorstProbe probe(scene, {objects_with(scene, materials)}, options);
-        plans.push_back(decide(textures[i], probe, twin, share_of(options.budget, textures, i)));
+        plans.push_back(decide(textures[i], options, probe, twin, share_of(options.budget, textures, i)));
         if (progress) progress->add(1);
     }
     return plans;

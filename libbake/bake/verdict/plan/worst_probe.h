@@ -19,6 +19,7 @@ struct PartOptions {
     std::uint32_t seed = 0;
     int half = 16; ///< see ProbeOptions
     StoppingRule rule;
+    bool sizes = true, formats = true; ///< of textures: what may change; formats are channels and bits
 };
 
 /// The options' views, or the scene's camera.
