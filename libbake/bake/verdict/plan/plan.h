@@ -64,6 +64,8 @@ struct ObjectPlan {
     std::vector<ReliefFacts> facts; ///< one per camera
     double budget = 0;              ///< RMSE that the object may have, after the frame's budget was shared out
     std::string why;                ///< a sentence
+    /// Of a normal map as large as the height, in RGB8 with smaller levels; 0: not known.
+    std::int64_t rgb8_bytes = 0;
 };
 
 struct TexturePlan {
