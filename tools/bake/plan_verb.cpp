@@ -5,6 +5,7 @@
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/plan/manifest.h"
 #include "bake/verdict/plan/planned_scene.h"
+#include "bake/verdict/report_text.h"
 #include "inputs/file_kind.h"
 #include "plan_options.h"
 #include "render_progress.h"
@@ -41,6 +42,20 @@ void write_outputs(const PlanArgs& args, const SceneEntries& entries, const std:
     write_text(args.manifest, to_toml(manifest));
 }
 
+std::string written(const PlanArgs& args) {
+    std::string text;
+    if (!args.out.empty()) text += row("planned", printable(args.out));
+    if (!args.manifest.empty()) text += row("manifest", printable(args.manifest));
+    return text;
+}
+
+nlohmann::json json_of(const PlanArgs& args, const ScenePlan& plan) {
+    nlohmann::json json = nlohmann::json::parse(with_flags(to_json(plan, args.scene)));
+    if (!args.out.empty()) json["planned"] = args.out;
+    if (!args.manifest.empty()) json["manifest"] = args.manifest;
+    return json;
+}
+
 int run(const PlanArgs& args, const CommonArgs& common) {
     PlanOptions options = plan_options(args);
     Stopwatch watch;
@@ -57,8 +72,7 @@ int run(const PlanArgs& args, const CommonArgs& common) {
     progress.finish();
     watch.lap("plan");
     write_outputs(args, entries, std::string(file.begin(), file.end()), plan);
-    print_result(common, with_flags(to_text(plan)), nlohmann::json::parse(with_flags(to_json(plan, args.scene))),
-                 watch);
+    print_result(common, with_flags(to_text(plan)) + written(args), json_of(args, plan), watch);
     if (plan.interrupted)
         return fail(args.scene + ": interrupted; printed are the decisions that were made", Refusal::interrupted);
     return plan.over_budget ? int(Refusal::over_limit) : 0;
