@@ -171,7 +171,7 @@ std::string to_text(const ScenePlan& plan) {
     for (const ObjectPlan& object : plan.objects) text += lines_of(object, metric);
     text += others(plan) + verification(plan);
     text += "  Errors are the RMSE of exposed linear light over the object's area, each sample clamped to [0, 1].\n"
-            "  Bytes are as the tracer holds them, with smaller levels.\n";
+            "  Textures have 8 bits per channel and smaller levels; ms are of a million rays of the tracer.\n";
     if (plan.interrupted) text += row("warning", "interrupted; printed is what was decided");
     if (plan.over_budget) text += row("warning", "over the budget");
     for (const std::string& note : plan.notes) text += row("note", printable(note));
