@@ -142,7 +142,7 @@ TEST_SUITE("unit") {
         refused("", "1: is no manifest");
         refused("manifest = 2\n", "1: \"manifest\" is not 1");
         refused("manifest = \"1\"\n", "1: \"manifest\" is not 1");
-        refused("manifest = [\n", "2: ");
+        refused("manifest = [\n", "1: ");
         refused(good + "file = \"x\"\n", "6: \"file\" is not a key");
         refused(good + "files = [\"a*.png\"]\n", "6: \"a*.png\" has one of the characters");
         refused(good + "options = {\"--levels\" = \"1\"}\n", "6: \"--levels\" is not the name of an option");

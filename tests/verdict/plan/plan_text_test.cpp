@@ -43,7 +43,7 @@ TEST_SUITE("unit") {
               "    why          bump is enough\n", "    worst view   front, 500 pixels; mean flip 0.0160\n",
               "    cheaper      roughness: skipped; 2000 triangles, 0.008 MB of textures, 0.25 ms; a reason\n",
               "    dearer       displace:4: rmse 0.0020 (0.0018 to 0.0022); 32000 triangles",
-              "against displace:64: 8190000 triangles, 899.600 MB in all, 5 ms; against an RGB8 normal map: 0.002 MB",
+              "against displace:64: 8.19 M triangles, 899.600 MB in all, 5 ms; against an RGB8 normal map: 0.002 MB",
               "each sample clamped to [0, 1]"})
             CHECK_MESSAGE(has(text, part), std::string(part) << "\n" << text);
         CHECK_FALSE(has(text, "not settled"));

@@ -1,6 +1,7 @@
 // The plan as text.
 #include "bake/base/printable.h"
 #include "bake/base/text.h"
+#include "bake/verdict/finding_text.h"
 #include "bake/verdict/plan/plan.h"
 #include "bake/verdict/plan/rung_words.h"
 #include "bake/verdict/report_text.h"
@@ -14,7 +15,7 @@ const char* unit(Budget::Metric metric) {
     return metric == Budget::Metric::degrees ? "deg" : metric == Budget::Metric::flip ? "flip" : "rmse";
 }
 
-std::string number(double value) {
+std::string shown(double value) {
     if (std::isinf(value)) return "inf";
     return value == 0 ? "0" : value < 1e-4 ? format("%.1e", value) : format("%.4f", value);
 }
@@ -29,14 +30,14 @@ std::string megabytes(std::int64_t bytes) { return format("%.3f", double(bytes) 
 
 /// "0.0300 to 0.0330", or what a bound says.
 std::string interval(const Rung& rung) {
-    if (rung.known == Known::bound) return "at most " + number(rung.bound);
+    if (rung.known == Known::bound) return "at most " + shown(rung.bound);
     if (!has_error(rung)) return "-";
     if (rung.error.all && rung.error.error == 0) return "exact";
-    return number(rung.error.low()) + " to " + number(rung.error.high());
+    return shown(rung.error.low()) + " to " + shown(rung.error.high());
 }
 
 std::string value(const Rung& rung) {
-    return rung.known == Known::bound ? "<=" + number(rung.bound) : has_error(rung) ? number(rung.error.rmse()) : "-";
+    return rung.known == Known::bound ? "<=" + shown(rung.bound) : has_error(rung) ? shown(rung.error.rmse()) : "-";
 }
 
 std::string cost_of(const RungCost& cost) {
@@ -54,7 +55,7 @@ std::string neighbour(const Rung& rung, const char* metric) {
     } else {
         text += rung.known == Known::skipped ? "skipped" : "not tried";
     }
-    if (rung.flip >= 0) text += ", flip " + number(rung.flip);
+    if (rung.flip >= 0) text += ", flip " + shown(rung.flip);
     text += "; " + cost_of(rung.cost);
     return rung.note.empty() ? text : text + "; " + printable(rung.note);
 }
@@ -95,7 +96,7 @@ std::string lines_of(const ObjectPlan& object, const char* metric) {
     std::string text =
         format("  %-16s %-19s %9s  %-20s %8s %10s %9s %8.3g\n", printable(object.object).c_str(),
                name(chosen ? chosen->method : object.reference).c_str(), chosen ? value(*chosen).c_str() : "0",
-               chosen ? interval(*chosen).c_str() : "the reference", number(object.budget).c_str(),
+               chosen ? interval(*chosen).c_str() : "the reference", shown(object.budget).c_str(),
                count(cost.triangles).c_str(), megabytes(cost.texture_bytes).c_str(), cost.ms);
     const auto line = [&](const char* label, const std::string& rest) {
         if (!rest.empty()) text += format("    %-12s ", label) + rest + "\n";
@@ -108,7 +109,7 @@ std::string lines_of(const ObjectPlan& object, const char* metric) {
         line("worst view", (chosen->camera.empty() ? "the camera" : printable(chosen->camera)) +
                                format(", %lld pixels", static_cast<long long>(chosen->error.pixels)) +
                                (chosen->error.all ? ", all of the object" : "") +
-                               (chosen->flip >= 0 ? "; mean flip " + number(chosen->flip) : ""));
+                               (chosen->flip >= 0 ? "; mean flip " + shown(chosen->flip) : ""));
     if (const Rung* rung = cheaper_rung(object)) line("cheaper", neighbour(*rung, metric));
     if (const Rung* rung = dearer_rung(object)) line("dearer", neighbour(*rung, metric));
     line("saves", savings(object, cost));
@@ -116,7 +117,7 @@ std::string lines_of(const ObjectPlan& object, const char* metric) {
 }
 
 std::string estimate(const SquareEstimate& e) {
-    return number(e.rmse()) + " (" + number(e.low()) + " to " + number(e.high()) + ")";
+    return shown(e.rmse()) + " (" + shown(e.low()) + " to " + shown(e.high()) + ")";
 }
 
 std::string others(const ScenePlan& plan) {
@@ -145,23 +146,33 @@ std::string others(const ScenePlan& plan) {
 
 std::string verification(const ScenePlan& plan) {
     if (plan.verified.empty()) return {};
+    const std::string metric = unit(plan.budget.metric);
     std::string text = "  verified by whole pictures of the planned scene and of the reference\n";
-    text += format("  %-16s %-16s %-28s %-28s %8s  %s\n", "camera", "object", "predicted rmse", "measured rmse", "flip",
-                   "");
+    text += format("  %-16s %-16s %-28s %-28s %8s  %s\n", "camera", "object", ("predicted " + metric).c_str(),
+                   ("measured " + metric).c_str(), "flip", "");
     for (const Verification& v : plan.verified)
         text += format("  %-16s %-16s %-28s %-28s %8s  %s\n", printable(v.camera).c_str(),
                        v.object.empty() ? "(whole picture)" : printable(v.object).c_str(),
                        v.predicted.pixels > 0 ? estimate(v.predicted).c_str() : "-", estimate(v.measured).c_str(),
-                       number(v.flip).c_str(), v.within ? "within" : "OVER the budget");
+                       (v.flip >= 0 ? shown(v.flip) : "-").c_str(), v.within ? "within" : "OVER the budget");
     return text;
+}
+
+std::string definition(Budget::Metric metric) {
+    const char* what = metric == Budget::Metric::degrees ? "mean angles between the shading normals"
+                       : metric == Budget::Metric::flip
+                           ? "mean FLIP of what is shown"
+                           : "the RMSE of exposed linear light, each sample clamped to [0, 1],";
+    return std::string("  Errors are ") + what + "\n  over the object's area in the picture of the worst camera.\n" +
+           "  Textures have 8 bits per channel and smaller levels; ms are of a million rays of the tracer.\n";
 }
 
 } // namespace
 
 std::string to_text(const ScenePlan& plan) {
     const char* metric = unit(plan.budget.metric);
-    std::string text = counted_word(plan.objects.size(), "object") + " within " + metric + " " +
-                       number(plan.budget.value) + " (" + plan.budget.name + ") of true displacement\n";
+    std::string text = counted(plan.objects.size(), "object") + " within " + metric + " " + shown(plan.budget.value) +
+                       " (" + plan.budget.name + ") of true displacement\n";
     std::string cameras;
     for (const std::string& camera : plan.cameras)
         cameras += (cameras.empty() ? "" : ", ") + (camera.empty() ? "the scene's" : printable(camera));
@@ -170,8 +181,7 @@ std::string to_text(const ScenePlan& plan) {
     if (!plan.objects.empty()) text += head(plan);
     for (const ObjectPlan& object : plan.objects) text += lines_of(object, metric);
     text += others(plan) + verification(plan);
-    text += "  Errors are the RMSE of exposed linear light over the object's area, each sample clamped to [0, 1].\n"
-            "  Textures have 8 bits per channel and smaller levels; ms are of a million rays of the tracer.\n";
+    text += definition(plan.budget.metric);
     if (plan.interrupted) text += row("warning", "interrupted; printed is what was decided");
     if (plan.over_budget) text += row("warning", "over the budget");
     for (const std::string& note : plan.notes) text += row("note", printable(note));

@@ -22,9 +22,5 @@ inline const Rung* dearer_rung(const ObjectPlan& object) {
 inline bool has_error(const Rung& rung) { return rung.known == Known::probe || rung.known == Known::not_settled; }
 /// "bound", "probe", "not-settled", "not-tried", "skipped".
 const char* name(Known known) noexcept;
-/// "1 object", "2 objects".
-inline std::string counted_word(std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 } // namespace bake
