@@ -25,6 +25,7 @@ struct PlanOptions {
     bool decide_objects = true, decide_textures = false, decide_formats = false, decide_sky = false,
          decide_lights = false;
     bool verify = false;
+    bool neighbours = true; ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
     bool measure = false; ///< milliseconds are timed, and the plan may differ from run to run
     std::uint32_t seed = 0;
     std::function<void(const std::string&)> told; ///< a line for each decision
