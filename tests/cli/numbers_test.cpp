@@ -78,7 +78,7 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
     const std::map<std::string, std::vector<std::string>> lines = {
         {"check", {torus, "--against", torus}},
         {"compare", {dots, dots}},
-        {"plan", {relief_scene}},
+        {"plan", {(own_meshes() / "studs.toml").string()}},
         {"bump-table", {dots, "-o", "a.exr"}},
         {"normal-map", {torus, "--height", dots, "-o", "a.png"}},
         {"explain", {torus, "--height", dots}},
