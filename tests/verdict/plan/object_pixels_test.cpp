@@ -64,6 +64,19 @@ TEST_SUITE("unit") {
         CHECK(object_pixels({}, options).empty());
     }
 
+    TEST_CASE("object_pixels: a scene far from 0 is seen as one at 0; a large picture has as many as a small one, in "
+              "proportion") {
+        const Vec3f far(1024, 0, -2048);
+        const Scene here = ball_above_floor(0), there = ball_above_floor(0, far);
+        REQUIRE(there.origin != Vec3f(0));
+        const auto near_pixels = pixels_of(here, probe_options(here, 64));
+        const auto far_pixels = pixels_of(there, probe_options(there, 64));
+        CHECK(std::abs(double(near_pixels.size()) - double(far_pixels.size())) < 8);
+        const auto large = pixels_of(here, probe_options(here, 512)); // one ray per pixel
+        CHECK(double(large.size()) / 64 < double(near_pixels.size()));
+        CHECK(double(large.size()) / 64 > 0.85 * double(near_pixels.size()));
+    }
+
     TEST_CASE("object_pixels: the order is drawn from the seed; it is the same on any number of threads") {
         const Scene scene = ball_above_floor(0);
         ProbeOptions options = probe_options(scene, 32);
