@@ -103,6 +103,9 @@ TEST_SUITE("unit") {
                               shown_by("post", "bump", {2}), shown_by("again", "plain", {3})};
         const std::string text = round.planned();
         CHECK(round.shades() == std::vector<std::string>{"bump", "normal", "bump", "plain"});
+        const SceneEntries made = planned_entries(round.entries, round.plan);
+        for (std::size_t i = 0; i < made.meshes.size(); ++i)
+            CHECK(name(*made.materials[std::size_t(made.meshes[i].material)].relief.shade) == round.shades()[i]);
         CHECK(round.read.materials.size() == 3);
         for (const char* line :
              {"name = \"studs\" # é", "name = \"studs normal\" # é", "material = \"studs normal\"\n",
