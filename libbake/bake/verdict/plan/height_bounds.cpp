@@ -110,7 +110,9 @@ std::optional<HeightBounds> height_bounds(const HeightTexture& height, const Hei
                     for (const double x : {cell.x.low, cell.x.high})
                         for (const double y : {cell.y.low, cell.y.high})
                             steepest = std::max(steepest, glm::length(x * along_x + y * along_y));
-                    out.finite = out.finite && std::isfinite(steepest + cell.value.low + cell.value.high);
+                    out.finite =
+                        out.finite && std::isfinite(spline.values.at(i, j) + spline.x.at(i, j) + spline.y.at(i, j) +
+                                                    spline.xy.at(i, j)); // comparisons would pass over a NaN
                     out.steepest = std::max(out.steepest, steepest);
                     out.most_height = std::max({out.most_height, std::abs(cell.value.low - options.midlevel),
                                                 std::abs(cell.value.high - options.midlevel)});

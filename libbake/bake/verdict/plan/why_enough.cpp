@@ -4,14 +4,15 @@
 namespace bake {
 namespace {
 
-/// Without an exponent and without digits that nobody needs.
-std::string px(double value) {
-    return value < 0.01 ? "less than 0.01 px" : format(value < 9.95 ? "%.2g px" : "%.0f px", value);
+/// "up to 0.4 px", without an exponent and without digits that nobody needs.
+std::string up_to(double px) {
+    if (px < 0.01) return "less than 0.01 px";
+    return format(px < 9.95 ? "up to %.2g px" : "up to %.0f px", px);
 }
 
 std::string about_contour(const ReliefFacts& facts) {
     if (facts.contour_px == 0) return "no relief lies within 3 px of a contour";
-    return "the outline moves by up to " + px(facts.contour_px);
+    return "the outline moves by " + up_to(facts.contour_px);
 }
 
 std::string about_light(const ReliefFacts& facts) {
@@ -27,7 +28,7 @@ std::string about_light(const ReliefFacts& facts) {
 std::string why_enough(const ShadeMethod& method, const ReliefFacts& facts) {
     const std::string start = name(method) + " is enough: ";
     if (!facts.in_view) return start + "no part of the object lies in the picture";
-    std::string text = start + "the relief is up to " + px(facts.height_px) + " high, " + about_contour(facts);
+    std::string text = start + "the relief is " + up_to(facts.height_px) + " high, " + about_contour(facts);
     if (displaces(method.shade)) return text;
     text += about_light(facts);
     // Tables of slopes leave it out; it shows from about half a per cent on.
