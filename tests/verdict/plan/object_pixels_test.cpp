@@ -50,6 +50,27 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE(
+        "object_pixels: a floor that reaches behind the camera is found whole, and so is an object of two instances") {
+        const Scene scene = ball_above_floor(0);
+        const ProbeOptions options = probe_options(scene, 32);
+        ProbeOptions above = options;
+        above.camera.position = Vec3f(0, 0.5f, 2), above.camera.target = Vec3f(0, 0.5f, 0), above.camera.fov_deg = 90;
+        const auto check = [&](const std::vector<std::uint8_t>& object, const ProbeOptions& view) {
+            const Set found = set_of(object_pixels(std::array{ProbedScene{&scene, object}}, view));
+            const auto probed = probe_pixels({&scene, object}, all_pixels(32), view);
+            int seen = 0;
+            for (int i = 0; i < 32 * 32; ++i) {
+                if (!(probed[std::size_t(i)].covered[0] | probed[std::size_t(i)].covered[1])) continue;
+                CHECK(found.count({i % 32, i / 32}) == 1);
+                ++seen;
+            }
+            CHECK((seen > 200 && seen < 1000)); // not all of the picture
+        };
+        check({0, 1}, above);
+        check({1, 1}, options);
+    }
+
     TEST_CASE("object_pixels: they are those of any of the scenes; all without an object") {
         const Scene here = ball_above_floor(0), there = ball_above_floor(0);
         const ProbeOptions options = probe_options(here, 24);
