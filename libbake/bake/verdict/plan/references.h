@@ -7,8 +7,8 @@
 #pragma once
 #include "bake/verdict/plan/error_meter.h"
 #include "bake/verdict/plan/object_facts.h"
-#include "bake/verdict/plan/object_plan.h"
 #include "bake/verdict/plan/plan_cost.h"
+#include "bake/verdict/plan/plan_work.h"
 
 namespace bake {
 
