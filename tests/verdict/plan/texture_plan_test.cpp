@@ -117,7 +117,7 @@ TEST_SUITE("unit") {
         material.normal_map = {};
         scene.materials.push_back(std::make_unique<Material>(material));
         add_instance(scene, *scene.shapes[0], *scene.materials[0]);
-        add_instance(scene, *scene.shapes[0], *scene.materials[1], {.translate = {0, 0, 1}});
+        add_instance(scene, *scene.shapes[0], *scene.materials[1], {.translate = {2, 0, 0}});
         const auto textures = scene_textures(scene);
         REQUIRE(textures.size() == 2);
         CHECK(textures[0].use == TextureUse::normal);
