@@ -2,7 +2,7 @@
 //
 //   plan_savings_bench DATA [HEIGHTS]     normal maps: one row of csv per height and object on stdout; DATA is ../shared/data.
 //                                         HEIGHTS: only those whose names contain it
-//   plan_savings_bench --sky DATA         skies: one row per sky and material
+//   plan_savings_bench --sky DATA         skies: one row per sky, material and kind of light
 //
 // Normal maps: the exact normals of a height with an rms slope of .3 on a plane and on five meshes, magnified to one texel per
 // pixel, under one directional light, with a highlight of Phong 50 on a diffuse surface. The reference is the full-size map in
@@ -224,8 +224,9 @@ constexpr Finish finishes[] = {
 };
 
 /// A ball that fills the picture: the sky itself is not seen.
-Scene lit_scene(const std::string& sky, const Finish& finish) {
+Scene lit_scene(const std::string& sky, const Finish& finish, SkyLighting light) {
     Scene scene;
+    scene.settings.sky_light = light;
     scene.sky.cube = sky_cube(read_environment({sky}));
     scene.shapes.push_back(make_shape(shape_mesh("sphere:R=1", 96, 48)));
     auto material = std::make_unique<Material>();
@@ -246,21 +247,22 @@ Scene lit_scene(const std::string& sky, const Finish& finish) {
 }
 
 void measure_skies(const std::string& data) {
-    std::printf("sky,material,source_face,source_bytes,model,face,bytes,error,error_low,error_high,seen,seconds\n");
-    for (const char* sky : {"lebombo_1k.hdr", "studio_small_03_1k.hdr", "blender_forest.exr", "blender_sunset.exr"})
-        for (const Finish& finish : finishes) {
-            const Scene scene = lit_scene(data + "/environments/latlong/" + sky, finish);
-            SkyPlan plan;
-            PartOptions options;
-            options.exposure = automatic_exposure(render(scene, scene.settings));
-            const double seconds = bench::seconds([&] { plan = *plan_sky(scene, options); });
-            std::fprintf(stderr, "%s, %s: %s\n", sky, finish.name, plan.why.c_str());
-            std::printf("%s,%s,%d,%lld,%s,%d,%lld,%.4g,%.4g,%.4g,no,%.3g\n", sky, finish.name, plan.source_face,
-                        static_cast<long long>(plan.source_bytes), plan.model.c_str(), plan.face,
-                        static_cast<long long>(plan.bytes), plan.error.rmse(), plan.error.low(), plan.error.high(),
-                        seconds);
-            std::fflush(stdout);
-        }
+    std::printf("sky,material,source_face,source_bytes,model,face,bytes,error,error_low,error_high,light,seconds\n");
+    for (const SkyLighting light : {SkyLighting::irradiance, SkyLighting::sampled})
+        for (const char* sky : {"lebombo_1k.hdr", "studio_small_03_1k.hdr", "blender_forest.exr", "blender_sunset.exr"})
+            for (const Finish& finish : finishes) {
+                const Scene scene = lit_scene(data + "/environments/latlong/" + sky, finish, light);
+                SkyPlan plan;
+                PartOptions options;
+                options.exposure = automatic_exposure(render(scene, scene.settings));
+                const double seconds = bench::seconds([&] { plan = *plan_sky(scene, options); });
+                std::fprintf(stderr, "%s, %s: %s\n", sky, finish.name, plan.why.c_str());
+                std::printf("%s,%s,%d,%lld,%s,%d,%lld,%.4g,%.4g,%.4g,%s,%.3g\n", sky, finish.name, plan.source_face,
+                            static_cast<long long>(plan.source_bytes), plan.model.c_str(), plan.face,
+                            static_cast<long long>(plan.bytes), plan.error.rmse(), plan.error.low(), plan.error.high(),
+                            light == SkyLighting::sampled ? "sampled" : "filtered", seconds);
+                std::fflush(stdout);
+            }
 }
 
 } // namespace
