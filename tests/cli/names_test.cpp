@@ -34,6 +34,7 @@ TEST_SUITE("cli") {
         const std::vector<std::vector<std::string>> lines = {
             {"check", png, obj},
             {"check", obj, "--against", obj},
+            {"check", obj, "--height", png},
             {"compare", png, png},
             {"normal-map", obj, "--height", png, "--amplitude", "200%", "--size", "32", "-o", out_png},
             {"bump-table", png, "-o", out_png},

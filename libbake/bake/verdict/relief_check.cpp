@@ -63,11 +63,12 @@ double ridge_deg(const BudgetInput& in, double step, bool v) {
     double sum = 0;
     for (const double tap : taps.taps) sum += tap;
     const Image<float>& values = *in.values;
-    const double slope = in.options.amplitude * step * sum * (v ? values.height() : values.width());
+    const int texels = v ? values.height() : values.width();
+    const double slope = in.options.amplitude * step * sum * texels;
     double squares = 0;
     int count = 0;
     for (int i = 0; i < border_samples; ++i)
-        for (const double across : {0.5 / values.width(), 1 - 0.5 / values.width()}) {
+        for (const double across : {0.5 / texels, 1 - 0.5 / texels}) {
             const double along = (i + 0.5) / border_samples;
             const auto jet = in.jet(v ? along : across, v ? across : along);
             if (!jet || jet->sigma == 0) continue;
@@ -83,7 +84,7 @@ void measure_texels(const Mesh& mesh, const HeightTexture& height, const HeightO
     std::optional<BakeTarget> target;
     try {
         target = make_bake_target(mesh, "", raster_size, raster_size);
-    } catch (const Error& error) { // charts in several tiles
+    } catch (const Error& error) { // charts in several tiles, or without area
         if (error.refusal != Refusal::unsuitable) throw;
         return;
     }

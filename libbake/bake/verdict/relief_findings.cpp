@@ -34,7 +34,7 @@ void judge_methods(const ReliefReport& report, Findings& out) {
 void judge_texels(const ReliefCheck& c, Findings& out) {
     if (!c.budget) {
         out.notes.push_back(
-            "the charts lie in several tiles: the errors of the filter, of the levels and of the border "
+            "the charts do not lie in one tile: the errors of the filter, of the levels and of the border "
             "are not predicted");
         return;
     }
