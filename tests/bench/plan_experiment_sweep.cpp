@@ -24,7 +24,9 @@ namespace {
 
 constexpr int truth_spp = 64;
 constexpr std::uint32_t truth_seed = 0x7a57e;
-constexpr int most_levels_of_rungs = 5; ///< columns of the csv are for up to 2^5 segments per edge
+constexpr double tolerable_change = 0.001; ///< RMSE; the reference is refined until it changes by less
+constexpr double most_triangles = 2.4e6;   ///< of a reference
+constexpr int most_levels_of_rungs = 5;    ///< columns of the csv are for up to 2^5 segments per edge
 
 struct Arguments {
     int first = 0, count = 360, threads = 0;
@@ -62,9 +64,15 @@ public:
     void print() {
         const std::clock_t start = std::clock();
         exposure_ = exposure_of(scenes_.load({Shade::plain}));
-        const TrueLadder ladder = true_ladder(scenes_.triangles());
-        const TruePicture reference = picture(ladder.reference);
-        const TrueError change = true_error(reference, picture({Shade::displace, ladder.reference.levels - 1}));
+        TrueLadder ladder = true_ladder(scenes_.triangles());
+        TruePicture reference = picture(ladder.reference);
+        TrueError change = true_error(reference, picture({Shade::displace, ladder.reference.levels - 1}));
+        while (change.square > tolerable_change * tolerable_change && is_affordable(ladder.reference.levels + 1)) {
+            ++ladder.reference.levels;
+            TruePicture finer = picture(ladder.reference);
+            change = true_error(finer, reference);
+            reference = std::move(finer);
+        }
         std::vector<std::pair<std::string, TrueError>> errors;
         for (const ShadeMethod& rung : ladder.rungs)
             errors.emplace_back(name(rung), true_error(reference, picture(rung)));
@@ -83,6 +91,10 @@ public:
     }
 
 private:
+    bool is_affordable(int levels) const {
+        return double(scenes_.triangles()) * std::exp2(2 * levels) <= most_triangles;
+    }
+
     TruePicture picture(const ShadeMethod& method) const {
         const MethodScene scene = scenes_.load(method);
         return true_picture(scene.scene, scene.of_object, scenes_.settings(), exposure_, truth_spp, truth_seed);
