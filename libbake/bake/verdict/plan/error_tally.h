@@ -50,10 +50,14 @@ struct StoppingRule {
     double pass_at = 1.1; ///< within when R + 2 se <= (pass_at B)^2
 };
 
-/// `reference_error`: RMSE of the reference itself against a finer one; it widens the interval on both sides.
+/// `reference_error`: RMSE of the reference itself against a finer one, e. By the triangle inequality the RMSE against the
+/// finer one is between low() - e and high() + e: a candidate is over if the former reaches fail_at B, and within if the
+/// latter is at most pass_at B. Every candidate is within an infinite budget; within a budget of 0 is only the estimate 0
+/// with error 0, as of equal pictures, and a reference without error.
 Settled judge(const SquareEstimate& estimate, double budget, double reference_error = 0,
               const StoppingRule& rule = {}) noexcept;
-/// At the end of the looks, what is still open may be taken if R + se <= (pass_at B)^2.
+/// At the end of the looks, what is still open may be taken if R + se <= (pass_at B)^2; e is
+/// added as above.
 bool acceptable(const SquareEstimate& estimate, double budget, double reference_error = 0,
                 const StoppingRule& rule = {}) noexcept;
 

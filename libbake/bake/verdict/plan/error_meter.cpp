@@ -1,0 +1,39 @@
+#include "bake/verdict/plan/error_meter.h"
+#include "bake/verdict/plan/flip_tiles.h"
+#include "bake/verdict/plan/normal_angles.h"
+#include <utility>
+
+namespace bake {
+namespace {
+
+constexpr int flip_half = 16;  ///< samples of each half of a pixel, for a budget
+constexpr int shown_half = 4;  ///< for a value that is only told
+constexpr int shown_tiles = 4; ///< likewise
+
+} // namespace
+
+ErrorMeter::ErrorMeter(Budget::Metric metric, const ProbedScene& reference, std::vector<Pixel> pixels,
+                       const ProbeOptions& options)
+    : metric_(metric), reference_(reference), options_(options), probe_(reference, std::move(pixels), options) {}
+
+SquareEstimate ErrorMeter::estimate(const ProbedScene& candidate) const {
+    if (metric_ == Budget::Metric::degrees) return mean_angle(candidate, reference_, probe_.pixels(), options_);
+    return tile_flip(candidate, reference_, probe_.pixels(), options_, {.half = flip_half});
+}
+
+ReferenceProbe::Result ErrorMeter::judge(const ProbedScene& candidate, double budget, double reference_error) {
+    if (metric_ == Budget::Metric::rmse) return probe_.judge(candidate, budget, reference_error);
+    const SquareEstimate found = estimate(candidate);
+    return {found, bake::judge(found, budget, reference_error)};
+}
+
+SquareEstimate ErrorMeter::measure(const ProbedScene& candidate, int pixels) {
+    return metric_ == Budget::Metric::rmse ? probe_.measure(candidate, pixels) : estimate(candidate);
+}
+
+double ErrorMeter::flip(const ProbedScene& candidate) {
+    return tile_flip(candidate, reference_, probe_.pixels(), options_, {.tiles = shown_tiles, .half = shown_half})
+        .rmse();
+}
+
+} // namespace bake
