@@ -75,6 +75,7 @@ void decide(const PlanTrial& trial, std::uint32_t seed) {
         PlanOptions options;
         options.budget.value = budget;
         options.seed = seed;
+        options.neighbours = false; // what is only told beside the decision
         ScenePlan plan;
         const double seconds = cpu_seconds([&] { plan = plan_scene(trial.entries, options); });
         if (plan.objects.size() != 1) throw Error(Refusal::unsuitable, trial.entries.file + ": no object was planned");

@@ -120,17 +120,34 @@ struct ReliefPicture {
     double slope = 0;                     ///< root mean square per texel, of a central difference
 };
 
-/// The reliefs are made once; those of files have 512 texels or a little more.
+/// Each value becomes the mean of its neighbours with the weights 1, 2, 1 along both axes: what is left has waves that the
+/// reference has vertices enough for.
+inline Image<float> smoothed(const Image<float>& from) {
+    const int w = from.width(), h = from.height();
+    Image<float> to(w, h, 1);
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) {
+            float sum = 0;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i)
+                    sum += float((2 - std::abs(i)) * (2 - std::abs(j))) * from.at((x + i + w) % w, (y + j + h) % h);
+            to.at(x, y) = sum / 16;
+        }
+    return to;
+}
+
+/// Those of files have 128 texels or a little more, fine ones twice as many.
 inline ReliefPicture relief_picture(const PlanRelief& relief, const PlanFolders& folders) {
     Image<float> values;
     if (relief.file) {
         const HeightTexture height = read_height(file_of(folders, relief.file, relief.substitute));
-        values = box_minify(height.values, 512, 512);
+        const int texels = relief.fine ? 256 : 128;
+        values = smoothed(box_minify(height.values, texels, texels));
     } else if (relief.fine) {
-        values = wave_sum(512, 60, 110, 0, 96, 11);
+        values = wave_sum(192, 30, 48, 0, 96, 11);
     } else {
         const bool smooth = relief.name == std::string("waves");
-        values = wave_sum(512, smooth ? 3 : 4, smooth ? 9 : 90, smooth ? 1 : 1.1, smooth ? 12 : 64, smooth ? 5 : 6);
+        values = wave_sum(128, smooth ? 3 : 4, smooth ? 9 : 30, smooth ? 1 : 1.1, smooth ? 12 : 64, smooth ? 5 : 6);
     }
     const auto [low, high] = std::minmax_element(values.data(), values.data() + values.size());
     const float from = *low, range = std::max(*high - *low, 1e-9f);
@@ -242,7 +259,7 @@ public:
     }
 
 private:
-    /// The object, and 4 % of its extent on either side, fills the picture along the longer side. Returns pixels per length
+    /// The object is 40 to 100 pixels wide or high, and there is a margin for what the relief adds. Returns pixels per length
     /// at the centre of the object.
     double set_camera(PlanTrial& trial, Draws& draw) const {
         const PlanBase& base = bases_[std::size_t(trial.object)];
@@ -253,19 +270,21 @@ private:
         camera.position = base.centre + float(trial.distance * base.radius) * to_camera;
         camera.target = base.centre;
         const CameraFrame frame = camera_frame(place_camera(camera, Bounds{}, 1));
-        double across = 1e-6, up = 1e-6;
+        Vec2d low(1e30), high(-1e30);
         for (const Vec3f& p : base.points) {
             const Vec3f from = p - frame.position;
             const double depth = std::max(double(glm::dot(from, frame.forward)), 0.05 * base.radius);
-            across = std::max(across, std::abs(double(glm::dot(from, frame.right))) / depth);
-            up = std::max(up, std::abs(double(glm::dot(from, frame.up))) / depth);
+            const Vec2d at = Vec2d(glm::dot(from, frame.right), glm::dot(from, frame.up)) / depth;
+            low = glm::min(low, at), high = glm::max(high, at);
         }
-        const double pixels = 40 * std::pow(2.5, std::pow(draw.next(), 1.6)), longer = std::max(across, up);
-        const auto size = [&](double extent) { return std::max(16, int(std::ceil(1.08 * pixels * extent / longer))); };
-        trial.entries.settings.width = size(across), trial.entries.settings.height = size(up);
-        camera.fov_deg = float(2 * std::atan(longer * trial.entries.settings.height / pixels) * 180 / pi);
+        const double pixels = 40 * std::pow(2.5, std::pow(draw.next(), 4));
+        const double focal = pixels / std::max(high.x - low.x, high.y - low.y); // pixels per tangent of an angle
+        const Vec2d most = glm::max(-low, high);
+        const auto size = [&](double extent) { return std::max(16, int(std::ceil(2.12 * focal * extent))); };
+        trial.entries.settings.width = size(most.x), trial.entries.settings.height = size(most.y);
+        camera.fov_deg = float(2 * std::atan(trial.entries.settings.height / (2 * focal)) * 180 / pi);
         trial.entries.cameras = {camera};
-        return pixels / (2 * longer * trial.distance * base.radius);
+        return focal / (trial.distance * base.radius);
     }
 
     void set_lights(PlanTrial& trial, Draws& draw) const {
@@ -286,7 +305,9 @@ private:
         const PlanBase& base = bases_[std::size_t(trial.object)];
         const ReliefPicture& relief = reliefs_[std::size_t(trial.relief)];
         const bool fine = plan_reliefs[trial.relief].fine;
-        trial.height_px = fine ? draw.scale(0.02, 1.5) : draw.scale(0.06, 9);
+        const bool sheet = base.object->sheet; // most of which is far from a contour
+        const double most = (sheet ? 6 : 2.5) * (fine ? 0.3 : 1), least = (sheet ? 0.03 : 0.012) * (fine ? 0.6 : 1);
+        trial.height_px = draw.scale(least, most);
         double amplitude = trial.height_px / per_length; // in units of the object
         const double steepness = relief.slope * relief.picture->image.width() / base.uv_edge;
         amplitude = std::min(amplitude, draw.between(0.4, 0.9) / steepness);

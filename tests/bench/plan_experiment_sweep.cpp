@@ -22,10 +22,12 @@ using namespace bench;
 
 namespace {
 
-constexpr int truth_spp = 64;
+/// Samples per pixel: few first, and all of them unless the error is beyond every budget in any case.
+constexpr int first_spp = 16, truth_spp = 64;
+constexpr double hopeless = 0.04; ///< RMSE, from which four standard errors are taken
 constexpr std::uint32_t truth_seed = 0x7a57e;
-constexpr double tolerable_change = 0.001; ///< RMSE; the reference is refined until it changes by less
-constexpr double most_triangles = 2.4e6;   ///< of a reference
+constexpr double tolerable_change = 0.003; ///< RMSE; the reference is refined until it changes by less
+constexpr double most_triangles = 1.3e6;   ///< of a reference
 constexpr int most_levels_of_rungs = 5;    ///< columns of the csv are for up to 2^5 segments per edge
 
 struct Arguments {
@@ -65,17 +67,19 @@ public:
         const std::clock_t start = std::clock();
         exposure_ = exposure_of(scenes_.load({Shade::plain}));
         TrueLadder ladder = true_ladder(scenes_.triangles());
-        TruePicture reference = picture(ladder.reference);
-        TrueError change = true_error(reference, picture({Shade::displace, ladder.reference.levels - 1}));
+        set_reference(ladder.reference);
+        TrueError change = error_of({Shade::displace, ladder.reference.levels - 1});
         while (change.square > tolerable_change * tolerable_change && is_affordable(ladder.reference.levels + 1)) {
+            const ShadeMethod coarser = ladder.reference;
             ++ladder.reference.levels;
-            TruePicture finer = picture(ladder.reference);
-            change = true_error(finer, reference);
-            reference = std::move(finer);
+            set_reference(ladder.reference);
+            change = error_of(coarser);
         }
         std::vector<std::pair<std::string, TrueError>> errors;
-        for (const ShadeMethod& rung : ladder.rungs)
-            errors.emplace_back(name(rung), true_error(reference, picture(rung)));
+        for (const ShadeMethod& rung : ladder.rungs) {
+            const bool as_plain = rung.shade == Shade::roughness && !has_highlight();
+            errors.emplace_back(name(rung), as_plain ? errors.front().second : error_of(rung));
+        }
         const double area = errors.front().second.area;
         const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
         print_trial(area, name(ladder.reference));
@@ -94,10 +98,29 @@ private:
     bool is_affordable(int levels) const {
         return double(scenes_.triangles()) * std::exp2(2 * levels) <= most_triangles;
     }
+    /// What relief does to roughness shows in highlights alone; a mirror has none.
+    bool has_highlight() const { return trial_.finish == 1 || trial_.finish == 2; }
 
-    TruePicture picture(const ShadeMethod& method) const {
+    TrueView view(const MethodScene& scene) const {
+        return {scene.of_object, scenes_.settings(), exposure_, truth_seed};
+    }
+
+    void set_reference(const ShadeMethod& method) {
         const MethodScene scene = scenes_.load(method);
-        return true_picture(scene.scene, scene.of_object, scenes_.settings(), exposure_, truth_spp, truth_seed);
+        reference_ = {};
+        add_samples_to(reference_, scene.scene, view(scene), first_spp);
+        first_reference_ = reference_;
+        add_samples_to(reference_, scene.scene, view(scene), truth_spp);
+    }
+
+    TrueError error_of(const ShadeMethod& method) const {
+        const MethodScene scene = scenes_.load(method);
+        TruePicture picture;
+        add_samples_to(picture, scene.scene, view(scene), first_spp);
+        const TrueError first = true_error(first_reference_, picture);
+        if (first.square - 4 * first.error > hopeless * hopeless) return first;
+        add_samples_to(picture, scene.scene, view(scene), truth_spp);
+        return true_error(reference_, picture);
     }
 
     void print_trial(double area, const std::string& reference) const {
@@ -112,6 +135,7 @@ private:
 
     const PlanTrial& trial_;
     ComparedScene scenes_;
+    TruePicture first_reference_, reference_; ///< of few samples, and of all
     float exposure_ = 0;
 };
 

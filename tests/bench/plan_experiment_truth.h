@@ -23,7 +23,7 @@ using namespace bake;
 
 /// The two halves of one pixel.
 struct TruePixel {
-    Vec3d half[2] = {Vec3d(0), Vec3d(0)}; ///< means
+    Vec3d half[2] = {Vec3d(0), Vec3d(0)}; ///< sums
     std::uint64_t covered = 0;            ///< a bit per sample
 };
 
@@ -36,13 +36,21 @@ inline Vec3d exposed(const Vec3f& radiance, float exposure) {
     return glm::clamp(Vec3d(radiance) * double(std::exp2(exposure)), 0.0, 1.0);
 }
 
-/// `spp`: at most 64, even. Textures are filtered as in a picture of settings.spp samples.
-inline TruePicture true_picture(const Scene& scene, std::span<const std::uint8_t> of_object,
-                                const RenderSettings& settings, float exposure, int spp, std::uint32_t seed) {
-    TruePicture picture{settings.width, settings.height, spp, {}};
+/// Which part of a scene is judged, and how it is seen.
+struct TrueView {
+    std::span<const std::uint8_t> of_object; ///< one entry per instance
+    RenderSettings settings;                 ///< textures are filtered as in a picture of settings.spp samples
+    float exposure = 0;
+    std::uint32_t seed = 0;
+};
+
+/// Adds samples to a picture, which begins empty, until it has `spp` per pixel: an even number, at most 64.
+inline void add_samples_to(TruePicture& picture, const Scene& scene, const TrueView& view, int spp) {
+    const RenderSettings& settings = view.settings;
+    picture.width = settings.width, picture.height = settings.height;
     picture.pixels.resize(std::size_t(settings.width) * std::size_t(settings.height));
     RenderSettings sampled = settings;
-    sampled.spp = spp, sampled.seed = seed;
+    sampled.spp = spp, sampled.seed = view.seed;
     const CameraFrame frame = camera_frame(scene);
     const auto set_ray = [&](const Vec2d& at, PrimaryRay& to) { set_camera_ray(frame, settings, at, to); };
     const int rows = (settings.height + block_edge - 1) / block_edge;
@@ -54,14 +62,14 @@ inline TruePicture true_picture(const Scene& scene, std::span<const std::uint8_t
                     const auto index =
                         std::size_t(block.row(lane)) * std::size_t(settings.width) + std::size_t(block.column(lane));
                     TruePixel& pixel = picture.pixels[index];
-                    if (value) pixel.half[i % 2] += exposed(value->total(), exposure) * (2.0 / spp);
+                    if (value) pixel.half[i % 2] += exposed(value->total(), view.exposure);
                     const Hit& first = hit.first.hit;
-                    if (first && of_object[first.mesh]) pixel.covered |= std::uint64_t(1) << i;
+                    if (first && view.of_object[first.mesh]) pixel.covered |= std::uint64_t(1) << i;
                 };
-                add_samples(scene, sampled, block, {0, spp, true}, set_ray, add, false);
+                add_samples(scene, sampled, block, {picture.spp, spp, true}, set_ray, add, false);
             }
     });
-    return picture;
+    picture.spp = spp;
 }
 
 struct TrueError {
@@ -72,12 +80,13 @@ struct TrueError {
 /// Pictures of one size, samples and seed.
 inline TrueError true_error(const TruePicture& reference, const TruePicture& candidate) {
     double sum = 0, variance = 0, area = 0;
+    const double samples = 0.5 * reference.spp; // of a half
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
         const TruePixel &r = reference.pixels[i], &c = candidate.pixels[i];
         const std::uint64_t covered = r.covered | c.covered;
         if (covered == 0) continue;
         area += double(std::popcount(covered)) / reference.spp;
-        const Vec3d d[2] = {c.half[0] - r.half[0], c.half[1] - r.half[1]};
+        const Vec3d d[2] = {(c.half[0] - r.half[0]) / samples, (c.half[1] - r.half[1]) / samples};
         sum += glm::dot(d[0], d[1]) / 3;
         const double uneven = (glm::dot(d[0], d[0]) - glm::dot(d[1], d[1])) / 6;
         variance += uneven * uneven;
@@ -94,7 +103,7 @@ struct TrueLadder {
 
 /// The finest grid has a quarter of the reference's segments per edge. The reference has at most `most` triangles, but
 /// four segments per edge at least.
-inline TrueLadder true_ladder(std::int64_t triangles, double most = 6e5) {
+inline TrueLadder true_ladder(std::int64_t triangles, double most = 4e5) {
     TrueLadder ladder{{{Shade::plain}, {Shade::roughness}, {Shade::bump}, {Shade::bump_roughness}, {Shade::normal}},
                       {Shade::displace, 2}};
     int& finest = ladder.reference.levels;
