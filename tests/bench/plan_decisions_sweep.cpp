@@ -20,7 +20,6 @@ using namespace bench;
 
 namespace {
 
-constexpr double budgets[] = {0.005, 0.01, 0.02};
 constexpr const char* known_words[] = {"bound", "probe", "not settled", "not tried", "skipped"};
 
 struct KnownTrial {
@@ -71,7 +70,7 @@ void print_decision(int number, double budget, const ObjectPlan& plan, double se
 void decide(const PlanTrial& trial, std::uint32_t seed) {
     std::string measured;
     double reference_seconds = 0;
-    for (const double budget : budgets) {
+    for (const double budget : plan_budgets) {
         PlanOptions options;
         options.budget.value = budget;
         options.seed = seed;

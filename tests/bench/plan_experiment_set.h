@@ -225,6 +225,7 @@ struct PlanTrial {
 
 /// The samples per pixel of the pictures that are planned: textures are filtered for them.
 inline constexpr int plan_spp = 32;
+inline constexpr double plan_budgets[] = {0.005, 0.01, 0.02};
 
 inline void set_plan_finish(MaterialEntry& material, int finish) {
     Reflectance& r = material.reflectance;

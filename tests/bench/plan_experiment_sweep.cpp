@@ -22,9 +22,8 @@ using namespace bench;
 
 namespace {
 
-/// Samples per pixel: few first, and all of them unless the error is beyond every budget in any case.
+/// Samples per pixel: few first, and all of them where four standard errors leave a doubt about a budget.
 constexpr int first_spp = 16, truth_spp = 64;
-constexpr double hopeless = 0.04; ///< RMSE, from which four standard errors are taken
 constexpr std::uint32_t truth_seed = 0x7a57e;
 constexpr double tolerable_change = 0.003; ///< RMSE; the reference is refined until it changes by less
 constexpr double most_triangles = 1.3e6;   ///< of a reference
@@ -57,6 +56,14 @@ float exposure_of(const MethodScene& plain) {
     RenderSettings settings = plain.scene.settings;
     settings.spp = 8, settings.seed = truth_seed;
     return automatic_exposure(render(plain.scene, settings));
+}
+
+/// Whether an error may lie between .9 and 1.1 of a budget.
+bool is_in_doubt(const TrueError& error) {
+    return std::any_of(std::begin(plan_budgets), std::end(plan_budgets), [&](double budget) {
+        const double low = 0.9 * budget, high = 1.1 * budget;
+        return error.square + 4 * error.error >= low * low && error.square - 4 * error.error <= high * high;
+    });
 }
 
 class TrialTruth {
@@ -106,20 +113,21 @@ private:
     }
 
     void set_reference(const ShadeMethod& method) {
-        const MethodScene scene = scenes_.load(method);
+        reference_scene_ = scenes_.load(method);
         reference_ = {};
-        add_samples_to(reference_, scene.scene, view(scene), first_spp);
+        add_samples_to(reference_, reference_scene_.scene, view(reference_scene_), first_spp);
         first_reference_ = reference_;
-        add_samples_to(reference_, scene.scene, view(scene), truth_spp);
     }
 
-    TrueError error_of(const ShadeMethod& method) const {
+    TrueError error_of(const ShadeMethod& method) {
         const MethodScene scene = scenes_.load(method);
         TruePicture picture;
         add_samples_to(picture, scene.scene, view(scene), first_spp);
         const TrueError first = true_error(first_reference_, picture);
-        if (first.square - 4 * first.error > hopeless * hopeless) return first;
+        if (!is_in_doubt(first)) return first;
         add_samples_to(picture, scene.scene, view(scene), truth_spp);
+        if (reference_.spp < truth_spp)
+            add_samples_to(reference_, reference_scene_.scene, view(reference_scene_), truth_spp);
         return true_error(reference_, picture);
     }
 
@@ -135,6 +143,7 @@ private:
 
     const PlanTrial& trial_;
     ComparedScene scenes_;
+    MethodScene reference_scene_;
     TruePicture first_reference_, reference_; ///< of few samples, and of all
     float exposure_ = 0;
 };
