@@ -74,6 +74,9 @@ TEST_SUITE("unit") {
         const auto pixels = all_pixels(12);
         options.half = 32;
         const auto full = probe_pixels({&scene, first_of_two}, pixels, options);
+        CHECK(std::any_of(full.begin(), full.end(), [](const ProbedPixel& pixel) {
+            return pixel.covered[0] >> 16 != (pixel.covered[0] & 0xffff); // the second packet has samples of its own
+        }));
         for (const int half : {1, 5, 16, 17}) {
             options.half = half;
             const auto part = probe_pixels({&scene, first_of_two}, pixels, options);

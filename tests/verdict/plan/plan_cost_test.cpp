@@ -40,8 +40,8 @@ TEST_SUITE("unit") {
                 CHECK(rungs[i].shade == Shade::displace);
                 CHECK(rungs[i + 1].shade == Shade::displace_normal);
                 CHECK(rungs[i].levels == rungs[i + 1].levels);
-                CHECK(triangles << (2 * rungs[i].levels) >= 400);
-                CHECK(triangles << (2 * rungs[i].levels) <= 600'000);
+                CHECK((triangles << (2 * rungs[i].levels)) >= 400);
+                CHECK((triangles << (2 * rungs[i].levels)) <= 600'000);
                 // The reference can be four times finer per edge.
                 CHECK(rungs[i].levels + 2 <= 10);
             }

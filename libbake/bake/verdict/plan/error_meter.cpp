@@ -1,6 +1,8 @@
 #include "bake/verdict/plan/error_meter.h"
 #include "bake/verdict/plan/flip_tiles.h"
 #include "bake/verdict/plan/normal_angles.h"
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace bake {
@@ -9,6 +11,7 @@ namespace {
 constexpr int flip_half = 16;  ///< samples of each half of a pixel, for a budget
 constexpr int shown_half = 4;  ///< for a value that is only told
 constexpr int shown_tiles = 4; ///< likewise
+constexpr std::size_t timed_pixels = 512;
 
 } // namespace
 
@@ -34,6 +37,16 @@ SquareEstimate ErrorMeter::measure(const ProbedScene& candidate, int pixels) {
 double ErrorMeter::flip(const ProbedScene& candidate) {
     return tile_flip(candidate, reference_, probe_.pixels(), options_, {.tiles = shown_tiles, .half = shown_half})
         .rmse();
+}
+
+double ErrorMeter::ms(const ProbedScene& candidate) const {
+    using Clock = std::chrono::steady_clock;
+    const std::span<const Pixel> pixels(probe_.pixels().data(), std::min(probe_.pixels().size(), timed_pixels));
+    if (pixels.empty()) return 0;
+    const Clock::time_point start = Clock::now();
+    probe_pixels(candidate, pixels, options_);
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return ms * 1e6 / (2.0 * options_.half * double(pixels.size()));
 }
 
 } // namespace bake

@@ -12,7 +12,14 @@
 namespace bake {
 namespace {
 
+/// Triangles of a reference per pixel of the object: of the first one among many objects, and of the finest, whose edges are
+/// about an eighth of a pixel. Half of them are behind.
+constexpr double least_triangles = 32, most_triangles = 256;
 constexpr int neighbour_pixels = 256; ///< on which the next dearer rung is measured
+
+bool is_coarser_than_reference(const Candidate& c, const Rung& rung) noexcept {
+    return !displaces(rung.method.shade) || rung.method.levels + 2 <= c.level;
+}
 
 class Decider {
 public:
@@ -22,7 +29,7 @@ public:
 private:
     void begin(Candidate& c);
     void list_rungs(Candidate& c) const;
-    bool is_out_of_view(const Candidate& c) const;
+    double pixels_in_view(const Candidate& c) const;
     bool is_settled_unseen(Candidate& c);
     std::unique_ptr<AssembledScene> next_scene();
     void probe(Candidate& c, AssembledScene& scene);
@@ -77,24 +84,32 @@ void Decider::begin(Candidate& c) {
     c.dominant = dominant_wave(height);
     const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
     c.shortest = std::min(waves.u, waves.v);
+    const HeightOptions& options = object.relief.height;
+    c.has_relief =
+        options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
+                                              [&](float value) { return double(value) != options.midlevel; });
+    const double pixels = pixels_in_view(c);
+    if (candidates_.size() > 1) c.first_triangles = std::clamp(least_triangles * pixels, 4e3, 1e5);
+    c.most_triangles = std::clamp(most_triangles * pixels, 1e5, 1.2e7);
     c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
     ObjectPlan& plan = c.plan();
     if (plan.rungs.empty()) list_rungs(c);
     else c.next = std::size_t(plan.chosen + 1);
     plan.chosen = -1;
     plan.facts = c.facts->of_cameras();
-    if (!is_out_of_view(c)) return;
+    if (c.facts->in_view() || pixels > 0) return;
     c.rung().error.all = true;
     choose(c, Known::bound);
     plan.why = "not in view";
 }
 
-bool Decider::is_out_of_view(const Candidate& c) const {
-    if (c.facts->in_view()) return false;
+/// Of the camera that sees most of the object without relief.
+double Decider::pixels_in_view(const Candidate& c) const {
     const ProbedScene plain = c.of(*work_.plain);
+    std::size_t most = 0;
     for (std::size_t camera = 0; camera < work_.scenes.cameras().size(); ++camera)
-        if (!object_pixels(std::span(&plain, 1), probe_options(work_, camera, c.plan().object)).empty()) return false;
-    return true;
+        most = std::max(most, object_pixels(std::span(&plain, 1), probe_options(work_, camera, "")).size());
+    return double(most);
 }
 
 /// Settles rungs by what is known without rendering, up to one that needs a probe. True if the object is done.
@@ -115,6 +130,8 @@ bool Decider::is_settled_unseen(Candidate& c) {
         if (std::isinf(budget.value) || (budget.metric != Budget::Metric::degrees && budget.value >= 1))
             bound = ErrorBound{1, "no error is larger than the budget"};
         else if (budget.metric == Budget::Metric::rmse) bound = c.facts->bound(rung.method.shade);
+        // Nothing but the reference is without error, unless there is no relief.
+        if (budget.value == 0 && c.has_relief) break;
         if (!bound || bound->rmse > budget.value) return false;
         rung.bound = bound->rmse, rung.note = bound->why;
         choose(c, Known::bound);
@@ -142,7 +159,10 @@ std::unique_ptr<AssembledScene> Decider::next_scene() {
     bool complete = true;
     for (Candidate& c : candidates_) {
         if (c.done) continue;
-        auto model = baked(c, c.rung());
+        Rung& rung = c.rung();
+        std::shared_ptr<const BakedModel> model;
+        if (is_coarser_than_reference(c, rung)) model = baked(c, rung);
+        else rung.known = Known::skipped, rung.note = "the finest reference is less than four times finer";
         if (!model) complete = false, ++c.next;
         else models[std::size_t(c.decision->object)] = std::move(model);
     }
@@ -154,7 +174,7 @@ void Decider::probe(Candidate& c, AssembledScene& scene) {
     Rung& rung = c.rung();
     const double budget = work_.options.budget.value;
     const std::size_t first = c.worst;
-    bool open = false, taken = true;
+    bool open = false, refused = false;
     for (std::size_t i = 0; i < c.meters.size(); ++i) {
         const std::size_t camera = (first + i) % c.meters.size();
         light_for(scene, camera);
@@ -164,13 +184,14 @@ void Decider::probe(Candidate& c, AssembledScene& scene) {
             rung.error = estimate, rung.camera = work_.scenes.cameras()[camera].name;
             c.worst = camera;
         }
-        if (settled == Settled::over) return;
         if (settled == Settled::within) continue;
-        open = true;
-        taken = taken && acceptable(estimate, budget, c.plan().reference_error);
+        open = settled == Settled::open;
+        refused = refused || !open || !acceptable(estimate, budget, c.plan().reference_error);
+        if (settled == Settled::over) break;
     }
     if (open) rung.known = Known::not_settled;
-    if (taken) choose(c, rung.known);
+    if (work_.options.measure) rung.cost.ms = c.meters[c.worst].ms(c.of(scene));
+    if (!refused) choose(c, rung.known);
 }
 
 void Decider::choose(Candidate& c, Known known) {
@@ -202,7 +223,7 @@ void Decider::measure_dearer(Candidate& c) {
     for (std::size_t i = c.next + 1; i < rungs.size(); ++i) {
         Rung& rung = rungs[i];
         if (rung.known != Known::not_tried) continue;
-        if (displaces(rung.method.shade) && rung.method.levels + 2 > c.level) return;
+        if (!is_coarser_than_reference(c, rung)) return;
         const auto model = baked(c, rung);
         if (!model) continue;
         BakedModels models = references_.scene().models;

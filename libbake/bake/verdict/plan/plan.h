@@ -73,6 +73,7 @@ struct TexturePlan {
     std::string file;                                  ///< or the object whose baked map it is
     std::string kind;                                  ///< "normal", "bump", "albedo"
     int width = 0, height = 0, channels = 0, bits = 0; ///< chosen
+    bool half = false;                                 ///< chosen: half floats, not integers of 16 bits
     int source_width = 0, source_height = 0, source_channels = 0, source_bits = 0;
     std::int64_t bytes = 0, source_bytes = 0; ///< with smaller levels
     SquareEstimate error;

@@ -8,9 +8,8 @@ namespace bake {
 namespace {
 
 constexpr int most_levels = 10; ///< of a displacement
-/// Triangles of all meshes of an object: with which its reference begins, beyond which it is not refined for its own error,
-/// and beyond which it is not refined at all.
-constexpr double first_triangles = 1e5, most_refined = 4e6, most_triangles = 1.2e7;
+constexpr double most_refined =
+    4e6; ///< triangles of all meshes, beyond which no reference is refined for its own error
 constexpr double edges_per_wave = 12;
 constexpr int measured_pixels = 256;
 constexpr double tolerable = 0.15; ///< error of a reference, as a part of the budget
@@ -18,7 +17,7 @@ constexpr double tolerable = 0.15; ///< error of a reference, as a part of the b
 /// Makes the reference finer, up to `level`. Returns whether it changed.
 bool raise(Candidate& c, int level) noexcept {
     level = std::min(level, c.most_level);
-    while (level > 0 && level > c.level && displaced_triangles(c, level) > most_triangles) --level;
+    while (level > 0 && level > c.level && displaced_triangles(c, level) > c.most_triangles) --level;
     const bool finer = level > c.level;
     c.level = std::max(level, c.level);
     return finer;
@@ -39,7 +38,9 @@ double displaced_triangles(const Candidate& candidate, int level) noexcept {
 
 int first_level(const Candidate& candidate) noexcept {
     int level = 0;
-    while (level < most_levels && displaced_triangles(candidate, level) < first_triangles) ++level;
+    while (level < most_levels && displaced_triangles(candidate, level) < candidate.first_triangles) ++level;
+    // One that is coarser by a level tells the error of the reference.
+    if (level == 0 && displaced_triangles(candidate, 1) <= most_refined) level = 1;
     return level;
 }
 
@@ -107,7 +108,7 @@ void References::measure(std::vector<Candidate>& candidates) {
 bool References::is_too_coarse(const Candidate& c) const noexcept {
     const double budget = work_.options.budget.value;
     return !c.done && budget > 0 && c.plan().reference_error > tolerable * budget &&
-           displaced_triangles(c, c.level + 1) <= most_refined;
+           displaced_triangles(c, c.level + 1) <= std::min(most_refined, c.most_triangles);
 }
 
 void References::prepare(std::vector<Candidate>& candidates) {

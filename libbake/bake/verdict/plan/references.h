@@ -20,11 +20,14 @@ struct Candidate {
     CostInput cost;
     double edge = 0;                   ///< of the mesh, texels
     double dominant = 0, shortest = 0; ///< waves of the height, texels
+    bool has_relief = true;            ///< some height is not 0
     std::size_t next = 0;              ///< rung
     std::size_t last = 0;              ///< the last one that was probed before
     bool probed = false;               ///< whether there is one
     std::size_t worst = 0;             ///< the camera that refused the last rung
     bool done = false;
+    double first_triangles = 1e5;   ///< of all meshes, with which the reference begins
+    double most_triangles = 1.2e7;  ///< beyond which it is not refined
     int level = -1;                 ///< of the reference
     int most_level = 0;             ///< finer ones do not fit
     std::vector<ErrorMeter> meters; ///< one per camera

@@ -53,10 +53,4 @@ double edge_texels(const Shape& shape, int width, int height) {
     return count > 0 ? std::sqrt(sum / double(count)) : 0;
 }
 
-int levels_for(double edge_texels, double length) noexcept {
-    int levels = 0;
-    while (levels < 20 && edge_texels > length) edge_texels /= 2, ++levels;
-    return levels;
-}
-
 } // namespace bake

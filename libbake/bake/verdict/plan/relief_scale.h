@@ -13,7 +13,5 @@ double dominant_wave(const Image<float>& height);
 /// Root mean square over the triangles of the length of an edge in a picture of this size; 0 without uvs.
 double edge_texels(const Shape& shape, int width, int height);
 
-/// How often edges are halved until they are at most `length` texels.
-int levels_for(double edge_texels, double length) noexcept;
 
 } // namespace bake

@@ -108,7 +108,8 @@ double shortest_wave(const Axis& axis, bool repeats, double step, double share) 
     double sum = 0;
     for (std::size_t k = 1; k < power.size(); ++k) {
         const double w = 2 * pi * double(k) / length;
-        slopes[k] = w * w * std::max(0.0, power[k] - noise) * (k + 1 == power.size() ? 0.5 : 1);
+        // Below 0 too, so that what is random in the noise cancels in the sum.
+        slopes[k] = w * w * (power[k] - noise) * (k + 1 == power.size() ? 0.5 : 1);
         sum += slopes[k];
     }
     if (!(sum > 0)) return n;
