@@ -57,7 +57,7 @@ inline constexpr PlanObject plan_objects[] = {
     {"fuze", nullptr, "meshes/trimesh/fuze.obj", "sphere.obj", 0, 0, false, false},
     {"boombox", nullptr, "meshes/materialx/boombox.obj", "torus.obj", 0, 0, false, false},
     {"head", nullptr, "meshes/leeperrysmith/LeePerrySmith.obj", "sphere.obj", 0, 0, false, false},
-    {"hand", nullptr, "meshes/opensubdiv/catmark_righthanded.obj", "torus.obj", 1, 1, false, true},
+    {"panel", nullptr, "meshes/opensubdiv/catmark_righthanded.obj", "torus.obj", 1, 1, false, true},
 };
 inline constexpr int plan_object_count = int(std::size(plan_objects));
 
