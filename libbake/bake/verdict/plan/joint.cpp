@@ -3,6 +3,7 @@
 #include "bake/base/text.h"
 #include "bake/verdict/plan/budget_shares.h"
 #include "bake/verdict/plan/error_meter.h"
+#include "bake/verdict/plan/object_plan.h"
 #include <algorithm>
 #include <cmath>
 

@@ -5,7 +5,7 @@
 // reflection of an object change those of others. Where a budget does not hold, the object with the largest share goes on
 // to its next rung.
 #pragma once
-#include "bake/verdict/plan/object_plan.h"
+#include "bake/verdict/plan/plan_work.h"
 
 namespace bake {
 

@@ -2,7 +2,6 @@
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
-#include "bake/preview/sampler.h"
 #include "bake/verdict/plan/references.h"
 #include "bake/verdict/plan/relief_scale.h"
 #include "bake/verdict/plan/relief_waves.h"
@@ -12,8 +11,8 @@
 namespace bake {
 namespace {
 
-/// Triangles of a reference per pixel of the object: of the first one among many objects, and of the finest, whose edges are
-/// about an eighth of a pixel. Half of them are behind.
+/// Triangles of a reference per pixel of the object: of the first one, whose edges are about a quarter of a pixel, and of the
+/// finest, whose edges are about an eighth. Half of them are behind.
 constexpr double least_triangles = 32, most_triangles = 256;
 constexpr int neighbour_pixels = 256; ///< on which the next dearer rung is measured
 
@@ -89,7 +88,7 @@ void Decider::begin(Candidate& c) {
         options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
                                               [&](float value) { return double(value) != options.midlevel; });
     const double pixels = pixels_in_view(c);
-    if (candidates_.size() > 1) c.first_triangles = std::clamp(least_triangles * pixels, 4e3, 1e5);
+    c.first_triangles = std::clamp(least_triangles * pixels, candidates_.size() > 1 ? 4e3 : 2e4, 1e5);
     c.most_triangles = std::clamp(most_triangles * pixels, 1e5, 1.2e7);
     c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
     ObjectPlan& plan = c.plan();
@@ -262,25 +261,6 @@ void Decider::run() {
 
 } // namespace
 
-void PlanWork::note(const std::string& line) {
-    if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
-}
-
 void decide(PlanWork& work, std::span<ObjectDecision> decisions) { Decider(work, decisions).run(); }
-
-const ShadeMethod& chosen_method(const ObjectPlan& plan) noexcept {
-    return plan.chosen < 0 ? plan.reference : plan.rungs[std::size_t(plan.chosen)].method;
-}
-
-ProbeOptions probe_options(const PlanWork& work, std::size_t camera, const std::string& name) {
-    ProbeOptions options;
-    options.settings = work.scenes.settings();
-    options.camera = work.scenes.cameras()[camera].camera;
-    options.exposure = work.exposure;
-    std::uint64_t seed = hash(std::uint64_t(work.options.seed) << 32 | options.settings.seed) + camera;
-    for (const char letter : name) seed = hash(seed ^ std::uint64_t(static_cast<unsigned char>(letter)));
-    options.seed = std::uint32_t(hash(seed) >> 32);
-    return options;
-}
 
 } // namespace bake

@@ -240,6 +240,20 @@ std::unique_ptr<AssembledScene> PlanScenes::assemble(BakedModels models) const {
     return result;
 }
 
+SceneEntries PlanScenes::as_seen(SceneEntries entries) const {
+    entries.ground = entries_.ground;
+    entries.pictures = entries_.pictures;
+    entries.cameras.clear(), entries.camera = 0;
+    for (const PlannedCamera& planned : cameras_) {
+        CameraEntry& entry = entries.cameras.emplace_back();
+        entry.name = planned.name;
+        entry.position = planned.camera.position, entry.target = planned.camera.target, entry.up = planned.camera.up;
+        entry.fov_deg = planned.camera.fov_deg, entry.orthographic = planned.camera.orthographic;
+        if (entry.orthographic) entry.height = planned.camera.view_height;
+    }
+    return entries;
+}
+
 void PlanScenes::light_for(Scene& scene, std::size_t camera) const {
     scene.lights = cameras_[camera].lights, scene.ambient = cameras_[camera].ambient;
 }

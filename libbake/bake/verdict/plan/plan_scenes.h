@@ -60,6 +60,8 @@ public:
     /// not suit the object or needs more memory than there is.
     std::shared_ptr<const BakedModel> bake(int object, const ShadeMethod& method);
     std::unique_ptr<AssembledScene> assemble(BakedModels models) const;
+    /// The entries with the cameras and the ground that all scenes of the plan have.
+    SceneEntries as_seen(SceneEntries entries) const;
     /// Gives the scene the lights that it has for a camera.
     void light_for(Scene& scene, std::size_t camera) const;
 

@@ -20,9 +20,12 @@ SquareEstimate predicted_of(const ObjectPlan& plan) {
 
 class Verifier {
 public:
-    Verifier(PlanWork& work, std::span<const ObjectDecision> decisions, std::span<const std::size_t> group)
+    Verifier(PlanWork& work, std::span<const ObjectDecision> decisions, std::span<const std::size_t> group,
+             const Scene* shown)
         : work_(work), decisions_(decisions), group_(group), reference_(assemble_planned(work, decisions, group)),
-          planned_(assemble_planned(work, decisions)) {}
+          shown_(shown) {
+        if (!shown_) planned_ = assemble_planned(work, decisions), shown_ = &planned_->scene;
+    }
 
     void add(std::size_t camera, std::vector<Verification>& verified);
 
@@ -34,11 +37,12 @@ private:
     std::span<const ObjectDecision> decisions_;
     std::span<const std::size_t> group_;
     std::unique_ptr<AssembledScene> reference_, planned_;
+    const Scene* shown_;
 };
 
 Verification Verifier::compare(std::size_t camera, std::span<const std::uint8_t> of_object, const std::string& name,
                                double budget) const {
-    const ProbedScene both[] = {{&reference_->scene, of_object}, {&planned_->scene, of_object}};
+    const ProbedScene both[] = {{&reference_->scene, of_object}, {shown_, of_object}};
     ProbeOptions options = probe_options(work_, camera, "verify " + name);
     options.half = std::clamp((options.settings.spp + 1) / 2, least_half, most_half);
     ErrorMeter meter(work_.options.budget.metric, both[0], object_pixels(both, options), options);
@@ -51,7 +55,8 @@ Verification Verifier::compare(std::size_t camera, std::span<const std::uint8_t>
 }
 
 void Verifier::add(std::size_t camera, std::vector<Verification>& verified) {
-    work_.scenes.light_for(reference_->scene, camera), work_.scenes.light_for(planned_->scene, camera);
+    work_.scenes.light_for(reference_->scene, camera);
+    if (planned_) work_.scenes.light_for(planned_->scene, camera);
     double squares = 0, area = 0; ///< of what is predicted
     for (const std::size_t i : group_) {
         const ObjectPlan& plan = decisions_[i].plan;
@@ -84,10 +89,10 @@ void keep_worst_frames(std::vector<Verification>& verified) {
 
 } // namespace
 
-std::vector<Verification> verify(PlanWork& work, std::span<const ObjectDecision> decisions) {
+std::vector<Verification> verify(PlanWork& work, std::span<const ObjectDecision> decisions, const Scene* shown) {
     std::vector<Verification> verified;
     for (const std::vector<std::size_t>& group : reference_groups(decisions)) {
-        Verifier verifier(work, decisions, group);
+        Verifier verifier(work, decisions, group, shown);
         for (std::size_t camera = 0; camera < work.scenes.cameras().size(); ++camera) {
             if (work.progress) work.progress->start("verify " + work.scenes.cameras()[camera].name, 0);
             verifier.add(camera, verified);

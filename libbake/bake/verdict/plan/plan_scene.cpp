@@ -1,9 +1,11 @@
-#include "bake/verdict/plan/plan.h"
 #include "bake/base/error.h"
 #include "bake/base/interruption.h"
 #include "bake/base/progress.h"
 #include "bake/preview/render.h"
 #include "bake/verdict/plan/joint.h"
+#include "bake/verdict/plan/object_plan.h"
+#include "bake/verdict/plan/plan.h"
+#include "bake/verdict/plan/plan_parts.h"
 #include "bake/verdict/plan/verification.h"
 #include <algorithm>
 #include <chrono>
@@ -83,34 +85,41 @@ void decide_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, bool
               [](const ObjectDecision& a, const ObjectDecision& b) { return a.object < b.object; });
 }
 
-/// What is decided on all together, and verified.
-void decide_together(PlanWork& work, std::vector<ObjectDecision>& decisions, ScenePlan& plan) {
+/// Calls work(), which Ctrl-C may end; what it has done by then is kept.
+template <class Work> void until_stopped(ScenePlan& plan, Work&& work) {
+    if (plan.interrupted) return;
     try {
-        share_frame(work, decisions);
-        check_together(work, decisions);
-        if (work.options.verify) plan.verified = verify(work, decisions);
+        work();
     } catch (const Error& error) {
         if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
         plan.interrupted = true;
     }
-    plan.over_budget =
-        std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
 }
 
-void plan_objects(PlanScenes& scenes, const PlanOptions& options, Progress* progress, ScenePlan& plan) {
-    plan.exposure = chosen_exposure(scenes);
-    const auto plain = scenes.assemble(BakedModels(scenes.objects().size()));
-    PlanWork work{.scenes = scenes,
-                  .options = options,
-                  .exposure = plan.exposure,
-                  .plain = plain.get(),
-                  .progress = progress,
-                  .notes = {}};
-    std::vector<ObjectDecision> decisions;
+bool decides_parts(const PlanOptions& options) noexcept {
+    return options.decide_textures || options.decide_formats || options.decide_sky || options.decide_lights;
+}
+
+void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, ScenePlan& plan) {
     decide_objects(work, decisions, plan.interrupted);
-    if (!plan.interrupted) decide_together(work, decisions, plan);
-    for (ObjectDecision& decision : decisions) plan.objects.push_back(std::move(decision.plan));
+    until_stopped(plan, [&] {
+        share_frame(work, decisions);
+        check_together(work, decisions);
+    });
+    for (const ObjectDecision& decision : decisions) plan.objects.push_back(decision.plan);
     plan.notes.insert(plan.notes.end(), work.notes.begin(), work.notes.end());
+}
+
+void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
+                 ScenePlan& plan) {
+    std::optional<Scene> shown;
+    if (decides_parts(work.options)) {
+        shown.emplace(load(planned));
+        apply_parts(planned, plan, *shown);
+    }
+    plan.verified = verify(work, decisions, shown ? &*shown : nullptr);
+    plan.over_budget =
+        std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
 }
 
 } // namespace
@@ -122,9 +131,20 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
     PlanScenes scenes(entries, options.cameras);
     for (const PlannedCamera& camera : scenes.cameras()) plan.cameras.push_back(camera.name);
     plan.notes = scenes.plain().notes;
-    if (scenes.objects().empty())
-        plan.notes.push_back("no mesh has a material with a height, so that no model is chosen");
-    if (options.decide_objects && !scenes.objects().empty()) plan_objects(scenes, options, progress, plan);
+    plan.exposure = chosen_exposure(scenes);
+    const auto plain = scenes.assemble(BakedModels(scenes.objects().size()));
+    PlanWork work{.scenes = scenes,
+                  .options = options,
+                  .exposure = plan.exposure,
+                  .plain = plain.get(),
+                  .progress = progress,
+                  .notes = {}};
+    std::vector<ObjectDecision> decisions;
+    if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height: no model is chosen");
+    else if (options.decide_objects) plan_objects(work, decisions, plan);
+    const SceneEntries planned = scenes.as_seen(planned_entries(entries, plan));
+    if (!plan.interrupted) plan_parts(planned, options, plan, progress);
+    if (options.verify) until_stopped(plan, [&] { verify_plan(work, decisions, planned, plan); });
     if (progress) progress->finish();
     plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return plan;
