@@ -25,6 +25,8 @@ struct ProbeOptions {
 struct ProbedPixel {
     std::array<Vec3f, 2> mean{};
     std::array<std::uint32_t, 2> covered{}; ///< a bit per sample: its ray hits the object first
+    int samples = 16;                       ///< of each half
+    friend bool operator==(const ProbedPixel&, const ProbedPixel&) = default;
 };
 
 /// A scene and the instances that are the object, one entry per instance. Empty: every ray that hits anything or nothing
@@ -40,16 +42,19 @@ struct ProbedScene {
 std::vector<ProbedPixel> probe_pixels(const ProbedScene& scene, std::span<const Pixel> pixels,
                                       const ProbeOptions& options);
 
-/// m and a of one pixel in two scenes.
+/// m, a and v of one pixel in two scenes; zeros where no sample sees the object in either of them.
 PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference) noexcept;
 
 /// Pixels in which some ray hits the object in one of the scenes (a lattice of rays_per_edge^2 rays each) and their
-/// neighbours, in an order drawn from the seed.
+/// neighbours, in an order drawn from the seed. Rays are cast where the boxes of the object's instances can be seen. Where
+/// that is a few pixels, more rays find an object smaller than a pixel; where it is more than 65000, one ray per pixel has
+/// to do, and parts thinner than a pixel can be missed.
 std::vector<Pixel> object_pixels(std::span<const ProbedScene> scenes, const ProbeOptions& options,
                                  int rays_per_edge = 2);
 
 /// The error of a candidate against a reference, look by look until judge() settles it or all pixels or rule.most object
-/// pixels are visited. What is rendered of the reference is kept for further candidates.
+/// pixels are visited. What is rendered of the reference is kept for further candidates. Without pixels, as of an object
+/// that is out of view, estimates have 0 pixels and an error of 0, `all` is set, and every budget holds.
 class ReferenceProbe {
 public:
     /// The scene must outlive the object.
@@ -66,6 +71,14 @@ public:
     const std::vector<Pixel>& pixels() const noexcept { return pixels_; }
 
 private:
+    struct Visit {
+        ErrorTally tally;
+        std::size_t next = 0; ///< of pixels_
+    };
+    /// Goes on until `wanted` object pixels are visited; false if no pixels are left.
+    bool visit(const ProbedScene& candidate, std::int64_t wanted, Visit& visited);
+    SquareEstimate estimate(const Visit& visited) const noexcept;
+
     ProbedScene reference_;
     std::vector<Pixel> pixels_;
     ProbeOptions options_;
