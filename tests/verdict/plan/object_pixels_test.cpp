@@ -50,6 +50,27 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE(
+        "object_pixels: a floor that reaches behind the camera is found whole, and so is an object of two instances") {
+        const Scene scene = ball_above_floor(0);
+        const ProbeOptions options = probe_options(scene, 32);
+        ProbeOptions above = options;
+        above.camera.position = Vec3f(0, 0.5f, 2), above.camera.target = Vec3f(0, 0.5f, 0), above.camera.fov_deg = 90;
+        const auto check = [&](const std::vector<std::uint8_t>& object, const ProbeOptions& view) {
+            const Set found = set_of(object_pixels(std::array{ProbedScene{&scene, object}}, view));
+            const auto probed = probe_pixels({&scene, object}, all_pixels(32), view);
+            int seen = 0;
+            for (int i = 0; i < 32 * 32; ++i) {
+                if (!(probed[std::size_t(i)].covered[0] | probed[std::size_t(i)].covered[1])) continue;
+                CHECK(found.count({i % 32, i / 32}) == 1);
+                ++seen;
+            }
+            CHECK((seen > 200 && seen < 1000)); // not all of the picture
+        };
+        check({0, 1}, above);
+        check({1, 1}, options);
+    }
+
     TEST_CASE("object_pixels: they are those of any of the scenes; all without an object") {
         const Scene here = ball_above_floor(0), there = ball_above_floor(0);
         const ProbeOptions options = probe_options(here, 24);
@@ -62,6 +83,19 @@ TEST_SUITE("unit") {
         CHECK(set_of(object_pixels(std::array{ball, below}, options)) == both);
         CHECK(object_pixels(std::array{ProbedScene{&here, {}}}, options).size() == 24 * 24);
         CHECK(object_pixels({}, options).empty());
+    }
+
+    TEST_CASE("object_pixels: a scene far from 0 is seen as one at 0; a large picture has as many as a small one, in "
+              "proportion") {
+        const Vec3f far(1024, 0, -2048);
+        const Scene here = ball_above_floor(0), there = ball_above_floor(0, far);
+        REQUIRE(there.origin != Vec3f(0));
+        const auto near_pixels = pixels_of(here, probe_options(here, 64));
+        const auto far_pixels = pixels_of(there, probe_options(there, 64));
+        CHECK(std::abs(double(near_pixels.size()) - double(far_pixels.size())) < 8);
+        const auto large = pixels_of(here, probe_options(here, 512)); // one ray per pixel
+        CHECK(double(large.size()) / 64 < double(near_pixels.size()));
+        CHECK(double(large.size()) / 64 > 0.85 * double(near_pixels.size()));
     }
 
     TEST_CASE("object_pixels: the order is drawn from the seed; it is the same on any number of threads") {

@@ -1,0 +1,119 @@
+#include "bake/verdict/plan/plan_parts.h"
+#include "bake/base/error.h"
+#include "bake/base/interruption.h"
+#include "bake/base/progress.h"
+#include "bake/preview/render.h"
+#include "bake/verdict/plan/light_plan.h"
+#include "bake/verdict/plan/scene_twin.h"
+#include "bake/verdict/plan/sky_plan.h"
+#include "bake/verdict/plan/texture_plan.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bake {
+namespace {
+
+constexpr int exposure_edge = 96, exposure_spp = 16; ///< of the picture that the exposure is chosen by
+
+std::vector<PartOptions::View> planned_views(const SceneEntries& entries, const Scene& scene,
+                                             const std::vector<std::string>& names) {
+    Scene meshes; // without the ground, as load() places cameras
+    meshes.instances = scene.instances;
+    if (entries.ground) meshes.instances.pop_back();
+    const Bounds box = bounds(meshes);
+    const float aspect = float(entries.settings.width) / float(entries.settings.height);
+    std::vector<PartOptions::View> views;
+    const auto add = [&](const CameraEntry& entry) { views.push_back({entry.name, place_camera(entry, box, aspect)}); };
+    for (const std::string& name : names) add(entries.cameras[find_camera(entries.cameras, name, entries.file)]);
+    if (names.empty())
+        for (const CameraEntry& entry : entries.cameras) add(entry);
+    if (views.empty()) views.push_back({"", scene.camera});
+    return views;
+}
+
+float exposure_of(const Scene& scene) {
+    if (scene.settings.exposure) return *scene.settings.exposure;
+    RenderSettings settings = scene.settings;
+    const double scale = std::min(1.0, double(exposure_edge) / std::max(settings.width, settings.height));
+    settings.width = std::max(1, int(settings.width * scale)),
+    settings.height = std::max(1, int(settings.height * scale));
+    settings.part.reset();
+    settings.spp = exposure_spp;
+    return automatic_exposure(render(scene, settings));
+}
+
+int kinds_decided(const PlanOptions& options) noexcept {
+    return int(options.decide_textures || options.decide_formats) + int(options.decide_sky) +
+           int(options.decide_lights);
+}
+
+double rmse_of(const Budget& budget) noexcept {
+    switch (budget.metric) {
+    case Budget::Metric::rmse: return budget.value;
+    case Budget::Metric::flip: return budget.value / 2;
+    case Budget::Metric::degrees: break;
+    }
+    return Budget{}.value;
+}
+
+void decide(const Scene& scene, const SceneEntries& entries, const PlanOptions& options, PartOptions& parts,
+            ScenePlan& plan, Progress* progress) {
+    const auto tell = [&](const std::string& line) {
+        if (options.told) options.told(line);
+    };
+    if (options.decide_textures || options.decide_formats) {
+        parts.sizes = options.decide_textures, parts.formats = options.decide_formats;
+        plan.textures = plan_textures(scene, &entries, parts, progress);
+        for (const TexturePlan& texture : plan.textures) tell(texture.file + ": " + texture.why);
+    }
+    if (options.decide_sky) {
+        plan.sky = plan_sky(scene, parts, progress);
+        tell("sky: " + (plan.sky ? plan.sky->why : "the scene has none"));
+    }
+    if (options.decide_lights) {
+        plan.lights = plan_lights(scene, parts, progress);
+        for (const LightPlan& light : plan.lights) tell("light " + std::to_string(light.light) + ": " + light.why);
+    }
+}
+
+} // namespace
+
+double part_budget(const PlanOptions& options, const ScenePlan& plan) {
+    const double budget = rmse_of(options.budget);
+    double worst = 0;
+    for (const ObjectPlan& object : plan.objects)
+        if (object.chosen >= 0) worst = std::max(worst, object.rungs[std::size_t(object.chosen)].error.rmse());
+    return std::sqrt(std::max(0.0, budget * budget - worst * worst) / std::max(1, kinds_decided(options)));
+}
+
+void plan_parts(const SceneEntries& planned, const PlanOptions& options, ScenePlan& plan, Progress* progress) {
+    if (kinds_decided(options) == 0) return;
+    try {
+        const Scene scene = load(planned);
+        if (plan.objects.empty()) plan.exposure = exposure_of(scene);
+        PartOptions parts;
+        parts.views = planned_views(planned, scene, options.cameras);
+        parts.exposure = plan.exposure;
+        parts.budget = part_budget(options, plan);
+        parts.seed = options.seed;
+        decide(scene, planned, options, parts, plan, progress);
+    } catch (const Error& error) {
+        if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
+        plan.interrupted = true;
+    }
+    if (progress) progress->finish();
+}
+
+void apply_parts(const SceneEntries& planned, const ScenePlan& plan, Scene& scene) {
+    const std::vector<SceneTexture> textures = scene_textures(scene, &planned);
+    for (std::size_t i = 0; i < std::min(textures.size(), plan.textures.size()); ++i)
+        set_texture(scene, textures[i].materials, textures[i].use, planned_texture(textures[i], plan.textures[i]));
+    if (plan.sky && !scene.sky.cube.empty()) set_sky(scene, planned_sky(scene.sky.cube, *plan.sky));
+    for (const LightPlan& light : plan.lights) {
+        if (std::size_t(light.light) >= scene.lights.size()) continue;
+        if (!light.keep) scene.lights[std::size_t(light.light)].colour = Vec3f(0);
+        scene.settings.shadows = scene.settings.shadows && light.shadows;
+    }
+}
+
+} // namespace bake

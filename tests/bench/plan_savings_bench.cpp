@@ -1,0 +1,285 @@
+// plan_savings_bench: what bake plan saves of texture memory and of skies.
+//
+//   plan_savings_bench DATA [HEIGHTS]     normal maps: one row of csv per height and object on stdout; DATA is ../shared/data.
+//                                         HEIGHTS: only those whose names contain it
+//   plan_savings_bench --sky DATA         skies: one row per sky, material and kind of light
+//
+// Normal maps: the exact normals of a height with an rms slope of .3 on a plane and on five meshes, magnified to one texel per
+// pixel, under one directional light, with a highlight of Phong 50 on a diffuse surface. The reference is the full-size map in
+// float. `like` is the smallest form whose error on the same 1024 pixels is not above that of RGB of 8 bits at full size;
+// `normal` the one that a plan takes for an RMSE of .01. Bytes are those of all levels. `verified` are errors of the chosen form and of
+// RGB8 on other pixels with other random numbers.
+#include "bake/environment/file/environment_io.h"
+#include "bake/environment/file/sky_cube.h"
+#include "bake/mesh/file/mesh_io.h"
+#include "bake/preview/relief_method.h"
+#include "bake/preview/render.h"
+#include "bake/preview/shape_mesh.h"
+#include "bake/relief/map/bump_table.h"
+#include "bake/verdict/plan/sky_plan.h"
+#include "bake/verdict/plan/texture_plan.h"
+#include "bench.h"
+#include <cstring>
+
+using namespace bake;
+
+namespace {
+
+constexpr double rms_slope = 0.3;
+constexpr int window = 256; ///< pixels along an edge of the picture
+constexpr int probed = 1024;
+
+struct Named {
+    const char *name, *file;
+};
+/// The heights of the pairs, and one whose waves are 128 texels long.
+constexpr Named heights[] = {
+    {"waves", ""},
+    {"Rock020", "pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg"},
+    {"Tiles036", "pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg"},
+    {"Metal007", "pairs/ambientcg_Metal007/Metal007_1K_Displacement.jpg"},
+    {"metal_tech", "pairs/cube2_metal_tech_01/metal_tech_01_hm.png"},
+    {"diamond_plate", "pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png"},
+    {"wall_plate", "pairs/cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png"},
+    {"castell_wall", "pairs/cube2_castell_wall_gk_v01/castell_wall_gk_v01_hm.jpg"},
+    {"wooden_planks", "pairs/cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png"},
+    {"rock_formation", "pairs/cube2_rock_formation_gk_v01/rock_formation_gk_v01_hm.png"},
+    {"parallax_cube", "pairs/bevy_parallax_cube/cube_depth.png"},
+};
+constexpr Named meshes[] = {
+    {"plane", ""},
+    {"LeePerrySmith", "leeperrysmith/LeePerrySmith.obj"},
+    {"spot", "spot/spot_triangulated.obj"},
+    {"boombox", "materialx/boombox.obj"},
+    {"armor", "gltf/armor.obj"},
+    {"fuze", "trimesh/fuze.obj"},
+};
+
+HeightTexture waves() {
+    constexpr int size = 1024;
+    HeightTexture height;
+    height.values = Image<float>(size, size, 1);
+    height.levels = 257;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const auto wave = [](int at) { return std::sin(2 * pi * 8 * (at + 0.5) / size); };
+            height.values.at(x, y) = float(0.5 + 0.5 * wave(x) * wave(y));
+        }
+    return height;
+}
+
+/// World length per unit of uv, from areas.
+double length_per_uv(const Shape& shape) {
+    double world = 0, chart = 0;
+    for (const Triangle& triangle : shape.surface.triangles) {
+        Vec3d p[3];
+        Vec2d uv[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = Vec3d(shape.mesh.positions[shape.mesh.corner_position[triangle.corner[k]]]);
+            uv[k] = Vec2d(shape.mesh.uvs[shape.mesh.corner_uv[triangle.corner[k]]]);
+        }
+        world += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+        const Vec2d a = uv[1] - uv[0], b = uv[2] - uv[0];
+        chart += 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    }
+    return std::sqrt(world / chart);
+}
+
+/// Height per unit of value that gives the rms slope on a surface of this length per unit of uv.
+double amplitude_for(const HeightTexture& height, double length) {
+    const Image<float> slopes = bump_table(height, BumpTableOptions{});
+    double squares = 0;
+    for (std::size_t i = 0; i < slopes.size(); ++i) squares += double(slopes.data()[i]) * double(slopes.data()[i]);
+    return rms_slope * length / std::sqrt(squares / (double(slopes.size()) / 2));
+}
+
+Material shiny() {
+    Material material;
+    material.reflectance.model = Reflectance::Model::normalised_phong;
+    material.reflectance.diffuse = Vec3f(0.5f), material.reflectance.specular = Vec3f(0.3f);
+    material.reflectance.shininess = 50;
+    return material;
+}
+
+/// An object with a baked map, seen through a window in the middle of it.
+Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::string& data) {
+    Scene scene;
+    scene.shapes.push_back(
+        make_shape(*mesh.file ? read_mesh(data + "/meshes/" + mesh.file) : shape_mesh("plane", 1, 1)));
+    Shape& shape = *scene.shapes[0];
+    const double length = length_per_uv(shape);
+    ReliefOptions options;
+    options.method.shade = Shade::normal;
+    options.height.amplitude = amplitude_for(height, length);
+    scene.materials.push_back(std::make_unique<Material>(with_relief(shiny(), shape, height, options).material));
+    Placement placement;
+    if (!*mesh.file) placement.rotate_deg.x = 60; // from the ground towards the camera
+    add_instance(scene, shape, *scene.materials[0], placement);
+    const Bounds box = bounds(scene);
+    scene.camera = framing_camera(box, 40, 1);
+    scene.camera.orthographic = true;
+    scene.camera.view_height = float(window * length / height.values.width());
+    scene.settings.width = scene.settings.height = window;
+    Light<float> light;
+    light.from = glm::normalize(Vec3f(-0.3f, 0.7f, 1));
+    light.colour = Vec3f(1);
+    scene.lights = {light};
+    build(scene);
+    return scene;
+}
+
+struct Judged {
+    TextureForm form;
+    SquareEstimate error;
+};
+
+class Judge {
+public:
+    Judge(const Scene& scene, std::uint32_t seed) : texture_(scene_textures(scene).at(0)), twin_(twin_of(scene)) {
+        PartOptions options;
+        options.seed = seed;
+        const std::vector<ObjectMask> object = {
+            objects_with(scene, std::vector<const Material*>{scene.materials[0].get()})};
+        plan_.emplace(scene, object, options);
+        options.rule.fail_at = 1; // what may be equal is looked at to the end
+        probe_.emplace(scene, object, options);
+        halvings_ = halvings_of(*texture_.picture);
+    }
+    Scene& with(const TextureForm& form) {
+        set_texture(twin_, texture_.materials, texture_.use,
+                    stored(halvings_[std::size_t(form.halvings)], texture_.use, form));
+        return twin_;
+    }
+    SquareEstimate error(const TextureForm& form, int pixels = probed) {
+        return probe_->measure(with(form), pixels).error;
+    }
+    /// The smallest form whose error on the probed pixels is at most `most`.
+    Judged smallest(double most) {
+        Judged last;
+        for (const TextureForm& form : forms()) {
+            if (probe_->judge(with(form), most).error.low() > most) continue;
+            last = {form, probe_->measure(twin_, probed).error};
+            if (last.error.rmse() <= most) break;
+        }
+        return last;
+    }
+    /// The smallest form that a plan takes for a budget.
+    Judged smallest_within(double budget) {
+        Judged last;
+        for (const TextureForm& form : forms()) {
+            const WorstProbe::Result result = plan_->judge(with(form), budget);
+            last = {form, result.error};
+            if (result.within) break;
+        }
+        return last;
+    }
+    std::vector<TextureForm> forms() const {
+        return texture_forms(texture_.use, texture_.picture->width(), texture_.picture->height());
+    }
+    TextureForm full(int channels, int bits, int halvings = 0) const {
+        for (const TextureForm& form : forms())
+            if (form.channels == channels && form.bits == bits && form.halvings == halvings) return form;
+        return {};
+    }
+
+private:
+    SceneTexture texture_;
+    Scene twin_;
+    std::optional<WorstProbe> probe_, plan_;
+    std::vector<Image<float>> halvings_;
+};
+
+void measure_map(const Named& mesh, const Named& name, const HeightTexture& height, const std::string& data) {
+    const Scene scene = mapped_scene(mesh, height, data);
+    Judge judge(scene, 0);
+    const TextureForm rgb8 = judge.full(3, 8);
+    const double own = judge.error(rgb8).rmse(), half = judge.error(judge.full(3, 16, 1)).rmse();
+    const double quarter = judge.error(judge.full(3, 16, 2)).rmse();
+    const Judged like = judge.smallest(own), normal = judge.smallest_within(0.01);
+    Judge other(scene, 1);
+    const double again = other.error(like.form, probed).rmse(), own_again = other.error(rgb8, probed).rmse();
+    const double normal_again = other.error(normal.form, 4 * probed).rmse();
+    const auto row = [](const Judged& judged) {
+        return bench::text("%d,%d,%d,%lld,%.4g", judged.form.width, judged.form.channels, judged.form.bits,
+                           static_cast<long long>(judged.form.bytes()), judged.error.rmse());
+    };
+    std::printf("%s,%s,%d,%lld,%.4g,%.4g,%.4g,%s,%s,%.4g,%.4g,%.4g\n", mesh.name, name.name, rgb8.width,
+                static_cast<long long>(rgb8.bytes()), own, half, quarter, row(like).c_str(), row(normal).c_str(),
+                own_again, again, normal_again);
+    std::fflush(stdout);
+}
+
+void measure_maps(const std::string& data, const std::string& only) {
+    std::printf(
+        "object,height,size,rgb8_bytes,rgb8_error,half_error,quarter_error,like_size,like_channels,like_bits,like_"
+        "bytes,like_error,normal_size,normal_channels,normal_bits,normal_bytes,normal_error,verified_rgb8,"
+        "verified_like,verified_normal\n");
+    for (const Named& name : heights) {
+        if (std::string(name.name).find(only) == std::string::npos) continue;
+        const HeightTexture height = *name.file ? read_height(data + "/textures/" + name.file) : waves();
+        for (const Named& mesh : meshes) measure_map(mesh, name, height, data);
+    }
+}
+
+struct Finish {
+    const char* name;
+    Reflectance::Model model;
+    float diffuse, specular, sharpness, reflect;
+};
+constexpr Finish finishes[] = {
+    {"lambert", Reflectance::Model::blinn, 0.8f, 0, 1, 0},
+    {"phong50", Reflectance::Model::normalised_phong, 0.3f, 0.5f, 50, 0},
+    {"ggx_roughness_.5", Reflectance::Model::ggx, 0.8f, 0, 0.5f, 0}, // alpha .25
+    {"ggx_roughness_.25", Reflectance::Model::ggx, 0.8f, 0, 0.25f, 0},
+    {"mirror", Reflectance::Model::blinn, 0, 0, 1, 1},
+};
+
+/// A ball that fills the picture: the sky itself is not seen.
+Scene lit_scene(const std::string& sky, const Finish& finish, SkyLighting light) {
+    Scene scene;
+    scene.settings.sky_light = light;
+    scene.sky.cube = sky_cube(read_environment({sky}));
+    scene.shapes.push_back(make_shape(shape_mesh("sphere:R=1", 96, 48)));
+    auto material = std::make_unique<Material>();
+    material->name = finish.name;
+    material->reflectance.model = finish.model;
+    material->reflectance.diffuse = Vec3f(finish.diffuse), material->reflectance.specular = Vec3f(finish.specular);
+    material->reflectance.shininess = material->reflectance.roughness = finish.sharpness;
+    if (finish.model == Reflectance::Model::ggx) material->reflectance.metallic = 1;
+    material->reflect = Vec3f(finish.reflect);
+    scene.materials.push_back(std::move(material));
+    add_instance(scene, *scene.shapes[0], *scene.materials[0]);
+    scene.camera = framing_camera(bounds(scene), 40, 1);
+    // Inside the ball's outline.
+    scene.camera.fov_deg = float(2 * std::atan(0.6 / double(glm::length(scene.camera.position))) * 180 / pi);
+    scene.settings.width = scene.settings.height = window;
+    build(scene);
+    return scene;
+}
+
+void measure_skies(const std::string& data) {
+    std::printf("sky,material,source_face,source_bytes,model,face,bytes,error,error_low,error_high,light,seconds\n");
+    for (const SkyLighting light : {SkyLighting::irradiance, SkyLighting::sampled})
+        for (const char* sky : {"lebombo_1k.hdr", "studio_small_03_1k.hdr", "blender_forest.exr", "blender_sunset.exr"})
+            for (const Finish& finish : finishes) {
+                const Scene scene = lit_scene(data + "/environments/latlong/" + sky, finish, light);
+                SkyPlan plan;
+                PartOptions options;
+                options.exposure = automatic_exposure(render(scene, scene.settings));
+                const double seconds = bench::seconds([&] { plan = *plan_sky(scene, options); });
+                std::fprintf(stderr, "%s, %s: %s\n", sky, finish.name, plan.why.c_str());
+                std::printf("%s,%s,%d,%lld,%s,%d,%lld,%.4g,%.4g,%.4g,%s,%.3g\n", sky, finish.name, plan.source_face,
+                            static_cast<long long>(plan.source_bytes), plan.model.c_str(), plan.face,
+                            static_cast<long long>(plan.bytes), plan.error.rmse(), plan.error.low(), plan.error.high(),
+                            light == SkyLighting::sampled ? "sampled" : "filtered", seconds);
+                std::fflush(stdout);
+            }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 3 && std::strcmp(argv[1], "--sky") == 0) measure_skies(argv[2]);
+    else if (argc == 2 || argc == 3) measure_maps(argv[1], argc == 3 ? argv[2] : "");
+    else return std::fprintf(stderr, "plan_savings_bench DATA [HEIGHTS] | --sky DATA\n"), 2;
+}
