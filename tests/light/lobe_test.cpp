@@ -182,6 +182,16 @@ TEST_SUITE("unit") {
         CHECK(sample(Bsdf{}, up, up, 0.5f, {0.5f, 0.5f}).factor == Vec3f(0));
     }
 
+    TEST_CASE("lobe: what stands behind the last lobe does not count") {
+        const Bsdf two = metallic_roughness(Vec3f(0.5f), 0, 0.3f);
+        REQUIRE(cover(two, up, Vec3f(direction(60))).x < 1);
+        Bsdf one = two;
+        one.count = 1; // lobes[1] is still a covered one
+        CHECK(cover(one, up, Vec3f(direction(60))) == Vec3f(1));
+        CHECK(total(evaluate(one, up, Vec3f(direction(20)), Vec3f(direction(60)))) ==
+              total(evaluate(sum_of({two.lobes[0]}), up, Vec3f(direction(20)), Vec3f(direction(60)))));
+    }
+
     TEST_CASE("lobe: turning all vectors changes nothing") {
         const Bsdf bsdf =
             sum_of({lobe(LobeKind::lambert, 0.3f), cosine_lobe(LobeKind::phong, 9), ggx_lobe(0.3f, 0.5f)});

@@ -36,6 +36,20 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("test_sky: an arrow to the right and one down, and nothing beside them") {
+        const int n = 200;
+        const Cube cube = label_sky(n);
+        for (const Image<float>& face : cube.faces) {
+            const auto is_white = [&](double s, double t) { return brightness(face, int(s * n), int(t * n)) > 2.8f; };
+            CHECK(is_white(0.8, 0.5));
+            CHECK(is_white(0.42, 0.76));
+            CHECK_FALSE(is_white(0.97, 0.5));
+            CHECK_FALSE(is_white(0.77, 0.5));
+            CHECK_FALSE(is_white(0.42, 0.97));
+            CHECK_FALSE(is_white(0.3, 0.76));
+        }
+    }
+
     TEST_CASE(
         "test_sky: texel (0, 0) is in the white corner, no other corner is, and all values are those of a picture") {
         for (const int n : {1, 2, 16, 64, 200}) {

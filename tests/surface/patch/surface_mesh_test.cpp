@@ -172,6 +172,16 @@ TEST_SUITE("stability") {
         CHECK(disc.degenerate[0].what == Degenerate::pole);
     }
 
+    TEST_CASE("surface_summary: what is listed of a mesh without uvs has uv 0") {
+        Mesh line; // a triangle without area
+        line.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+        line.corner_position = {0, 1, 2};
+        line.face_begin = {0, 3};
+        const SurfaceSummary s = summarise(surface_mesh(BaseSurface(std::move(line)), SurfaceKind::mesh));
+        REQUIRE_FALSE(s.degenerate.empty());
+        for (const DegeneratePoint& d : s.degenerate) CHECK(d.uv == Vec2f(0));
+    }
+
     TEST_CASE("surface_summary: corners without area in uv are listed with their place; the normal stays") {
         Mesh mesh = oracle::torus_mesh(8, 6, true);
         for (std::size_t k = 0; k < 4; ++k) mesh.corner_uv[40 + k] = mesh.corner_uv[40];

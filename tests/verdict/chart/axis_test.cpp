@@ -51,7 +51,7 @@ TEST_SUITE("unit") {
         CHECK(numbers({1e-7, 1e-4}, true, 8) == "1e-7 1e-6 1e-5 1e-4 ");
         CHECK(numbers({1e-12, 1e12}, true, 5) == "1e-12 1e-6 1 1e6 1e12 ");
         CHECK(numbers({2, 4}, true, 5) == "2 2.5 3 3.5 4 ");
-        CHECK(numbers({0, 10}, false, 5) == "0 5 10 ");
+        CHECK(numbers({0, 10}, false, 5) == "0 2 4 6 8 10 ");
         CHECK(numbers({-1, 1}, false, 5) == "-1 -0.5 0 0.5 1 ");
     }
 

@@ -50,6 +50,27 @@ TEST_SUITE("unit") {
         CHECK(svg.find(">closed form</text>") != std::string::npos);
     }
 
+    TEST_CASE("line_chart_svg: expected points and the limit stand on the axes of the line") {
+        LineChart c = chart();
+        c.series = {{.label = "a", .points = {{0, 0}, {2, 4}}, .expected = {{1, 8}, {2, NAN}}}};
+        c.limit = 6;
+        const std::string svg = line_chart_svg(c);
+        REQUIRE(is_well_formed(svg));
+        const SvgPiece p = svg_all(svg, "rect").at(1);
+        const double left = p.number("x"), w = p.number("width"), top = p.number("y"), h = p.number("height");
+        const auto down = [&](double y) { return top + h * (1 - (0.06 + y / 8) / 1.12); };
+        std::vector<SvgPiece> expected;
+        for (const SvgPiece& dot : svg_all(svg, "circle"))
+            if (dot.value("class") == "expected") expected.push_back(dot);
+        REQUIRE(expected.size() == 1);
+        CHECK(expected[0].number("cx") == doctest::Approx(left + w / 2).epsilon(1e-4));
+        CHECK(expected[0].number("cy") == doctest::Approx(down(8)).epsilon(1e-4));
+        double limit = 0;
+        for (const SvgPiece& line : svg_all(svg, "line"))
+            if (line.value("stroke") == "#777") limit = line.number("y1");
+        CHECK(limit == doctest::Approx(down(6)).epsilon(1e-4));
+    }
+
     TEST_CASE("line_chart_svg: what is not finite interrupts the line") {
         LineChart c = chart();
         c.series = {{"a", {{0, 1}, {1, 2}, {2, NAN}, {3, 4}, {4, INFINITY}, {5, 6}, {6, 7}, {7, 8}}}};

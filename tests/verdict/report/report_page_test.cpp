@@ -51,10 +51,10 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("report: text is safe in HTML, and commands are whole") {
-        CHECK(html("<b>&\"x\"\n") == "&lt;b&gt;&amp;&quot;x&quot;\\n");
+        CHECK(heading({{"object", "<b>"}, {"scene", "a&b"}}) == "&lt;b&gt; <span>in a&amp;b</span>");
         const std::string list = commands(report_json());
         CHECK(count(list, "<li ") == 11);
-        CHECK(list.find("--methods '&lt;b&gt;&amp;&quot;blinn&quot;'</code>") != std::string::npos);
+        CHECK(list.find("--methods &#39;&lt;b&gt;&amp;&quot;blinn&quot;&#39;</code>") != std::string::npos);
     }
 
     TEST_CASE("base64: the vectors of RFC 4648") {

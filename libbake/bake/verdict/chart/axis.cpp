@@ -16,10 +16,10 @@ std::string power_text(int digit, int exponent) {
     return format("%.*f", std::max(0, -exponent), digit * std::pow(10.0, exponent));
 }
 
-/// The step of about `wanted` ticks over a span: 1, 2 or 5 times a power of ten.
+/// The step of about `wanted` ticks over a span: 1, 2 or 5 times a power of ten, whichever is nearest by its factor.
 double even_step(double span, int wanted) {
-    const double least = span / wanted, power = std::pow(10.0, std::floor(std::log10(least)));
-    return least <= power ? power : least <= 2 * power ? 2 * power : least <= 5 * power ? 5 * power : 10 * power;
+    const double even = span / wanted, power = std::pow(10.0, std::floor(std::log10(even))), digit = even / power;
+    return power * (digit < std::sqrt(2.0) ? 1 : digit < std::sqrt(10.0) ? 2 : digit < std::sqrt(50.0) ? 5 : 10);
 }
 
 std::vector<Tick> even_ticks(const Axis& axis, int wanted) {

@@ -25,20 +25,25 @@ std::string stroke_of(std::size_t series) {
 
 bool can_draw(const ChartPoint& p) { return is_drawable(p.x) && is_drawable(p.y); }
 
-Axis axis_along_x(const LineChart& chart) {
+/// The values of one coordinate that can be drawn.
+std::vector<double> values_of(const LineChart& chart, double ChartPoint::*coordinate) {
     std::vector<double> values;
     for (const LineSeries& s : chart.series)
-        for (const ChartPoint& p : s.points)
-            if (can_draw(p)) values.push_back(p.x);
+        for (const std::vector<ChartPoint>* points : {&s.points, &s.expected})
+            for (const ChartPoint& p : *points)
+                if (can_draw(p)) values.push_back(p.*coordinate);
+    return values;
+}
+
+Axis axis_along_x(const LineChart& chart) {
+    std::vector<double> values = values_of(chart, &ChartPoint::x);
     for (const ChartMark& mark : chart.marks) values.push_back(mark.x);
     return axis_of(values, chart.logarithmic_x);
 }
 
 Axis axis_along_y(const LineChart& chart) {
-    std::vector<double> values;
-    for (const LineSeries& s : chart.series)
-        for (const ChartPoint& p : s.points)
-            if (can_draw(p)) values.push_back(p.y);
+    std::vector<double> values = values_of(chart, &ChartPoint::y);
+    if (chart.limit) values.push_back(*chart.limit);
     return axis_of(values, chart.logarithmic_y);
 }
 
@@ -60,6 +65,11 @@ std::string draw_series(const LineSeries& series, std::size_t index, const Frame
                 "</title></circle>\n";
     }
     end_line();
+    for (const ChartPoint& p : series.expected)
+        if (can_draw(p))
+            out += "<circle class=\"expected\" cx=\"" + px(place_px(frame.x, p.x)) + "\" cy=\"" +
+                   px(place_px(frame.y, p.y)) + "\" r=\"4\" fill=\"" + colours[index % colour_count] +
+                   "\" fill-opacity=\"0.35\"/>\n";
     return out + dots + "</g>\n";
 }
 
@@ -144,6 +154,10 @@ std::string line_chart_svg(const LineChart& chart) {
     }
     std::string out = draw_frame(text, frame, base - start);
     out += draw_marks(chart, place_marks(chart, frame), frame);
+    if (chart.limit && is_drawable(*chart.limit)) {
+        const double y = place_px(frame.y, *chart.limit);
+        out += svg_line(frame.plot.left, y, frame.plot.right, y, "stroke=\"#777\" stroke-dasharray=\"2 3\"");
+    }
     for (std::size_t i = 0; i < chart.series.size(); ++i) out += draw_series(chart.series[i], i, frame);
     return out + key + "</svg>\n";
 }

@@ -1,5 +1,6 @@
 // A chart of one or more series along an axis, with marks at places of it, as an SVG picture.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ struct ChartPoint {
 
 struct LineSeries {
     std::string label;
-    std::vector<ChartPoint> points; ///< joined in this order; one that is not finite interrupts the line
+    std::vector<ChartPoint> points;        ///< joined in this order; one that is not finite interrupts the line
+    std::vector<ChartPoint> expected = {}; ///< such as by a closed form: wide pale dots without a line
 };
 
 /// A vertical line, such as where a method breaks.
@@ -25,6 +27,7 @@ struct LineChart {
     bool logarithmic_x = false, logarithmic_y = false;
     std::vector<LineSeries> series;
     std::vector<ChartMark> marks;
+    std::optional<double> limit;   ///< a dotted line across, such as the error from which on a method is broken
     std::string note;              ///< a line beneath; empty: none
     int width = 560, height = 360; ///< px, without the lines beneath
 };

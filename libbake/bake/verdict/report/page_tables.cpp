@@ -1,6 +1,6 @@
 #include "bake/verdict/report/page_tables.h"
-#include "bake/base/printable.h"
 #include "bake/base/text.h"
+#include "bake/verdict/chart/svg.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -130,9 +130,9 @@ std::string table_of(const char* name, const Json& report, const std::vector<Fil
     }
     for (const Filled& f : columns)
         titles +=
-            std::string("<th scope=\"col\" title=\"") + html(f.column->meaning) + "\">" + f.column->title + "</th>";
+            std::string("<th scope=\"col\" title=\"") + xml_text(f.column->meaning) + "\">" + f.column->title + "</th>";
     for (std::size_t i = 0; i < methods(report).size(); ++i) {
-        const std::string method = html(text_or(methods(report)[i], "method", "?"));
+        const std::string method = xml_text(text_or(methods(report)[i], "method", "?"));
         rows += "<tr data-method=\"" + method + "\"><th scope=\"row\">" + key(i + 1) + " " + method + "</th>";
         for (const Filled& f : columns) rows += cell(f, i);
         rows += "</tr>\n";
@@ -155,22 +155,10 @@ void take(std::vector<Filled>& to, const Columns& columns, const std::string& ro
 }
 
 void fact(std::string& out, const char* name, const std::string& value) {
-    if (!value.empty()) out += std::string("<div><dt>") + name + "</dt><dd>" + html(value) + "</dd></div>\n";
+    if (!value.empty()) out += std::string("<div><dt>") + name + "</dt><dd>" + xml_text(value) + "</dd></div>\n";
 }
 
 } // namespace
-
-std::string html(const std::string& text) {
-    std::string out;
-    for (const char c : printable(text)) switch (c) {
-        case '&': out += "&amp;"; break;
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += c;
-        }
-    return out;
-}
 
 double number_or(const Json& json, const std::string& path, double otherwise) {
     const std::optional<double> v = number(json, path);
@@ -194,8 +182,8 @@ std::string page_title(const Json& report) {
 
 std::string heading(const Json& report) {
     const std::string object = text_or(report, "object", ""), scene = text_or(report, "scene", "scene");
-    if (object.empty()) return html(scene);
-    return html(object) + " <span>in " + html(scene) + "</span>";
+    if (object.empty()) return xml_text(scene);
+    return xml_text(object) + " <span>in " + xml_text(scene) + "</span>";
 }
 
 std::string facts(const Json& report) {
@@ -215,7 +203,7 @@ std::string facts(const Json& report) {
 }
 
 std::string caption(const Json& report, const std::string& method, std::size_t index) {
-    std::string out = key(index) + " <b>" + html(method) + "</b>";
+    std::string out = key(index) + " <b>" + xml_text(method) + "</b>";
     if (index == 0) return out + " reference";
     for (const Json& row : methods(report)) {
         if (text_or(row, "method", "") != method) continue;
@@ -240,13 +228,13 @@ std::string commands(const Json& report) {
     std::string out;
     const auto item = [&](const std::string& label, const std::string& method, const std::string& command) {
         if (!command.empty())
-            out += "<li data-method=\"" + html(method) + "\"><span>" + label + "</span><code>" + html(command) +
+            out += "<li data-method=\"" + xml_text(method) + "\"><span>" + label + "</span><code>" + xml_text(command) +
                    "</code></li>\n";
     };
     item("all", "", text_or(report, "command", ""));
     for (std::size_t i = 0; i < methods(report).size(); ++i) {
         const std::string method = text_or(methods(report)[i], "method", "?");
-        item(key(i + 1) + " " + html(method), method, text_or(methods(report)[i], "command", ""));
+        item(key(i + 1) + " " + xml_text(method), method, text_or(methods(report)[i], "command", ""));
     }
     return out.empty() ? "" : "<ol>\n" + out + "</ol>\n";
 }

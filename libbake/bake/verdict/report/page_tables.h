@@ -6,9 +6,6 @@
 
 namespace bake {
 
-/// Text in HTML, and in attributes between double quotes. Control characters become visible, as printable() writes them.
-std::string html(const std::string& text);
-
 /// The number at a path such as "object/flip/mean", or `otherwise`.
 double number_or(const nlohmann::ordered_json& json, const std::string& path, double otherwise);
 int integer_or(const nlohmann::ordered_json& json, const std::string& path, int otherwise);

@@ -2,6 +2,7 @@
 #include "bake/base/base64.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
+#include "bake/verdict/chart/svg.h"
 #include "bake/verdict/metric/false_colour.h"
 #include "bake/verdict/report/page_assets.h"
 #include "bake/verdict/report/page_tables.h"
@@ -32,7 +33,7 @@ std::string image(const char* kind, const std::string& webp, const std::string& 
     if (webp.empty()) return "";
     const std::string size =
         format(" width=\"%d\" height=\"%d\"", integer_or(report, "width", 1024), integer_or(report, "height", 1024));
-    return std::string("<img class=\"") + kind + "\" alt=\"" + html(text) + "\"" + size +
+    return std::string("<img class=\"") + kind + "\" alt=\"" + xml_text(text) + "\"" + size +
            " decoding=\"async\" loading=\"lazy\" src=\"data:image/webp;base64," + base64(webp) + "\">\n";
 }
 
@@ -42,8 +43,8 @@ std::string figures(const Json& report, const std::vector<ReportPicture>& pictur
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const std::string& method = pictures[i].method;
         const StoredPicture& files = stored.pictures[i];
-        out += "<figure data-method=\"" + html(method) + "\">\n<div>" + image("shown", files.shown, method, report) +
-               image("highlights", files.highlights, "", report) +
+        out += "<figure data-method=\"" + xml_text(method) + "\">\n<div>" +
+               image("shown", files.shown, method, report) + image("highlights", files.highlights, "", report) +
                image("errors", files.errors, "FLIP errors of " + method, report) + "</div>\n<figcaption>" +
                caption(report, method, i) + "</figcaption>\n</figure>\n";
     }
@@ -104,7 +105,7 @@ std::string report_page(const std::string& json, const std::vector<ReportPicture
     for (const ReportPicture& picture : pictures) pixels += double(picture.picture.width()) * picture.picture.height();
     const StoredPictures stored =
         store_pictures(pictures, float(number_or(report, "exposure", 0)), report_budget(pixels));
-    return fill(page_template, {{"title", html(page_title(report))},
+    return fill(page_template, {{"title", xml_text(page_title(report))},
                                 {"style", page_style},
                                 {"script", page_script},
                                 {"magma", magma_tables()},
@@ -114,8 +115,8 @@ std::string report_page(const std::string& json, const std::vector<ReportPicture
                                 {"shares", share_bars(report)},
                                 {"commands", commands(report)},
                                 {"figures", figures(report, pictures, stored)},
-                                {"stored", html(stored_note(stored))},
-                                {"stored_errors", html(errors_note(stored))},
+                                {"stored", xml_text(stored_note(stored))},
+                                {"stored_errors", xml_text(errors_note(stored))},
                                 {"data", script_data(report)}});
 }
 

@@ -1,5 +1,6 @@
 // Stacked bars of the shares of the squared error by cause, as HTML without a script.
 #include "bake/base/text.h"
+#include "bake/verdict/chart/svg.h"
 #include "bake/verdict/report/page_tables.h"
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -46,7 +47,7 @@ std::vector<Bar> bars_of(const Json& report) {
 std::string segment(std::size_t cause, double from, double width, double share, const std::string& method) {
     const std::string text = format("%.0f %%", 100 * share);
     return format("<i class=\"cause%d\" style=\"left:%.3f%%;width:%.3f%%\" title=\"", int(cause), from, width) +
-           html(method) + format(": %s %s\">", causes[cause].name, text.c_str()) + (width > 6 ? text : "") + "</i>";
+           xml_text(method) + format(": %s %s\">", causes[cause].name, text.c_str()) + (width > 6 ? text : "") + "</i>";
 }
 
 } // namespace
@@ -63,8 +64,8 @@ std::string share_bars(const Json& report) {
             legend += format("<span><i class=\"cause%d\"></i>%s</span>", int(k), causes[k].name);
     for (const Bar& bar : bars) {
         double left = zero, right = zero;
-        rows += "<li data-method=\"" + html(bar.method) + "\"><span><kbd>" + std::to_string(bar.index) + "</kbd> " +
-                html(bar.method) + "</span><div>";
+        rows += "<li data-method=\"" + xml_text(bar.method) + "\"><span><kbd>" + std::to_string(bar.index) + "</kbd> " +
+                xml_text(bar.method) + "</span><div>";
         for (std::size_t k = 0; k < bar.shares.size(); ++k) {
             const double share = bar.shares[k], width = scale * std::abs(share);
             if (share < 0) left -= width;
