@@ -30,11 +30,17 @@ TEST_SUITE("cli") {
         fs::copy_file(dots, folder / png);
         fs::copy_file(torus, folder / obj);
         write_file(folder / toml, "mesh = [{file = \"" + torus + "\"}]\n");
+        const std::string relief = hostile + "_relief.toml"; // whose object has such a name too
+        write_file(folder / relief, "material = [{name = \"a\", height = \"" + dots + "\"}]\nmesh = [{name = " +
+                                        "\"a\\u001b[2J\\nbake: all is well\", file = \"" + torus +
+                                        "\", material = \"a\"}]\n");
         const std::string out_png = hostile + "_out.png", out_ply = hostile + "_out.ply";
         const std::vector<std::vector<std::string>> lines = {
             {"check", png, obj},
             {"check", obj, "--against", obj},
+            {"check", obj, "--height", png},
             {"compare", png, png},
+            {"plan", relief, "--size", "8", "-o", hostile + "_out.toml"},
             {"normal-map", obj, "--height", png, "--amplitude", "200%", "--size", "32", "-o", out_png},
             {"bump-table", png, "-o", out_png},
             {"explain", obj, "--height", png, "--uv", "0.5,0.5"},

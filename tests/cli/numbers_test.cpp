@@ -49,7 +49,8 @@ std::vector<std::string> not_numbers(const std::string& type) {
         values.insert(values.end(), {"nan", ""});
     };
     if (is_one_of(type, {"", "TEXT", "Excludes:", "Needs:", "MESH", "PREFIX", "NAMES", "HEIGHT", "CAMERA", "NAME",
-                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]", "OUT.html"}))
+                         "KEY", "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]", "OUT.html", "PLANNED.toml", "BAKES.toml",
+                         "NAME,...|all"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
@@ -59,6 +60,10 @@ std::vector<std::string> not_numbers(const std::string& type) {
         std::erase(values, "0.5,1,5"); // three numbers
     } else if (type == "METRIC") fill("flip=", "");
     else if (type == "sh:N|direct") fill("sh:", "");
+    else if (type == "strict|normal|loose|rmse") {
+        fill("rmse=", "");
+        std::erase(values, "rmse=inf"); // a budget without bound
+    } else if (type == "triangles") fill("bytes=", "");
     else if (is_one_of(type, {"N|WxH", "NxM|N"})) values.insert(values.end(), {"1xnan", "1x"});
     else if (type == "LENGTH|N%") values.insert(values.end(), {"nan%", "%"});
     else if (type.find('|') != std::string::npos) return {}; // one of a few names
@@ -73,6 +78,7 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
     const std::map<std::string, std::vector<std::string>> lines = {
         {"check", {torus, "--against", torus}},
         {"compare", {dots, dots}},
+        {"plan", {(own_meshes() / "studs.toml").string()}},
         {"bump-table", {dots, "-o", "a.exr"}},
         {"normal-map", {torus, "--height", dots, "-o", "a.png"}},
         {"explain", {torus, "--height", dots}},

@@ -270,6 +270,7 @@ TEST_SUITE("cli") {
             {"surface", "--shape", "sphere", "--maps-out", "m", "--size", "8"},
             {"cubemap", "labels", "--size", "16", "-o", "c.exr"},
             {"compare", dots, dots},
+            {"plan", (own_meshes() / "studs.toml").string(), "--size", "8", "--budget", "loose", "-o", "p.toml"},
             {"render", "scene.toml", "-o", "r.png", "--size", "16x16", "--spp", "1"}};
         for (const std::string& verb : verbs()) {
             const bool writes =

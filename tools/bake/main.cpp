@@ -74,6 +74,7 @@ constexpr VerbEntry verbs[] = {
      surface_verb},
     {"check", "Report what is in meshes and images, and what is wrong with them", check_verb},
     {"compare", "Compare methods of relief in a scene, or two pictures, normal maps or meshes", compare_verb},
+    {"plan", "Choose the cheapest model of each object within an error budget, by probes of the picture", plan_verb},
     {"cubemap", "Assemble, convert, filter and capture environments: six faces or one picture", cubemap_verb},
     {"render", "Render a preview of a scene, a mesh, or a map on a shape", render_verb},
     {"explain", "Print every step from the height file to the shaded pixel for one texel", explain_verb},

@@ -41,6 +41,7 @@ Verb normal_map_verb;
 Verb displace_verb;
 Verb check_verb;
 Verb compare_verb;
+Verb plan_verb;
 Verb surface_verb;
 Verb render_verb;
 Verb explain_verb;

@@ -162,7 +162,8 @@ void Path::add_translucent(const Surfel& s, const Hit& hit, int diffuse_bounces,
 }
 
 Vec3f Path::mirrored(const Surfel& s, int bounces, int diffuse_bounces) noexcept {
-    const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.next2()) : s.n;
+    // The numbers of a branch, so that those of what is mirrored are the same where nothing was averaged away.
+    const Vec3f n = s.variance > 0 ? varied_normal(s.n, s.variance, sampler.branch().next2()) : s.n;
     const Ray ray{offset_origin(s.at, s.facet), mirror_above(s.v, n, s.facet)};
     if (bounces <= 0) return sky_radiance(scene.sky, ray.direction, s.cone.spread);
     return along(ray, s.cone, bounces - 1, diffuse_bounces).total();
@@ -199,7 +200,11 @@ void Path::add_rest(const Surfel& s, const Hit& hit, int bounces, int diffuse_bo
     }
     if (s.bsdf.translucent != Vec3f(0)) {
         const TermRecord record(terms_of(first), sum.diffuse, sum.specular, LightTerm::from_inside);
-        add_translucent(s, hit, diffuse_bounces, sum);
+        // However many numbers the light from inside takes, what follows does not depend on it. The first pair of a branch
+        // from here may be that of a mirror's normal.
+        Sampler inside = sampler.branch();
+        inside.skip();
+        Path{scene, inside, stats}.add_translucent(s, hit, diffuse_bounces, sum);
     }
     // Beyond the first hit one of two branches is followed, so that the time does not double with every bounce.
     const bool choose = !first && sky && mirror;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int least_rays = 4096; ///< through the box of an object; fewer would miss one that is smaller than a pixel
 constexpr int most_rays_per_edge = 16;
+constexpr std::int64_t most_rays = 1 << 18; ///< beyond one per pixel; what is missed is near what is found
 
 /// Columns and rows of the picture, the ends not included.
 struct Region {
@@ -97,6 +98,7 @@ void mark(const ProbedScene& probed, const ProbeOptions& options, int rays_per_e
     const std::int64_t pixels = std::int64_t(region.x1 - region.x0) * (region.y1 - region.y0);
     int edge = std::max(1, rays_per_edge);
     while (edge < most_rays_per_edge && pixels * edge * edge < least_rays) ++edge;
+    while (edge > 1 && pixels * edge * edge > most_rays) --edge;
     const RowMarker mark_row(probed, frame, settings, edge);
     for_rows(region.y1 - region.y0, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = region.y0 + begin; y < region.y0 + end; ++y)

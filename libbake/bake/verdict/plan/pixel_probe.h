@@ -26,6 +26,7 @@ struct ProbedPixel {
     std::array<Vec3f, 2> mean{};
     std::array<std::uint32_t, 2> covered{}; ///< a bit per sample: its ray hits the object first
     int samples = 16;                       ///< of each half
+    friend bool operator==(const ProbedPixel&, const ProbedPixel&) = default;
 };
 
 /// A scene and the instances that are the object, one entry per instance. Empty: every ray that hits anything or nothing
@@ -41,12 +42,13 @@ struct ProbedScene {
 std::vector<ProbedPixel> probe_pixels(const ProbedScene& scene, std::span<const Pixel> pixels,
                                       const ProbeOptions& options);
 
-/// m and a of one pixel in two scenes; zeros where no sample sees the object in either of them.
+/// m, a and v of one pixel in two scenes; zeros where no sample sees the object in either of them.
 PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference) noexcept;
 
 /// Pixels in which some ray hits the object in one of the scenes (a lattice of rays_per_edge^2 rays each) and their
-/// neighbours, in an order drawn from the seed. Rays are cast where the boxes of the object's instances can be seen; where
-/// that is a small part of the picture, more per pixel, so that an object smaller than a pixel is found.
+/// neighbours, in an order drawn from the seed. Rays are cast where the boxes of the object's instances can be seen. Where
+/// that is a few pixels, more rays find an object smaller than a pixel; where it is more than 65000, one ray per pixel has
+/// to do, and parts thinner than a pixel can be missed.
 std::vector<Pixel> object_pixels(std::span<const ProbedScene> scenes, const ProbeOptions& options,
                                  int rays_per_edge = 2);
 

@@ -25,6 +25,7 @@ struct PlanOptions {
     bool decide_objects = true, decide_textures = false, decide_formats = false, decide_sky = false,
          decide_lights = false;
     bool verify = false;
+    bool neighbours = true; ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
     bool measure = false; ///< milliseconds are timed, and the plan may differ from run to run
     std::uint32_t seed = 0;
     std::function<void(const std::string&)> told; ///< a line for each decision
@@ -64,6 +65,8 @@ struct ObjectPlan {
     std::vector<ReliefFacts> facts; ///< one per camera
     double budget = 0;              ///< RMSE that the object may have, after the frame's budget was shared out
     std::string why;                ///< a sentence
+    /// Of a normal map as large as the height, in RGB8 with smaller levels; 0: not known.
+    std::int64_t rgb8_bytes = 0;
 };
 
 struct TexturePlan {

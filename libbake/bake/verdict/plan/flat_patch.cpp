@@ -1,0 +1,336 @@
+#include "bake/verdict/plan/flat_patch.h"
+#include "bake/mesh/topology.h"
+#include "bake/mesh/weld.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace bake {
+namespace {
+
+constexpr double tolerance = 1e-5; ///< of floats, relative to the size of the patch
+
+/// Two perpendicular unit vectors of the plane.
+std::array<Vec3d, 2> axes_of(const Vec3d& n) noexcept {
+    const Vec3d other = std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+    const Vec3d a = unit_or_zero(glm::cross(n, other));
+    return {a, glm::cross(n, a)};
+}
+
+double cross2(const Vec2d& a, const Vec2d& b) noexcept { return a.x * b.y - a.y * b.x; }
+
+/// Counter-clockwise, without points on its edges: Andrew, Another Efficient Algorithm for Convex Hulls in Two Dimensions, 1979.
+std::vector<Vec2d> convex_hull(std::vector<Vec2d> points, double area_tolerance) {
+    const auto before = [](const Vec2d& a, const Vec2d& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+    std::sort(points.begin(), points.end(), before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::vector<Vec2d> hull;
+    const auto add_chain = [&](auto begin, auto end) {
+        const std::size_t base = hull.size();
+        for (auto p = begin; p != end; ++p) {
+            while (hull.size() >= base + 2 &&
+                   cross2(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= area_tolerance)
+                hull.pop_back();
+            hull.push_back(*p);
+        }
+        if (!hull.empty()) hull.pop_back();
+    };
+    add_chain(points.begin(), points.end());
+    add_chain(points.rbegin(), points.rend());
+    return hull;
+}
+
+/// What the triangles of a placed shape have in common if it is flat.
+class FlatMesh {
+public:
+    FlatMesh(const Scene& scene, std::uint32_t instance)
+        : placed_(scene.instances[instance]), surface_(placed_.shape->surface), mesh_(*surface_.mesh),
+          linear_(placed_.linear), normals_(placed_.normals),
+          translate_(Vec3d(placed_.translate) - Vec3d(scene.origin)) {}
+
+    std::optional<FlatPatch> patch();
+
+private:
+    Vec3d at(std::uint32_t corner) const noexcept {
+        return linear_ * Vec3d(mesh_.positions[mesh_.corner_position[corner]]) + translate_;
+    }
+    Vec2d uv(std::uint32_t corner) const noexcept { return Vec2d(mesh_.uvs[mesh_.corner_uv[corner]]); }
+    bool has_uvs() const noexcept;
+    bool set_chart();
+    bool fits(std::uint32_t corner) const noexcept;
+    bool is_flat() const noexcept;
+    std::vector<Vec2d> outline() const;
+    bool border_is(const std::vector<Vec2d>& hull) const;
+    Vec2d flat(const Vec3d& p) const noexcept {
+        return {glm::dot(p - origin_, axis_[0]), glm::dot(p - origin_, axis_[1])};
+    }
+
+    const Instance& placed_;
+    const MeshSurface& surface_;
+    const Mesh& mesh_;
+    glm::dmat3 linear_, normals_;
+    Vec3d translate_;
+    FlatPatch patch_;
+    Vec3d origin_{0};
+    std::array<Vec3d, 2> axis_{};
+    double size_ = 0;
+};
+
+bool FlatMesh::has_uvs() const noexcept {
+    if (mesh_.corner_uv.empty() || surface_.triangles.empty()) return false;
+    return std::find(mesh_.corner_uv.begin(), mesh_.corner_uv.end(), no_index) == mesh_.corner_uv.end();
+}
+
+/// From the triangle with the largest area in uv.
+bool FlatMesh::set_chart() {
+    const auto area = [&](const Triangle& t) {
+        return std::abs(cross2(uv(t.corner[1]) - uv(t.corner[0]), uv(t.corner[2]) - uv(t.corner[0])));
+    };
+    const auto largest = std::max_element(surface_.triangles.begin(), surface_.triangles.end(),
+                                          [&](const Triangle& a, const Triangle& b) { return area(a) < area(b); });
+    const auto& c = largest->corner;
+    const Vec2d d1 = uv(c[1]) - uv(c[0]), d2 = uv(c[2]) - uv(c[0]);
+    const Vec3d e1 = at(c[1]) - at(c[0]), e2 = at(c[2]) - at(c[0]), n_object(surface_.n[c[0]]);
+    const double turn = cross2(d1, d2);
+    const Vec3d across = unit_or_zero(glm::cross(e1, e2));
+    if (turn == 0 || across == Vec3d(0) || n_object == Vec3d(0)) return false;
+    patch_.p_u = (d2.y * e1 - d1.y * e2) / turn, patch_.p_v = (d1.x * e2 - d2.x * e1) / turn;
+    origin_ = at(c[0]), patch_.p0 = origin_ - uv(c[0]).x * patch_.p_u - uv(c[0]).y * patch_.p_v;
+    const Vec3d lifted = linear_ * n_object;
+    patch_.n = glm::dot(across, lifted) < 0 ? -across : across;
+    patch_.lift = glm::length(lifted);
+    axis_ = axes_of(patch_.n);
+    for (const std::uint32_t corner : mesh_.corner_position)
+        size_ = std::max(size_, glm::length(linear_ * Vec3d(mesh_.positions[corner]) + translate_ - origin_));
+    return glm::length(glm::cross(unit_or_zero(lifted), patch_.n)) < tolerance;
+}
+
+/// Whether a corner lies in the plane, where its uv says, and has the normal of the plane.
+bool FlatMesh::fits(std::uint32_t corner) const noexcept {
+    const Vec2d place = uv(corner);
+    const Vec3d expected = patch_.p0 + place.x * patch_.p_u + place.y * patch_.p_v;
+    if (!(glm::length(at(corner) - expected) <= tolerance * size_)) return false;
+    const Vec3d n = unit_or_zero(normals_ * Vec3d(surface_.n[corner]));
+    return glm::dot(n, patch_.n) > 0 && glm::length(glm::cross(n, patch_.n)) < tolerance;
+}
+
+bool FlatMesh::is_flat() const noexcept {
+    for (std::uint32_t corner = 0; corner < mesh_.corners(); ++corner)
+        if (!fits(corner)) return false;
+    return true;
+}
+
+/// Whether every edge with one face lies on the hull, and the others have two faces of one orientation.
+bool FlatMesh::border_is(const std::vector<Vec2d>& hull) const {
+    const HalfEdges half_edges = make_half_edges(mesh_, first_equal(mesh_.positions));
+    const EdgeTable edges = make_edges(half_edges);
+    for (std::uint32_t e = 0; e < edges.edges(); ++e) {
+        const auto sides = edges.of(e);
+        const std::uint32_t h = sides.front();
+        if (sides.size() > 2) return false;
+        if (sides.size() == 2) {
+            if (half_edges.origin[h] == half_edges.origin[sides.back()]) return false;
+            continue;
+        }
+        const Vec2d a = flat(at(h)), b = flat(at(half_edges.next(h)));
+        bool on_hull = false;
+        for (std::size_t k = 0; k < hull.size() && !on_hull; ++k) {
+            const Vec2d& from = hull[k];
+            const Vec2d along = glm::normalize(hull[(k + 1) % hull.size()] - from);
+            on_hull = std::abs(cross2(along, a - from)) <= tolerance * size_ &&
+                      std::abs(cross2(along, b - from)) <= tolerance * size_;
+        }
+        if (!on_hull) return false;
+    }
+    return true;
+}
+
+/// If the border of a mesh of one orientation lies on a convex polygon, every point inside is covered the same number of times:
+/// once if the areas are equal.
+std::vector<Vec2d> FlatMesh::outline() const {
+    std::vector<Vec2d> points;
+    double area = 0;
+    int orientation = 0;
+    for (const Triangle& t : surface_.triangles) {
+        const Vec2d a = flat(at(t.corner[0])), b = flat(at(t.corner[1])), c = flat(at(t.corner[2]));
+        const double twice = cross2(b - a, c - a);
+        const int sign = twice > 0 ? 1 : twice < 0 ? -1 : 0;
+        if (sign * orientation < 0) return {};
+        if (sign != 0) orientation = sign;
+        area += std::abs(twice) / 2;
+        points.insert(points.end(), {a, b, c});
+    }
+    const std::vector<Vec2d> hull = convex_hull(std::move(points), 1e-12 * size_ * size_);
+    constexpr std::size_t most_corners = 64;
+    if (hull.size() < 3 || hull.size() > most_corners) return {};
+    // The border of a smooth shape is only straight for sure if it is that of a quadrilateral.
+    if (placed_.shape->smooth && (hull.size() > 4 || surface_.triangles.size() < 8)) return {};
+    double hull_area = 0;
+    for (std::size_t k = 0; k < hull.size(); ++k) hull_area += cross2(hull[k], hull[(k + 1) % hull.size()]) / 2;
+    if (!(std::abs(area - hull_area) <= 1e-4 * hull_area) || !border_is(hull)) return {};
+    return hull;
+}
+
+std::optional<FlatPatch> FlatMesh::patch() {
+    if (!has_uvs() || !set_chart() || !is_flat()) return {};
+    for (const Vec2d& corner : outline()) patch_.corners.push_back(origin_ + corner.x * axis_[0] + corner.y * axis_[1]);
+    if (patch_.corners.empty()) return {};
+    return patch_;
+}
+
+/// A half-space: n . p + d >= 0.
+struct HalfSpace {
+    Vec3d n{0};
+    double d = 0;
+    double at(const Vec3d& p) const noexcept { return glm::dot(n, p) + d; }
+};
+
+/// Of the points that lie in the picture, or at most `margin` pixels beside it.
+std::array<HalfSpace, 4> view_region(const PictureView& view, double margin) noexcept {
+    const CameraFrame& frame = view.frame();
+    const Vec3d c(frame.position), right(frame.right), up(frame.up), forward(frame.forward);
+    const double per_pixel = 2 * frame.half_height / view.height();
+    const double x = (0.5 * view.width() + margin) * per_pixel, y = (0.5 * view.height() + margin) * per_pixel;
+    const auto side = [&](const Vec3d& out, double reach) {
+        const Vec3d n = frame.orthographic ? -out : reach * forward - out;
+        return HalfSpace{n, -glm::dot(n, c) + (frame.orthographic ? reach : 0)};
+    };
+    return {side(right, x), side(-right, x), side(up, y), side(-up, y)};
+}
+
+/// Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
+std::vector<Vec3d> clipped(std::vector<Vec3d> polygon, const std::array<HalfSpace, 4>& region) {
+    for (const HalfSpace& side : region) {
+        std::vector<Vec3d> kept;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Vec3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+            const double at_a = side.at(a), at_b = side.at(b);
+            if (at_a >= 0) kept.push_back(a);
+            if ((at_a >= 0) != (at_b >= 0)) kept.push_back(a + at_a / (at_a - at_b) * (b - a));
+        }
+        polygon = std::move(kept);
+    }
+    return polygon;
+}
+
+double area_in_pixels(const std::vector<Vec3d>& polygon, const PictureView& view) noexcept {
+    double area = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+        area += cross2(view.pixels(polygon[k]), view.pixels(polygon[(k + 1) % polygon.size()])) / 2;
+    return std::abs(area);
+}
+
+/// The largest shift in pixels of points that move by up to `height` along n.
+///
+/// In the camera's axes, with x and y over depth 1, a point at depth z that moves by t n moves in the picture by
+/// t (n_xy - xy n_z) / (z + t n_z), which is convex in xy.
+class Shift {
+public:
+    Shift(const PictureView& view, const Vec3d& n, double height) noexcept
+        : view_(view), n_(glm::dot(n, Vec3d(view.frame().right)), glm::dot(n, Vec3d(view.frame().up)),
+                          glm::dot(n, Vec3d(view.frame().forward))),
+          height_(height), scale_(0.5 * view.height() / view.frame().half_height) {}
+
+    /// (x, y) is a place at depth 1, or in an orthographic view anything.
+    double across(double x, double y) const noexcept {
+        if (view_.frame().orthographic) return std::hypot(n_.x, n_.y);
+        return std::hypot(n_.x - x * n_.z, n_.y - y * n_.z);
+    }
+    double pixels(double most_across, double least_depth) const noexcept {
+        if (view_.frame().orthographic) return scale_ * height_ * most_across;
+        const double depth = least_depth - height_ * std::abs(n_.z);
+        return depth > 0 ? scale_ * height_ * most_across / depth : INFINITY;
+    }
+
+private:
+    const PictureView& view_;
+    Vec3d n_;
+    double height_, scale_;
+};
+
+/// A first bound, of points on the whole plane.
+double shift_on_plane(const PictureView& view, const Vec3d& n, double height, double distance) noexcept {
+    const CameraFrame& frame = view.frame();
+    const Shift shift(view, n, height);
+    const double y = frame.half_height, x = y * view.width() / view.height();
+    double most = 0, nearness = 0; // one over the depth is linear in the picture
+    for (int k = 0; k < 4; ++k) {
+        const double at_x = k & 1 ? x : -x, at_y = k & 2 ? y : -y;
+        const Vec3d ray = Vec3d(frame.forward) + at_x * Vec3d(frame.right) + at_y * Vec3d(frame.up);
+        most = std::max(most, shift.across(at_x, at_y));
+        nearness = std::max(nearness, -glm::dot(n, ray) / distance);
+    }
+    if (frame.orthographic) return shift.pixels(most, 0);
+    // Where the relief is hit, the depth differs from that of the plane by less than 5 %.
+    return nearness > 0 ? shift.pixels(most, 0.95 / nearness) : 0;
+}
+
+} // namespace
+
+Vec2d FlatPatch::uv(const Vec3d& p) const noexcept {
+    const Vec3d d = p - p0, area = glm::cross(p_u, p_v);
+    return Vec2d(glm::dot(glm::cross(d, p_v), area), glm::dot(glm::cross(p_u, d), area)) / glm::dot(area, area);
+}
+
+FlatPatch::Slopes FlatPatch::slopes() const noexcept {
+    const auto axes = axes_of(n);
+    const Vec3d area = glm::cross(p_u, p_v);
+    const Vec3d g_u = lift * glm::cross(p_v, area) / glm::dot(area, area),
+                g_v = lift * glm::cross(area, p_u) / glm::dot(area, area);
+    return {{glm::dot(g_u, axes[0]), glm::dot(g_u, axes[1])}, {glm::dot(g_v, axes[0]), glm::dot(g_v, axes[1])}};
+}
+
+std::optional<FlatPatch> flat_patch(const Scene& scene, std::uint32_t instance) {
+    return FlatMesh(scene, instance).patch();
+}
+
+std::optional<PatchInPicture> in_picture(const FlatPatch& patch, double height, const PictureView& view) {
+    const CameraFrame& frame = view.frame();
+    if (view.width() <= 0 || view.height() <= 0 || frame.forward == Vec3f(0)) return {};
+    const Vec3d from = Vec3d(frame.position) - patch.corners[0];
+    const double side = frame.orthographic ? -glm::dot(patch.n, Vec3d(frame.forward)) : glm::dot(patch.n, from);
+    PatchInPicture out;
+    out.n = side < 0 ? -patch.n : patch.n;
+    const double distance = std::abs(glm::dot(patch.n, from));
+    if (frame.orthographic ? std::abs(side) < 1e-3 : !(distance > 20 * height)) return {};
+    const double margin = shift_on_plane(view, out.n, height, distance) + 1;
+    if (!(margin < 1e4)) return {};
+    const auto region = view_region(view, margin);
+    const std::vector<Vec3d> seen = clipped(patch.corners, region);
+    if (seen.size() < 3) return out;
+
+    const Shift shift(view, out.n, height);
+    const double scale = 0.5 * view.height() / frame.half_height;
+    double most_across = 0, least_depth = INFINITY, least_cosine = 1;
+    out.uv_low = Vec2d(INFINITY), out.uv_high = Vec2d(-INFINITY);
+    for (const Vec3d& p : seen) {
+        const Vec3d at = p - Vec3d(frame.position);
+        const double depth = view.depth(p);
+        if (!(depth > height)) return {};
+        least_depth = std::min(least_depth, depth);
+        most_across = std::max(
+            most_across, shift.across(glm::dot(at, Vec3d(frame.right)) / depth, glm::dot(at, Vec3d(frame.up)) / depth));
+        least_cosine = std::min(least_cosine, glm::dot(out.n, view.towards(p)));
+        const Vec2d uv = patch.uv(p);
+        out.uv_low = glm::min(out.uv_low, uv), out.uv_high = glm::max(out.uv_high, uv);
+    }
+    if (!(least_cosine > 1e-3)) return {};
+    out.shift = shift.pixels(most_across, least_depth);
+    out.most_tangent = std::sqrt(1 - std::min(1.0, least_cosine * least_cosine)) / least_cosine;
+    out.most_density =
+        scale * scale * (frame.orthographic ? std::abs(side) : distance / (least_depth * least_depth * least_depth));
+    out.area = area_in_pixels(clipped(patch.corners, view_region(view, 0)), view);
+    for (std::size_t k = 0; k < patch.corners.size(); ++k) {
+        const std::vector<Vec3d> edge =
+            clipped({patch.corners[k], patch.corners[(k + 1) % patch.corners.size()]}, region);
+        if (edge.size() < 2) continue;
+        double length = 0; // of points on one line, some of which may be equal
+        for (const Vec3d& p : edge)
+            for (const Vec3d& q : edge) length = std::max(length, glm::length(view.pixels(p) - view.pixels(q)));
+        out.border += length, ++out.edges;
+    }
+    return out;
+}
+
+} // namespace bake

@@ -1,0 +1,244 @@
+#include "bake/verdict/plan/manifest.h"
+#include "bake/picture/image_io.h"
+#include "bake/preview/shape_mesh.h"
+#include "bake/surface/analytic/parametric.h"
+#include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/planned_scene.h"
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <set>
+
+namespace bake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The shortest text that is read as the same number.
+template <class T> std::string text_of(T value) {
+    char text[64];
+    return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
+}
+
+bool is_cube(const std::string& shape) { return shape == "cube" || shape.starts_with("cube:"); }
+
+bool bakes_table(Shade shade) { return shade == Shade::bump || shade == Shade::bump_roughness; }
+bool bakes_map(Shade shade) { return shade == Shade::normal || shade == Shade::displace_normal; }
+
+class Lister {
+public:
+    Lister(const SceneEntries& entries, const std::string& out) : entries_(entries) {
+        // Absolute paths in the entries are the user's own, unless the scene itself was named so.
+        const fs::path file(entries.file);
+        moves_ = !file.is_absolute();
+        folder_ = folder_from(moves_ ? "here" : entries.file, out);
+    }
+
+    void add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method);
+    Manifest take() { return std::move(manifest_); }
+
+private:
+    struct Job {
+        const ObjectPlan& object;
+        const MeshEntry& mesh;
+        const ReliefEntry& relief;
+        ShadeMethod method;
+    };
+    std::string path(const std::string& file) const;
+    std::string shape(const MeshEntry& mesh) const { return shape_beside((folder_ / "manifest").string(), mesh.shape); }
+    std::string add(Bake bake, const std::string& object, const std::string& ending);
+    std::string output_of(const std::string& bake) const;
+    const char* obstacle(const Job& job) const;
+    std::string amplitude(const Job& job, bool of_mesh);
+    void height_options(const Job& job, Bake& bake, bool of_mesh);
+    void mesh_options(const MeshEntry& mesh, Bake& bake) const;
+    void table(const Job& job);
+    std::string displaced(const Job& job);
+    void normals(const Job& job, const std::string& displaced);
+    std::string shape_file(const Job& job, Bake& bake);
+
+    const SceneEntries& entries_;
+    fs::path folder_;
+    bool moves_ = true;
+    Manifest manifest_;
+    std::set<std::string> names_;
+};
+
+/// As the manifest calls a file of the scene.
+std::string Lister::path(const std::string& file) const {
+    if (fs::path(file).is_relative()) return (folder_ / file).lexically_normal().generic_string();
+    if (moves_) return file;
+    const fs::path from_scene = fs::path(file).lexically_relative(fs::path(entries_.file).parent_path());
+    return (folder_ / from_scene).lexically_normal().generic_string();
+}
+
+/// A bake that is there already serves the object too. Names the bake and its output by the object. Returns the name.
+std::string Lister::add(Bake bake, const std::string& object, const std::string& ending) {
+    for (Bake& known : manifest_.bakes) {
+        if (known.verb != bake.verb || known.files != bake.files || known.inputs != bake.inputs ||
+            known.options != bake.options || known.use != bake.use)
+            continue;
+        if (std::find(known.objects.begin(), known.objects.end(), object) == known.objects.end())
+            known.objects.push_back(object);
+        return known.name;
+    }
+    std::string stem;
+    for (const char c : object) stem += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    const std::size_t dot = ending.find('.');
+    const std::string first = stem + "_" + ending.substr(0, dot);
+    bake.name = first;
+    for (int number = 2; !names_.insert(bake.name).second; ++number) bake.name = first + "_" + std::to_string(number);
+    bake.outputs.emplace_back("out", bake.name + ending.substr(dot));
+    bake.objects.push_back(object);
+    manifest_.bakes.push_back(std::move(bake));
+    return manifest_.bakes.back().name;
+}
+
+std::string Lister::output_of(const std::string& bake) const {
+    for (const Bake& known : manifest_.bakes)
+        if (known.name == bake) return known.outputs.front().second;
+    return {};
+}
+
+/// Why no command bakes what the tracer does; null if one does.
+const char* Lister::obstacle(const Job& job) const {
+    const MeshEntry& mesh = job.mesh;
+    const Shade shade = job.method.shade;
+    const Vec2f repeat = mesh.repeat * entries_.materials[std::size_t(mesh.material)].repeat;
+    for (const std::string& file : {job.relief.file, mesh.file, mesh.shape})
+        if (file.find_first_of(reserved_in_paths) != std::string::npos)
+            return "a manifest keeps the characters *?{} of its files' names for later; rename the file";
+    if (bakes_table(shade)) return nullptr;
+    if (repeat != Vec2f(1)) return "its uvs repeat, and bake displace and bake normal-map take each texture once";
+    if (is_cube(mesh.shape)) return "its shape, a cube, is one of scenes alone; write it as a file";
+    if (job.method.levels < 0 && displaces(shade)) return "how fine it is depends on the memory; give segments";
+    if (mesh.subdivide && bakes_map(shade) && mesh.columns == 0)
+        return "its cage is cut as fine as looks smooth; give the mesh \"segments\"";
+    if (displaces(shade) && !mesh.shape.empty() && mesh.columns > 0)
+        return "bake displace cuts a shape as it sees fit; leave \"segments\" of the mesh out";
+    return nullptr;
+}
+
+/// In object units; empty: that of the command.
+std::string Lister::amplitude(const Job& job, bool of_mesh) {
+    const ReliefEntry& relief = job.relief;
+    if (relief.amplitude && !relief.relative) return text_of(*relief.amplitude);
+    if (of_mesh) return relief.amplitude ? text_of(100 * *relief.amplitude) + "%" : "";
+    // A table knows no mesh whose size it could be a part of.
+    SceneEntries one;
+    one.file = entries_.file;
+    one.meshes = {job.mesh};
+    one.meshes[0].material = -1, one.meshes[0].own_materials = false, one.meshes[0].placement = {};
+    one.any_light = true;
+    const double size = diagonal(bounds(load(one)));
+    const auto known = entries_.pictures.find(relief.file);
+    const ImageInfo info = known != entries_.pictures.end() ? known->second->info : read_image_info(relief.file);
+    return text_of(float(relief_options(relief, info, size).height.amplitude));
+}
+
+void Lister::height_options(const Job& job, Bake& bake, bool of_mesh) {
+    const ReliefEntry& relief = job.relief;
+    if (const std::string value = amplitude(job, of_mesh); !value.empty())
+        bake.options.emplace_back("amplitude", value);
+    if (of_mesh && relief.midlevel) bake.options.emplace_back("midlevel", text_of(*relief.midlevel));
+    if (relief.wrap != Wrap::repeat) bake.options.emplace_back("wrap", relief.wrap == Wrap::clamp ? "clamp" : "mirror");
+    if (relief.filter != Filter::automatic && bake.verb != "displace")
+        bake.options.emplace_back("filter", std::string(name(relief.filter)));
+}
+
+void Lister::mesh_options(const MeshEntry& mesh, Bake& bake) const {
+    if (mesh.flip_v) bake.options.emplace_back("flip-v", "");
+    if (mesh.uv_set >= 0) bake.options.emplace_back("uv-set", std::to_string(mesh.uv_set));
+    if (mesh.subdivide) bake.options.emplace_back("subdivide", *mesh.subdivide == Scheme::loop ? "loop" : "catmark");
+}
+
+void Lister::table(const Job& job) {
+    Bake bake{.verb = "bump-table", .files = {path(job.relief.file)}, .use = "bump"};
+    height_options(job, bake, false);
+    add(std::move(bake), job.object.object, "bump.exr");
+}
+
+/// Returns the name of the bake.
+std::string Lister::displaced(const Job& job) {
+    Bake bake{.verb = "displace", .inputs = {{"height", path(job.relief.file)}}, .use = "file"};
+    if (job.mesh.shape.empty()) bake.files = {path(job.mesh.file)};
+    else bake.options.emplace_back("shape", shape(job.mesh));
+    mesh_options(job.mesh, bake);
+    bake.options.emplace_back("levels", std::to_string(job.method.levels));
+    if (job.method.shade == Shade::displace_normal) bake.options.emplace_back("seam", "average");
+    height_options(job, bake, true);
+    return add(std::move(bake), job.object.object, "displaced.glb");
+}
+
+/// The mesh that shows a shape or a cage as a file. Adds its bake, if there is one, to what `bake` needs.
+std::string Lister::shape_file(const Job& job, Bake& bake) {
+    const MeshEntry& mesh = job.mesh;
+    if (mesh.shape.empty() && !mesh.subdivide) return path(mesh.file);
+    Bake surface{.verb = "surface"};
+    std::pair<int, int> cells = {mesh.columns, mesh.rows};
+    if (mesh.shape.empty()) {
+        surface.files = {path(mesh.file)};
+        mesh_options(mesh, surface);
+        cells.second = cells.first;
+    } else {
+        surface.options.emplace_back("shape", shape(mesh));
+        if (cells.first == 0) cells = ParametricSurface(mesh.shape).default_resolution();
+    }
+    const std::string along = std::to_string(cells.first);
+    surface.options.emplace_back("resolution", mesh.subdivide ? along : along + "x" + std::to_string(cells.second));
+    bake.after.push_back(add(std::move(surface), job.object.object, "surface.glb"));
+    return output_of(bake.after.back());
+}
+
+/// `displaced`: the bake of the mesh that the map is relative to; empty: none.
+void Lister::normals(const Job& job, const std::string& displaced) {
+    Bake bake{.verb = "normal-map", .inputs = {{"height", path(job.relief.file)}}, .use = "normal"};
+    bake.files = {shape_file(job, bake)};
+    if (bake.after.empty()) mesh_options(job.mesh, bake);
+    height_options(job, bake, true);
+    if (!displaced.empty()) {
+        bake.inputs.emplace_back("residual-of", output_of(displaced));
+        bake.after.push_back(displaced);
+    }
+    add(std::move(bake), job.object.object, displaced.empty() ? "normal.png" : "detail.png");
+}
+
+void Lister::add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method) {
+    const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method};
+    const Shade shade = method.shade;
+    if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
+    if (const char* why = obstacle(job)) {
+        const std::string line = object.object + ": no command bakes its " + bake::name(method) + ": " + why;
+        if (std::find(manifest_.notes.begin(), manifest_.notes.end(), line) == manifest_.notes.end())
+            manifest_.notes.push_back(line);
+        return;
+    }
+    if (bakes_table(shade)) return table(job);
+    const std::string mesh_bake = displaces(shade) ? displaced(job) : std::string();
+    if (bakes_map(shade)) normals(job, mesh_bake);
+}
+
+} // namespace
+
+Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const std::string& out) {
+    Lister lister(entries, out);
+    for (const ObjectPlan& object : plan.objects)
+        for (const int mesh : object.meshes) {
+            const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
+            const auto method = planned_method(plan, mesh);
+            if (entry.material >= 0 && method) lister.add(object, entry, *method);
+        }
+    return lister.take();
+}
+
+std::vector<std::string> command_of(const Bake& bake) {
+    std::vector<std::string> words = {bake.verb};
+    words.insert(words.end(), bake.files.begin(), bake.files.end());
+    for (const Bake::Values* values : {&bake.inputs, &bake.options, &bake.outputs})
+        for (const auto& [option, value] : *values)
+            words.push_back("--" + option + (value.empty() ? "" : "=" + value)); // a value may begin with a dash
+    return words;
+}
+
+} // namespace bake

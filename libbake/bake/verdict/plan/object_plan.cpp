@@ -1,0 +1,266 @@
+#include "bake/verdict/plan/object_plan.h"
+#include "bake/base/error.h"
+#include "bake/base/progress.h"
+#include "bake/base/text.h"
+#include "bake/verdict/plan/references.h"
+#include "bake/verdict/plan/relief_scale.h"
+#include "bake/verdict/plan/relief_waves.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bake {
+namespace {
+
+/// Triangles of a reference per pixel of the object: of the first one, whose edges are about a quarter of a pixel, and of the
+/// finest, whose edges are about an eighth. Half of them are behind.
+constexpr double least_triangles = 32, most_triangles = 256;
+constexpr int neighbour_pixels = 256; ///< on which the next dearer rung is measured
+
+bool is_coarser_than_reference(const Candidate& c, const Rung& rung) noexcept {
+    return !displaces(rung.method.shade) || rung.method.levels + 2 <= c.level;
+}
+
+class Decider {
+public:
+    Decider(PlanWork& work, std::span<ObjectDecision> decisions);
+    void run();
+
+private:
+    void begin(Candidate& c);
+    void list_rungs(Candidate& c) const;
+    double pixels_in_view(const Candidate& c) const;
+    bool is_settled_unseen(Candidate& c);
+    std::unique_ptr<AssembledScene> next_scene();
+    void probe(Candidate& c, AssembledScene& scene);
+    void choose(Candidate& c, Known known);
+    void finish(Candidate& c, const std::string& why);
+    void add_flip(Candidate& c, AssembledScene& chosen);
+    void measure_dearer(Candidate& c);
+    std::shared_ptr<const BakedModel> baked(const Candidate& c, Rung& rung);
+    void light_for(AssembledScene& scene, std::size_t camera) {
+        work_.scenes.light_for(references_.scene().scene, camera);
+        work_.scenes.light_for(scene.scene, camera);
+    }
+
+    PlanWork& work_;
+    std::vector<Candidate> candidates_;
+    References references_;
+    std::unique_ptr<AssembledScene> previous_; ///< with the rungs that were probed last
+};
+
+Decider::Decider(PlanWork& work, std::span<ObjectDecision> decisions) : work_(work), references_(work) {
+    for (ObjectDecision& decision : decisions) {
+        Candidate& c = candidates_.emplace_back();
+        c.decision = &decision;
+        c.instances = work.scenes.instances_of(decision.object);
+    }
+}
+
+void Decider::list_rungs(Candidate& c) const {
+    const PlannedObject& object = work_.scenes.objects()[std::size_t(c.decision->object)];
+    ObjectPlan& plan = c.plan();
+    plan.object = object.name, plan.material = object.material, plan.meshes = object.meshes;
+    plan.budget = work_.options.budget.value;
+    plan.rgb8_bytes = map_bytes(c.cost.width, c.cost.height, 3);
+    for (const ShadeMethod& method : plan_rungs(c.cost.triangles)) {
+        Rung rung;
+        rung.method = method, rung.cost = model_cost(c.cost, method);
+        plan.rungs.push_back(std::move(rung));
+    }
+    const CostWeights& weights = work_.options.weights;
+    std::stable_sort(plan.rungs.begin(), plan.rungs.end(),
+                     [&](const Rung& a, const Rung& b) { return a.cost.total(weights) < b.cost.total(weights); });
+    plan.reference = {Shade::displace, first_level(c)};
+    plan.reference_cost = model_cost(c.cost, plan.reference);
+}
+
+void Decider::begin(Candidate& c) {
+    const PlannedObject& object = work_.scenes.objects()[std::size_t(c.decision->object)];
+    const Image<float>& height = object.height->values;
+    c.cost = {std::int64_t(object.shape->surface.triangles.size()), int(object.instances.size()), height.width(),
+              height.height()};
+    c.edge = edge_texels(*object.shape, height.width(), height.height());
+    c.dominant = dominant_wave(height);
+    const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
+    c.shortest = std::min(waves.u, waves.v);
+    const HeightOptions& options = object.relief.height;
+    c.has_relief =
+        options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
+                                              [&](float value) { return double(value) != options.midlevel; });
+    const double pixels = pixels_in_view(c);
+    c.first_triangles = std::clamp(least_triangles * pixels, candidates_.size() > 1 ? 4e3 : 2e4, 1e5);
+    c.most_triangles = std::clamp(most_triangles * pixels, 1e5, 1.2e7);
+    c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
+    ObjectPlan& plan = c.plan();
+    if (plan.rungs.empty()) list_rungs(c);
+    else c.next = std::size_t(plan.chosen + 1);
+    plan.chosen = -1;
+    plan.facts = c.facts->of_cameras();
+    if (c.facts->in_view() || pixels > 0) return;
+    c.rung().error.all = true;
+    choose(c, Known::bound);
+    plan.why = "not in view";
+}
+
+/// Of the camera that sees most of the object without relief.
+double Decider::pixels_in_view(const Candidate& c) const {
+    const ProbedScene plain = c.of(*work_.plain);
+    std::size_t most = 0;
+    for (std::size_t camera = 0; camera < work_.scenes.cameras().size(); ++camera)
+        most = std::max(most, object_pixels(std::span(&plain, 1), probe_options(work_, camera, "")).size());
+    return double(most);
+}
+
+/// Settles rungs by what is known without rendering, up to one that needs a probe. True if the object is done.
+bool Decider::is_settled_unseen(Candidate& c) {
+    const Budget& budget = work_.options.budget;
+    for (; !c.done && c.next < c.plan().rungs.size(); ++c.next) {
+        Rung& rung = c.rung();
+        const double edge = c.edge / std::exp2(rung.method.levels);
+        if (displaces(rung.method.shade) && 2 * edge > c.dominant) {
+            rung.known = Known::skipped;
+            rung.note = format("its edges of %.3g texels are longer than half the waves of the height, which are %.3g "
+                               "texels long",
+                               edge, c.dominant);
+            continue;
+        }
+        std::optional<ErrorBound> bound;
+        // Clamped values differ by no more than 1, and neither does FLIP.
+        if (std::isinf(budget.value) || (budget.metric != Budget::Metric::degrees && budget.value >= 1))
+            bound = ErrorBound{1, "no error is larger than the budget"};
+        else if (budget.metric == Budget::Metric::rmse) bound = c.facts->bound(rung.method.shade);
+        // Nothing but the reference is without error, unless there is no relief.
+        if (budget.value == 0 && c.has_relief) break;
+        if (!bound || bound->rmse > budget.value) return false;
+        rung.bound = bound->rmse, rung.note = bound->why;
+        choose(c, Known::bound);
+        return true;
+    }
+    if (!c.done) finish(c, "no cheaper model is within the budget");
+    return true;
+}
+
+/// Null, with a note, for a method that does not suit the object.
+std::shared_ptr<const BakedModel> Decider::baked(const Candidate& c, Rung& rung) {
+    try {
+        return work_.scenes.bake(c.decision->object, rung.method);
+    } catch (const Error& error) {
+        if (error.refusal != Refusal::unsuitable) throw;
+        rung.known = Known::skipped;
+        rung.note = error.what();
+        return nullptr;
+    }
+}
+
+/// Each object with its next rung; those that are done, as in the reference. Null if a rung had to be skipped.
+std::unique_ptr<AssembledScene> Decider::next_scene() {
+    BakedModels models = references_.scene().models;
+    bool complete = true;
+    for (Candidate& c : candidates_) {
+        if (c.done) continue;
+        Rung& rung = c.rung();
+        std::shared_ptr<const BakedModel> model;
+        if (is_coarser_than_reference(c, rung)) model = baked(c, rung);
+        else rung.known = Known::skipped, rung.note = "the finest reference is less than four times finer";
+        if (!model) complete = false, ++c.next;
+        else models[std::size_t(c.decision->object)] = std::move(model);
+    }
+    return complete ? work_.scenes.assemble(std::move(models)) : nullptr;
+}
+
+/// The camera that refused the last rung is asked first.
+void Decider::probe(Candidate& c, AssembledScene& scene) {
+    Rung& rung = c.rung();
+    const double budget = work_.options.budget.value;
+    const std::size_t first = c.worst;
+    bool open = false, refused = false;
+    for (std::size_t i = 0; i < c.meters.size(); ++i) {
+        const std::size_t camera = (first + i) % c.meters.size();
+        light_for(scene, camera);
+        const auto [estimate, settled] = c.meters[camera].judge(c.of(scene), budget, c.plan().reference_error);
+        rung.known = Known::probe;
+        if (i == 0 || settled == Settled::over || estimate.square > rung.error.square) {
+            rung.error = estimate, rung.camera = work_.scenes.cameras()[camera].name;
+            c.worst = camera;
+        }
+        if (settled == Settled::within) continue;
+        open = settled == Settled::open;
+        refused = refused || !open || !acceptable(estimate, budget, c.plan().reference_error);
+        if (settled == Settled::over) break;
+    }
+    if (open) rung.known = Known::not_settled;
+    if (work_.options.measure) rung.cost.ms = c.meters[c.worst].ms(c.of(scene));
+    if (!refused) choose(c, rung.known);
+}
+
+void Decider::choose(Candidate& c, Known known) {
+    c.rung().known = known;
+    c.plan().chosen = int(c.next);
+    finish(c, why_enough(c.rung().method, c.facts->worst()));
+}
+
+void Decider::finish(Candidate& c, const std::string& why) {
+    c.done = true;
+    c.decision->decided = true;
+    c.plan().why = why;
+    const std::string method = name(chosen_method(c.plan()));
+    if (work_.options.told) work_.options.told(c.plan().object + ": " + method + "; " + why);
+}
+
+/// Of the chosen rung, and of the one that was probed before it.
+void Decider::add_flip(Candidate& c, AssembledScene& chosen) {
+    light_for(chosen, c.worst);
+    c.rung().flip = c.meters[c.worst].flip(c.of(chosen));
+    if (!c.probed || !previous_) return;
+    light_for(*previous_, c.worst);
+    c.plan().rungs[c.last].flip = c.meters[c.worst].flip(c.of(*previous_));
+}
+
+/// What the next rung behind the chosen one would have erred, as long as the reference is fine enough for it.
+void Decider::measure_dearer(Candidate& c) {
+    std::vector<Rung>& rungs = c.plan().rungs;
+    for (std::size_t i = c.next + 1; i < rungs.size(); ++i) {
+        Rung& rung = rungs[i];
+        if (rung.known != Known::not_tried) continue;
+        if (!is_coarser_than_reference(c, rung)) return;
+        const auto model = baked(c, rung);
+        if (!model) continue;
+        BakedModels models = references_.scene().models;
+        models[std::size_t(c.decision->object)] = model;
+        const auto scene = work_.scenes.assemble(std::move(models));
+        light_for(*scene, c.worst);
+        rung.error = c.meters[c.worst].measure(c.of(*scene), neighbour_pixels);
+        rung.camera = work_.scenes.cameras()[c.worst].name;
+        rung.known = Known::probe;
+        return;
+    }
+}
+
+void Decider::run() {
+    for (Candidate& c : candidates_) begin(c);
+    for (;;) {
+        bool open = false;
+        for (Candidate& c : candidates_) open = !(c.done || is_settled_unseen(c)) || open;
+        if (!open) return;
+        references_.prepare(candidates_);
+        std::unique_ptr<AssembledScene> scene = next_scene();
+        if (!scene) continue;
+        for (Candidate& c : candidates_) {
+            if (c.done) continue;
+            if (work_.progress) work_.progress->start("plan " + c.plan().object + ": " + name(c.rung().method), 0);
+            probe(c, *scene);
+            if (c.done && work_.options.neighbours) {
+                add_flip(c, *scene);
+                if (candidates_.size() == 1) measure_dearer(c);
+            }
+            if (!c.done) c.last = c.next++, c.probed = true;
+        }
+        previous_ = std::move(scene);
+    }
+}
+
+} // namespace
+
+void decide(PlanWork& work, std::span<ObjectDecision> decisions) { Decider(work, decisions).run(); }
+
+} // namespace bake

@@ -1,0 +1,177 @@
+#include "bake/base/error.h"
+#include "bake/base/interruption.h"
+#include "bake/base/progress.h"
+#include "bake/preview/render.h"
+#include "bake/verdict/plan/joint.h"
+#include "bake/verdict/plan/object_plan.h"
+#include "bake/verdict/plan/plan.h"
+#include "bake/verdict/plan/plan_parts.h"
+#include "bake/verdict/plan/verification.h"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bake {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Up to so many objects, each is judged in scenes of its own. More are judged in groups, whose members stand apart in the
+/// file: building as many scenes as there are objects and rungs would take a time that grows with the square of their number.
+constexpr std::size_t most_alone = 8;
+constexpr double group_triangles = 4e6;              ///< of the first references of a group
+constexpr double reference_triangles = 1e5;          ///< of an object, about
+constexpr int exposure_edge = 96, exposure_spp = 16; ///< of the picture that the exposure is chosen by
+
+std::vector<std::vector<int>> groups_of(std::size_t objects) {
+    std::size_t count = objects;
+    if (objects > most_alone)
+        count = std::max(most_alone, std::size_t(std::ceil(double(objects) * reference_triangles / group_triangles)));
+    std::vector<std::vector<int>> groups(count);
+    for (std::size_t i = 0; i < objects; ++i) groups[i % count].push_back(int(i));
+    return groups;
+}
+
+/// Of a small picture in which all objects are displaced, in groups of up to a few million triangles together.
+float chosen_exposure(PlanScenes& scenes) {
+    if (scenes.settings().exposure) return *scenes.settings().exposure;
+    const std::size_t count = scenes.objects().size();
+    BakedModels models(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const PlannedObject& object = scenes.objects()[i];
+        const double own = double(object.shape->surface.triangles.size());
+        const double most = std::min(reference_triangles, group_triangles / double(count));
+        int levels = 0;
+        while (levels < 10 && own * double(object.instances.size()) * std::exp2(2.0 * levels) < most) ++levels;
+        models[i] = scenes.bake(int(i), {Shade::displace, levels});
+    }
+    const auto scene = scenes.assemble(std::move(models));
+    RenderSettings settings = scenes.settings();
+    const double scale = double(exposure_edge) / std::max(settings.width, settings.height);
+    if (scale < 1) {
+        settings.width = std::max(1, int(settings.width * scale)),
+        settings.height = std::max(1, int(settings.height * scale));
+        settings.part.reset();
+    }
+    settings.spp = exposure_spp;
+    return automatic_exposure(render(scene->scene, settings));
+}
+
+/// Decides group by group. What is decided when the user stops it is kept.
+void decide_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, bool& stopped) {
+    try {
+        for (const std::vector<int>& group : groups_of(work.scenes.objects().size())) {
+            std::vector<ObjectDecision> own(group.size());
+            for (std::size_t i = 0; i < group.size(); ++i) own[i].object = group[i];
+            const auto keep = [&] {
+                for (ObjectDecision& decision : own)
+                    if (decision.decided) decisions.push_back(std::move(decision));
+            };
+            try {
+                decide(work, own);
+            } catch (const Error&) {
+                keep();
+                throw;
+            }
+            keep();
+        }
+    } catch (const Error& error) {
+        if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
+        stopped = true;
+    }
+    std::sort(decisions.begin(), decisions.end(),
+              [](const ObjectDecision& a, const ObjectDecision& b) { return a.object < b.object; });
+}
+
+/// Calls work(), which Ctrl-C may end; what it has done by then is kept.
+template <class Work> void until_stopped(ScenePlan& plan, Work&& work) {
+    if (plan.interrupted) return;
+    try {
+        work();
+    } catch (const Error& error) {
+        if (error.refusal != Refusal::interrupted || !accept_interrupt()) throw;
+        plan.interrupted = true;
+    }
+}
+
+bool decides_parts(const PlanOptions& options) noexcept {
+    return options.decide_textures || options.decide_formats || options.decide_sky || options.decide_lights;
+}
+
+void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, ScenePlan& plan) {
+    decide_objects(work, decisions, plan.interrupted);
+    until_stopped(plan, [&] {
+        share_frame(work, decisions);
+        check_together(work, decisions);
+    });
+    for (const ObjectDecision& decision : decisions) plan.objects.push_back(decision.plan);
+    plan.notes.insert(plan.notes.end(), work.notes.begin(), work.notes.end());
+}
+
+void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
+                 ScenePlan& plan) {
+    std::optional<Scene> shown;
+    if (decides_parts(work.options)) {
+        shown.emplace(load(planned));
+        apply_parts(planned, plan, *shown);
+    }
+    plan.verified = verify(work, decisions, shown ? &*shown : nullptr);
+    plan.over_budget =
+        std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
+}
+
+} // namespace
+
+ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Progress* progress) {
+    const Clock::time_point start = Clock::now();
+    ScenePlan plan;
+    plan.budget = options.budget;
+    PlanScenes scenes(entries, options.cameras);
+    for (const PlannedCamera& camera : scenes.cameras()) plan.cameras.push_back(camera.name);
+    plan.notes = scenes.plain().notes;
+    plan.exposure = chosen_exposure(scenes);
+    const auto plain = scenes.assemble(BakedModels(scenes.objects().size()));
+    PlanWork work{.scenes = scenes,
+                  .options = options,
+                  .exposure = plan.exposure,
+                  .plain = plain.get(),
+                  .progress = progress,
+                  .notes = {}};
+    std::vector<ObjectDecision> decisions;
+    if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height: no model is chosen");
+    else if (options.decide_objects) plan_objects(work, decisions, plan);
+    const SceneEntries planned = scenes.as_seen(planned_entries(entries, plan));
+    if (!plan.interrupted) plan_parts(planned, options, plan, progress);
+    if (options.verify) until_stopped(plan, [&] { verify_plan(work, decisions, planned, plan); });
+    if (progress) progress->finish();
+    plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return plan;
+}
+
+SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan) {
+    SceneEntries planned = entries;
+    std::set<std::string> names;
+    for (const MaterialEntry& material : entries.materials) names.insert(material.name);
+    // Objects with the same material and the same method keep one material.
+    std::map<std::pair<int, std::string>, int> made;
+    for (const ObjectPlan& object : plan.objects) {
+        if (object.meshes.empty()) continue;
+        const ShadeMethod method = chosen_method(object);
+        const int material = entries.meshes[std::size_t(object.meshes.front())].material;
+        const auto [at, added] = made.try_emplace({material, name(method)}, int(planned.materials.size()));
+        if (added) {
+            MaterialEntry own = entries.materials[std::size_t(material)];
+            std::string wanted = own.name + " as " + name(method);
+            while (!names.insert(wanted).second) wanted += "'";
+            own.name = wanted;
+            own.relief.shade = method;
+            planned.materials.push_back(std::move(own));
+        }
+        for (const int mesh : object.meshes) planned.meshes[std::size_t(mesh)].material = at->second;
+    }
+    return planned;
+}
+
+} // namespace bake

@@ -1,0 +1,251 @@
+#include "bake/verdict/plan/planned_scene.h"
+#include "bake/base/error.h"
+#include "bake/preview/shape_mesh.h"
+#include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/text_edits.h"
+#include "bake/verdict/plan/toml_string.h"
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <set>
+#include <toml++/toml.h>
+
+namespace bake {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::initializer_list<const char*> material_files = {
+    "albedo",        "bump",         "normal",        "specular-map", "shininess-map",
+    "roughness-map", "metallic-map", "occlusion-map", "emission-map", "height"};
+
+/// A material as some of its meshes show it.
+struct Version {
+    std::string shade; ///< name of the model
+    std::string name;  ///< of the material
+    bool kept = false; ///< the file has this one, and nothing changes
+};
+
+/// Tables of a [[list]], in the order of the file.
+std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) {
+    std::vector<const toml::table*> list;
+    if (const toml::array* array = root[key].as_array())
+        for (const toml::node& node : *array)
+            if (const toml::table* table = node.as_table()) list.push_back(table);
+    return list;
+}
+
+/// Where the parser saw a value, or the head of a table.
+Span span_of(const TextEdits& edits, const toml::node& node) {
+    const auto place = [](const toml::source_position& at) { return Place{at.line, at.column}; };
+    return {edits.offset(place(node.source().begin)), edits.offset(place(node.source().end))};
+}
+
+class Planner {
+public:
+    Planner(const std::string& text, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan)
+        : root_(root), entries_(entries), plan_(plan), edits_(text) {
+        for (const char* list : {"mesh", "instance"})
+            for (const toml::table* table : tables(root, list)) meshes_.push_back(table);
+        for (const MaterialEntry& material : entries.materials) names_.insert(material.name);
+        shown_.resize(entries.meshes.size());
+    }
+
+    void move_paths(const fs::path& folder);
+    void set_methods();
+    std::string text() const { return edits_.apply(); }
+
+private:
+    void move_path(const toml::node* node, const fs::path& folder);
+    std::vector<Version> versions(int material);
+    void set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const;
+    void add_key(TextEdits& edits, const toml::table& table, const toml::node& behind, const std::string& line) const;
+    void add_copy(const toml::table& material, const Version& version, const TextEdits& moved);
+    Span block_of(const toml::table& material) const;
+    void refer_to_versions();
+    std::string unused_name(const std::string& wanted);
+
+    const toml::table& root_;
+    const SceneEntries& entries_;
+    const ScenePlan& plan_;
+    TextEdits edits_;
+    std::vector<const toml::table*> meshes_; ///< as SceneEntries::meshes
+    std::vector<std::string> shown_;         ///< name of the material of each mesh; empty: as it was
+    std::set<std::string> names_;            ///< of materials
+};
+
+void Planner::move_path(const toml::node* node, const fs::path& folder) {
+    if (const toml::array* list = node ? node->as_array() : nullptr)
+        for (const toml::node& one : *list) move_path(&one, folder);
+    const auto* path = node ? node->as_string() : nullptr;
+    if (!path) return;
+    const std::string moved = (folder / path->get()).lexically_normal().generic_string();
+    if (moved != path->get()) edits_.replace(span_of(edits_, *node), toml_string(moved));
+}
+
+void Planner::move_paths(const fs::path& folder) {
+    for (const toml::table* mesh : tables(root_, "mesh")) {
+        move_path(mesh->get("file"), folder);
+        const auto* shape = mesh->get_as<std::string>("shape");
+        if (!shape) continue;
+        const std::string moved = shape_beside((folder / "scene").string(), shape->get());
+        if (moved != shape->get()) edits_.replace(span_of(edits_, *shape), toml_string(moved));
+    }
+    for (const toml::table* material : tables(root_, "material"))
+        for (const char* key : material_files) {
+            const toml::node* node = material->get(key);
+            const toml::table* height = node ? node->as_table() : nullptr;
+            move_path(height ? height->get("file") : node, folder);
+        }
+    if (const toml::table* sky = root_["sky"].as_table())
+        for (const char* key : {"faces", "image", "irradiance", "specular"}) move_path(sky->get(key), folder);
+}
+
+std::string Planner::unused_name(const std::string& wanted) {
+    std::string name = wanted;
+    for (int number = 2; !names_.insert(name).second; ++number) name = wanted + " " + std::to_string(number);
+    return name;
+}
+
+/// The models that the meshes of a material have, the one that keeps its name first. Notes the name for each mesh.
+std::vector<Version> Planner::versions(int material) {
+    const MaterialEntry& entry = entries_.materials[std::size_t(material)];
+    std::vector<Version> list;
+    if (entry.relief.file.empty()) return list;
+    const std::string was = name(entry.relief.shade.value_or(ShadeMethod{}));
+    const auto add = [&](const std::string& shade) -> Version& {
+        for (Version& one : list)
+            if (one.shade == shade) return one;
+        const std::string own = list.empty() ? entry.name : unused_name(entry.name + " " + shade);
+        return list.emplace_back(Version{shade, own, shade == was});
+    };
+    const auto shade_of = [&](std::size_t mesh) {
+        const auto method = planned_method(plan_, int(mesh));
+        return method ? name(*method) : was;
+    };
+    // What the plan has not decided stays as it is, under the name that it has.
+    bool stays = entries_.ground && entries_.ground->material == material;
+    for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
+        stays |= entries_.meshes[i].material == material && shade_of(i) == was;
+    if (stays) add(was);
+    for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
+        if (entries_.meshes[i].material == material) shown_[i] = add(shade_of(i)).name;
+    return list;
+}
+
+/// Adds a key to a table on the line after the value `behind`, or after it within braces.
+void Planner::add_key(TextEdits& edits, const toml::table& table, const toml::node& behind,
+                      const std::string& line) const {
+    const Span span = span_of(edits, behind);
+    if (table.is_inline()) return edits.insert(span.end, ", " + line);
+    const std::size_t begin = edits.line_begin(span.begin);
+    const std::size_t key = edits.text().find_first_not_of(" \t", begin);
+    const std::string indent(edits.text().substr(begin, key - begin));
+    edits.insert(edits.line_end(span.end), edits.newline(span.end) + indent + line);
+}
+
+void Planner::set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const {
+    if (const toml::node* old = material.get("shade")) return edits.replace(span_of(edits, *old), toml_string(shade));
+    // A height in a table of its own is no place for a key of the material.
+    const toml::node* height = material.get("height");
+    const bool one_value = height && (!height->is_table() || height->as_table()->is_inline());
+    add_key(edits, material, one_value ? *height : *material.get("name"), "shade = " + toml_string(shade));
+}
+
+/// From the first line of a table to the last line of its values.
+Span Planner::block_of(const toml::table& material) const {
+    Span span = span_of(edits_, material);
+    if (material.is_inline()) return span;
+    std::size_t last = span.end;
+    const auto reach = [&](const toml::table& table, const auto& self) -> void {
+        for (auto&& [key, node] : table) {
+            if (node.is_table() && !node.as_table()->is_inline()) self(*node.as_table(), self);
+            else last = std::max(last, span_of(edits_, node).end);
+        }
+    };
+    reach(material, reach);
+    span = {edits_.line_begin(span.begin), edits_.line_end(last)};
+    const auto within = [&](const toml::node& node) {
+        const std::size_t at = span_of(edits_, node).begin;
+        return &node != &material && at > span.begin && at < span.end;
+    };
+    for (auto&& [key, node] : root_) {
+        bool split = node.is_table() && within(node);
+        for (const toml::table* table : tables(root_, key.str())) split |= within(*table);
+        if (split)
+            throw Error(Refusal::unsuitable, entries_.file + ":" + std::to_string(material.source().begin.line) +
+                                                 ": the keys of this material stand apart in the file, and a copy of "
+                                                 "it is needed; write them behind one [[material]]");
+    }
+    return span;
+}
+
+/// Adds the material once more under another name, behind itself.
+void Planner::add_copy(const toml::table& material, const Version& version, const TextEdits& moved) {
+    const Span block = block_of(material);
+    TextEdits copy = moved;
+    copy.replace(span_of(copy, *material.get("name")), toml_string(version.name));
+    set_shade(copy, material, version.shade);
+    const std::string line = edits_.newline(block.end);
+    edits_.insert(block.end, (material.is_inline() ? ", " : line + line) + copy.apply(block));
+}
+
+void Planner::refer_to_versions() {
+    const auto named = [&](const std::string& mesh) {
+        const auto is = [&](const MeshEntry& entry) { return entry.name == mesh; };
+        return std::size_t(std::find_if(entries_.meshes.begin(), entries_.meshes.end(), is) - entries_.meshes.begin());
+    };
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        if (shown_[i].empty()) continue;
+        const toml::table& table = *meshes_[i];
+        if (const auto* old = table.get_as<std::string>("material")) {
+            if (old->get() != shown_[i]) edits_.replace(span_of(edits_, *old), toml_string(shown_[i]));
+            continue;
+        }
+        // An instance has the material of its mesh, unless it names one.
+        const auto* of = table.get_as<std::string>("mesh");
+        if (of && shown_[named(of->get())] != shown_[i])
+            add_key(edits_, table, *of, "material = " + toml_string(shown_[i]));
+    }
+}
+
+void Planner::set_methods() {
+    const std::vector<const toml::table*> materials = tables(root_, "material");
+    const TextEdits moved = edits_;
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        const std::vector<Version> list = versions(int(m));
+        for (const Version& version : list) {
+            if (&version != list.data()) add_copy(*materials[m], version, moved);
+            else if (!version.kept) set_shade(edits_, *materials[m], version.shade);
+        }
+    }
+    refer_to_versions();
+}
+
+} // namespace
+
+std::optional<ShadeMethod> planned_method(const ScenePlan& plan, int mesh) {
+    for (const ObjectPlan& object : plan.objects)
+        if (std::find(object.meshes.begin(), object.meshes.end(), mesh) != object.meshes.end())
+            return object.chosen >= 0 ? object.rungs[std::size_t(object.chosen)].method : object.reference;
+    return {};
+}
+
+std::string planned_scene(const std::string& text, const SceneEntries& entries, const ScenePlan& plan,
+                          const std::string& out) {
+    toml::table root;
+    try {
+        root = toml::parse(text, entries.file);
+    } catch (const toml::parse_error& error) {
+        throw Error(Refusal::unreadable, entries.file + ": " + std::string(error.description()));
+    }
+    if (tables(root, "material").size() != entries.materials.size() ||
+        tables(root, "mesh").size() + tables(root, "instance").size() != entries.meshes.size())
+        throw Error(Refusal::unreadable, entries.file + ": changed while it was planned; plan it again");
+    Planner planner(text, root, entries, plan);
+    if (const fs::path folder = folder_from(entries.file, out); folder != ".") planner.move_paths(folder);
+    planner.set_methods();
+    return planner.text();
+}
+
+} // namespace bake

@@ -1,0 +1,129 @@
+#include "bake/verdict/plan/references.h"
+#include "bake/base/error.h"
+#include "bake/base/text.h"
+#include <algorithm>
+#include <cmath>
+
+namespace bake {
+namespace {
+
+constexpr int most_levels = 10; ///< of a displacement
+/// Triangles of all meshes beyond which no reference is refined for its own error.
+constexpr double most_refined = 5e6;
+constexpr double edges_per_wave = 12;
+constexpr int measured_pixels = 256;
+constexpr double tolerable = 0.15; ///< error of a reference, as a part of the budget
+
+/// Makes the reference finer, up to `level` and a number of triangles. Returns whether it changed.
+bool raise(Candidate& c, int level, double most) noexcept {
+    level = std::min(level, c.most_level);
+    while (level > 0 && level > c.level && displaced_triangles(c, level) > most) --level;
+    const bool finer = level > c.level;
+    c.level = std::max(level, c.level);
+    return finer;
+}
+
+/// For the next rung.
+int wanted_level(const Candidate& c) noexcept {
+    const ShadeMethod& method = c.plan().rungs[c.next].method;
+    const int first = first_level(c);
+    return displaces(method.shade) ? std::max(first, method.levels + 2) : first;
+}
+
+} // namespace
+
+double displaced_triangles(const Candidate& candidate, int level) noexcept {
+    return double(candidate.cost.triangles) * candidate.cost.meshes * std::exp2(2.0 * level);
+}
+
+int first_level(const Candidate& candidate) noexcept {
+    int level = 0;
+    while (level < most_levels && displaced_triangles(candidate, level) < candidate.first_triangles) ++level;
+    // One that is coarser by a level tells the error of the reference.
+    if (level == 0 && displaced_triangles(candidate, 1) <= most_refined) level = 1;
+    return level;
+}
+
+/// Where it does not fit in memory, a coarser one.
+void References::bake(Candidate& c) {
+    for (;; --c.level) {
+        try {
+            c.decision->reference = work_.scenes.bake(c.decision->object, {Shade::displace, c.level});
+            break;
+        } catch (const Error& error) {
+            if (error.refusal != Refusal::unsuitable || c.level == 0) throw;
+            c.most_level = c.level - 1;
+        }
+    }
+    if (c.level == c.most_level && c.level < most_levels)
+        work_.note(format("%s: its reference is %s, the finest that fits in memory", c.plan().object.c_str(),
+                          name({Shade::displace, c.level}).c_str()));
+    c.plan().reference = {Shade::displace, c.level};
+    c.plan().reference_cost = model_cost(c.cost, c.plan().reference);
+}
+
+void References::make_meters(Candidate& c) {
+    const ProbedScene both[] = {c.of(*scene_), c.of(*work_.plain)};
+    c.decision->area.clear();
+    for (std::size_t camera = 0; camera < work_.scenes.cameras().size(); ++camera) {
+        const ProbeOptions options = probe_options(work_, camera, c.plan().object);
+        c.meters.emplace_back(work_.options.budget.metric, both[0], object_pixels(both, options), options);
+        c.decision->area.push_back(double(c.meters.back().pixels()));
+    }
+}
+
+void References::build(std::vector<Candidate>& candidates) {
+    for (Candidate& c : candidates) c.meters.clear();
+    scene_.reset();
+    BakedModels models(work_.scenes.objects().size());
+    for (Candidate& c : candidates) {
+        if (!c.done) bake(c);
+        models[std::size_t(c.decision->object)] = c.decision->reference;
+    }
+    scene_ = work_.scenes.assemble(std::move(models));
+    for (Candidate& c : candidates)
+        if (!c.done) make_meters(c);
+    measure(candidates);
+}
+
+void References::measure(std::vector<Candidate>& candidates) {
+    BakedModels models = scene_->models;
+    for (const Candidate& c : candidates)
+        if (!c.done && c.level > 0)
+            models[std::size_t(c.decision->object)] =
+                work_.scenes.bake(c.decision->object, {Shade::displace, c.level - 1});
+    const auto coarse = work_.scenes.assemble(std::move(models));
+    for (Candidate& c : candidates) {
+        if (c.done) continue;
+        c.plan().reference_error = 0;
+        const bool resolved = c.edge / std::exp2(c.level) * edges_per_wave <= c.shortest;
+        for (std::size_t camera = 0; camera < c.meters.size() && c.level > 0; ++camera) {
+            work_.scenes.light_for(scene_->scene, camera), work_.scenes.light_for(coarse->scene, camera);
+            const double change = c.meters[camera].measure(c.of(*coarse), measured_pixels).rmse();
+            c.plan().reference_error = std::max(c.plan().reference_error, change / (resolved ? 3 : 1));
+        }
+    }
+}
+
+bool References::is_too_coarse(const Candidate& c) const noexcept {
+    const double budget = work_.options.budget.value;
+    return !c.done && budget > 0 && c.plan().reference_error > tolerable * budget &&
+           displaced_triangles(c, c.level + 1) <= most_refined;
+}
+
+void References::prepare(std::vector<Candidate>& candidates) {
+    bool changed = !scene_;
+    for (Candidate& c : candidates) {
+        if (c.done) continue;
+        if (c.level < 0) c.most_level = most_levels;
+        changed = raise(c, wanted_level(c), c.most_triangles) || changed;
+    }
+    while (changed) {
+        build(candidates);
+        changed = false;
+        for (Candidate& c : candidates)
+            if (is_too_coarse(c)) changed = raise(c, c.level + 1, most_refined) || changed;
+    }
+}
+
+} // namespace bake

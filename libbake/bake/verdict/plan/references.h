@@ -1,0 +1,64 @@
+// The displaced meshes that objects are judged against, and how far these are from finer ones. Internal to this room.
+//
+// A reference is small at first. It becomes at least four times finer per edge than a displaced rung in question, and finer
+// where its own error is too large for the budget. With d the error of a mesh of twice the edges against it, its own error is
+// taken to be d / 3 where 12 of its edges make the shortest wave of the height, because errors of order 2 fall to a quarter
+// (Richardson, 1911), and d where its edges are longer than that.
+#pragma once
+#include "bake/verdict/plan/error_meter.h"
+#include "bake/verdict/plan/object_facts.h"
+#include "bake/verdict/plan/plan_cost.h"
+#include "bake/verdict/plan/plan_work.h"
+
+namespace bake {
+
+/// One object on its way to a decision.
+struct Candidate {
+    ObjectDecision* decision = nullptr;
+    std::vector<std::uint8_t> instances; ///< a flag for each of the scene
+    std::optional<ObjectFacts> facts;
+    CostInput cost;
+    double edge = 0;                   ///< of the mesh, texels
+    double dominant = 0, shortest = 0; ///< waves of the height, texels
+    bool has_relief = true;            ///< some height is not 0
+    std::size_t next = 0;              ///< rung
+    std::size_t last = 0;              ///< the last one that was probed before
+    bool probed = false;               ///< whether there is one
+    std::size_t worst = 0;             ///< the camera that refused the last rung
+    bool done = false;
+    double first_triangles = 1e5;   ///< of all meshes, with which the reference begins
+    double most_triangles = 1.2e7;  ///< beyond which it is not refined for the sake of a rung
+    int level = -1;                 ///< of the reference
+    int most_level = 0;             ///< finer ones do not fit
+    std::vector<ErrorMeter> meters; ///< one per camera
+
+    ObjectPlan& plan() const noexcept { return decision->plan; }
+    Rung& rung() const noexcept { return decision->plan.rungs[next]; }
+    ProbedScene of(const AssembledScene& scene) const noexcept { return {&scene.scene, instances}; }
+};
+
+/// Triangles of all meshes of an object, displaced.
+double displaced_triangles(const Candidate& candidate, int level) noexcept;
+/// With which a reference begins.
+int first_level(const Candidate& candidate) noexcept;
+
+class References {
+public:
+    explicit References(PlanWork& work) : work_(work) {}
+
+    /// Makes the references of all candidates that are not done fine enough for their next rungs.
+    void prepare(std::vector<Candidate>& candidates);
+    AssembledScene& scene() noexcept { return *scene_; }
+
+private:
+    void bake(Candidate& c);
+    void build(std::vector<Candidate>& candidates);
+    void make_meters(Candidate& c);
+    void measure(std::vector<Candidate>& candidates);
+    bool is_too_coarse(const Candidate& c) const noexcept;
+
+    PlanWork& work_;
+    std::unique_ptr<AssembledScene> scene_;
+};
+
+} // namespace bake

@@ -1,0 +1,85 @@
+// The bakes that a manifest lists, run by the command: their files show what the tracer shows without them.
+#include "bake/base/text.h"
+#include "bake/picture/image_io.h"
+#include "bake/preview/scene_io.h"
+#include "bake/verdict/plan/manifest.h"
+#include "bake/verdict/plan/planned_scene.h"
+#include "cli/command.h"
+#include "verdict/plan/hand_made_plan.h"
+#include <cmath>
+
+using namespace bake;
+using namespace bake::test;
+
+namespace {
+
+const std::string around = R"([render]
+size = [64, 48]
+spp = 4
+exposure = 0
+[camera]
+position = [0, 3, 4]
+target = [0, 0, 0]
+[[light]]
+type = "directional"
+from = [-1, 1, 1]
+)";
+
+/// RMSE of two pictures of floats.
+double distance(const Image<float>& a, const Image<float>& b) {
+    REQUIRE(a.size() == b.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(double(a.data()[i]) - double(b.data()[i]), 2);
+    return std::sqrt(sum / double(a.size()));
+}
+
+Image<float> rendered(const Folder& folder, const std::string& scene) {
+    const Run run = run_bake(folder, {"render", scene, "-o", scene + ".exr", "--quiet"});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    return read_image(folder / (scene + ".exr"));
+}
+
+/// Renders the object by this model, runs the bakes that it needs, and renders it from their files instead. `mesh`: the line
+/// that names it. Returns the RMSE between the two pictures.
+double difference(const std::string& model, const std::string& mesh) {
+    const Folder folder;
+    fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
+    fs::copy_file(own_meshes() / "torus.obj", folder / "torus.obj");
+    const std::string relief = "height = {file = \"dots.png\", amplitude = \"2%\"}\n",
+                      object = "[[mesh]]\nmaterial = \"studs\"\nname = \"ring\"\n",
+                      material = "[[material]]\nname = \"studs\"\n";
+    const std::string scene = around + material + relief + object + mesh + "\n";
+    write_file(folder / "s.toml", scene);
+    const SceneEntries entries = read_scene(folder / "s.toml");
+    ScenePlan plan;
+    plan.objects = {shown_by("ring", model, {0})};
+    write_file(folder / "planned.toml", planned_scene(scene, entries, plan, folder / "planned.toml"));
+    write_file(folder / "bakes.toml", to_toml(plan_manifest(entries, plan, folder / "bakes.toml")));
+
+    std::string shown = mesh, maps;
+    for (const Bake& bake : parse_manifest(contents(folder / "bakes.toml"), "bakes.toml").bakes) {
+        const Run run = run_bake(folder, command_of(bake));
+        REQUIRE_MESSAGE(run.code == 0, run.err);
+        const std::string file = bake.outputs.front().second;
+        REQUIRE(fs::exists(folder / file));
+        const std::string line = bake.use + " = \"" + file + "\"";
+        if (bake.use == "file") shown = line;
+        else if (!bake.use.empty()) maps += line + "\n";
+        else shown = "file = \"" + file + "\""; // the shape, with the uvs of the map
+    }
+    write_file(folder / "baked.toml", around + material + maps + object + shown + "\n");
+    return distance(rendered(folder, "planned.toml"), rendered(folder, "baked.toml"));
+}
+
+} // namespace
+
+TEST_SUITE("cli") {
+    TEST_CASE("manifest: its bakes make files with which the picture is the same, up to the rounding of the files") {
+        const std::string file = "file = \"torus.obj\"", shape = "shape = \"torus:R=1,r=0.4\"";
+        CHECK(difference("bump", file) < 2e-4);
+        CHECK(difference("normal", shape) < 2e-4);
+        CHECK(difference("displace:4", file) < 2e-4);
+        CHECK(difference("displace:4", shape) < 2e-4);
+        CHECK(difference("displace+normal:4", file) < 2e-4);
+    }
+}

@@ -1,0 +1,128 @@
+// bake plan from outside.
+#include "bake/base/text.h"
+#include "bake/preview/scene_io.h"
+#include "cli/command.h"
+#include <nlohmann/json.hpp>
+
+using namespace bake;
+using namespace bake::test;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A ring and a ball with one material, small in the picture.
+void write_scene(const Folder& folder) {
+    fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
+    write_file(folder / "s.toml", R"(# two objects
+[render]
+size = [32, 24]
+spp = 4
+exposure = 0
+[[camera]]
+name = "front"
+position = [0, 3, 4]
+target = [0, 0, 0]
+[[camera]]
+name = "top"
+position = [0, 6, 0.1]
+target = [0, 0, 0]
+[[light]]
+type = "directional"
+from = [-1, 1, 1]
+[[material]]
+name = "studs"
+height = {file = "dots.png", amplitude = 0.02} # high
+[[mesh]]
+name = "ring"
+shape = "torus:R=1,r=0.4"
+segments = [24, 12]
+material = "studs"
+[[mesh]]
+name = "ball"
+shape = "sphere:R=0.3"
+segments = [12, 8]
+material = "studs"
+)");
+}
+
+std::vector<std::string> line(std::vector<std::string> more) {
+    more.insert(more.begin(), {"plan", "s.toml"});
+    return more;
+}
+
+} // namespace
+
+TEST_SUITE("cli") {
+    TEST_CASE("plan: a row for each object, the same in JSON for any number of threads, and a scene that renders") {
+        const Folder folder;
+        write_scene(folder);
+        const Run text = run_bake(folder, line({"--budget", "rmse=0.05", "--camera", "front", "-o", "planned.toml",
+                                                "--manifest", "bakes.toml", "--threads", "2"}));
+        CHECK(text.err == "");
+        REQUIRE(text.code == 0);
+        for (const char* part : {"within rmse 0.0500 (rmse=0.05)", "\n  ring  ", "\n  ball  ", "    why  ",
+                                 "    saves  ", "front; the worst one counts", "planned.toml", "bakes.toml"})
+            CHECK_MESSAGE(has(text.out, part), part << "\n" << text.out);
+        const Run one = run_bake(
+            folder, line({"--budget", "rmse=0.05", "--camera", "front", "--threads", "1", "--json", "-o", "one.toml"}));
+        const auto json = nlohmann::json::parse(one.out);
+        CHECK(contents(folder / "one.toml") == contents(folder / "planned.toml"));
+        REQUIRE(json["objects"].size() == 2);
+        const SceneEntries planned = read_scene(folder / "planned.toml");
+        for (std::size_t i = 0; i < 2; ++i) {
+            const auto& shade = planned.materials[std::size_t(planned.meshes[i].material)].relief.shade;
+            CHECK(name(shade.value_or(ShadeMethod{Shade::exact})) == json["objects"][i]["model"]);
+            const auto& object = json["objects"][i];
+            if (object["chosen"].is_null()) continue;
+            const double rmse = object["rungs"][object["chosen"].get<std::size_t>()]["error"]["rmse"];
+            CHECK_MESSAGE(has(text.out, format(" %.4f ", rmse)), text.out);
+        }
+        CHECK(has(contents(folder / "planned.toml"), "# two objects\n"));
+        CHECK(has(contents(folder / "bakes.toml"), "manifest = 1\n"));
+        CHECK(run_bake(folder, {"render", "planned.toml", "-o", "planned.png", "--spp", "1"}).code == 0);
+    }
+
+    TEST_CASE("plan: an infinite budget allows the cheapest model, and --verify measures it") {
+        const Folder folder;
+        write_scene(folder);
+        const Run run = run_bake(folder, line({"--budget", "rmse=inf", "--verify", "--json"}));
+        REQUIRE(run.code == 0);
+        const auto json = nlohmann::json::parse(run.out);
+        CHECK(json["cameras"].size() == 2);
+        for (const auto& object : json["objects"]) CHECK(object["model"] == "plain");
+        REQUIRE(json["verified"].size() > 0);
+        for (const auto& line : json["verified"]) CHECK(line["measured"]["rmse"].get<double>() > 0);
+    }
+
+    TEST_CASE("plan: refusals name the option or the file, and leave nothing behind") {
+        const Folder folder;
+        write_scene(folder);
+        write_file(folder / "flat.toml", "mesh = [{shape = \"sphere\"}]\n");
+        const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& named) {
+            check_refused(folder, line(more), code, named);
+        };
+        refused({"--budget", "tiny"}, 2, "--budget tiny: is not a budget");
+        refused({"--budget", "rmse=-1"}, 2, "--budget rmse=-1: ");
+        refused({"--camera", "frnt"}, 2, "did you mean");
+        refused({"--cost", "watts=1"}, 2, "--cost watts=1: ");
+        refused({"--cost", "bytes=nan"}, 2, "--cost bytes nan: ");
+        refused({"--cost", "bytes=0"}, 2, "--cost bytes=0: nothing costs anything");
+        refused({"--decide", "objects"}, 2, "--decide objects: ");
+        refused({"-o", "p.png"}, 2, "--out p.png: ");
+        refused({"-o", "p.toml", "--manifest", "p.toml"}, 2, "--manifest p.toml: ");
+        refused({"-o", "s.toml"}, 2, "s.toml: ");
+        refused({"-o", "no/p.toml"}, 5, "no/p.toml: ");
+        check_refused(folder, {"plan", "no.toml"}, 3, "no.toml: ");
+        check_refused(folder, {"plan", "dots.png"}, 3, "dots.png: ");
+    }
+
+    TEST_CASE("plan: Ctrl-C keeps the decisions that were made, and exits with 130") {
+        const Folder folder;
+        write_scene(folder);
+        const Run run = run_bake(folder, line({"--size", "1500", "--budget", "rmse=0", "-o", "p.toml"}),
+                                 {.seconds = 100, .interrupt_after = 0.7});
+        CHECK(run.code == 130);
+        CHECK(has(run.err, "interrupted"));
+    }
+}

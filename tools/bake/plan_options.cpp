@@ -1,0 +1,106 @@
+#include "plan_options.h"
+#include "inputs/file_kind.h"
+#include <sstream>
+
+namespace bake {
+namespace {
+
+std::vector<std::string> words_of(const std::string& list) {
+    std::vector<std::string> words;
+    std::istringstream in(list);
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+}
+
+CostWeights parse_cost(const std::string& list) {
+    CostWeights weights;
+    if (!list.empty()) weights = {.triangle = 0, .byte = 0, .ms = 0}; // what is not named costs nothing
+    for (const std::string& word : words_of(list)) {
+        const std::size_t equals = word.find('=');
+        const std::string key = word.substr(0, equals);
+        double* const weight = key == "triangles" ? &weights.triangle
+                               : key == "bytes"   ? &weights.byte
+                               : key == "ms"      ? &weights.ms
+                                                  : nullptr;
+        if (!weight || equals == std::string::npos)
+            throw Error(Refusal::usage, "--cost " + list + ": has " + word +
+                                            ", which is no weight; write such as triangles=1,bytes=0.01,ms=1000");
+        *weight = number_of("--cost " + key, word.substr(equals + 1), 0, 1e12);
+    }
+    if (weights.triangle + weights.byte + weights.ms <= 0)
+        throw Error(Refusal::usage, "--cost " + list + ": nothing costs anything; give one weight above 0");
+    return weights;
+}
+
+void parse_decisions(const std::string& list, PlanOptions& options) {
+    options.decide_objects = false;
+    for (const std::string& word : words_of(list)) {
+        bool* const decision = word == "object"    ? &options.decide_objects
+                               : word == "texture" ? &options.decide_textures
+                               : word == "format"  ? &options.decide_formats
+                               : word == "sky"     ? &options.decide_sky
+                               : word == "lights"  ? &options.decide_lights
+                                                   : nullptr;
+        if (!decision)
+            throw Error(Refusal::usage, "--decide " + list + ": has " + word +
+                                            ", which is not decided; these are object, texture, format, sky, lights");
+        *decision = true;
+    }
+}
+
+void expect_toml(const char* flag, const std::string& file) {
+    if (!file.empty() && file != null_device && ending(file) != ".toml")
+        throw Error(Refusal::usage, std::string(flag) + " " + file + ": is written as TOML; end its name with .toml");
+}
+
+} // namespace
+
+void add_plan_options(CLI::App& sub, PlanArgs& args) {
+    sub.add_option("scene", args.scene, "Scene (.toml) whose objects have heights")->required();
+    sub.add_option("--budget", args.budget,
+                   "Largest error of an object: strict (rmse=0.005), normal (rmse=0.01), loose (rmse=0.02), or a "
+                   "number. rmse: of exposed linear light, each sample clamped to [0, 1] before samples are averaged, "
+                   "over the area that the object covers in the picture, of the worst camera, against true "
+                   "displacement. flip: mean FLIP over the same. deg: mean angle between the shading normals")
+        ->type_name("strict|normal|loose|rmse=E|flip=E|deg=E")
+        ->capture_default_str();
+    sub.add_option("--camera", args.cameras, "Names of the scene's cameras with commas between them; all: each of them")
+        ->type_name("NAME,...|all")
+        ->capture_default_str();
+    add_size_option(sub, args.size, "Pixels, instead of the scene's own", 8192);
+    sub.add_option("--cost", args.cost,
+                   "Weights of what a model costs, with commas between them; what is left out costs nothing "
+                   "[triangles=1,bytes=0.01]")
+        ->type_name("triangles=W|bytes=W|ms=W,...");
+    sub.add_option("--decide", args.decide,
+                   "What is decided, with commas between them: object (the model of each relief), texture (sizes of "
+                   "maps), format (their bits), sky (its faces), lights (which of them no camera can tell)")
+        ->type_name("object|texture|format|sky|lights,...")
+        ->capture_default_str();
+    sub.add_option("-o,--out", args.out, "Scene to write: the same with the models that were chosen")
+        ->type_name("PLANNED.toml");
+    sub.add_option("--manifest", args.manifest, "List of the bakes that the models need")->type_name("BAKES.toml");
+    sub.add_flag("--verify", args.verify,
+                 "Render whole pictures of the planned scene and of the reference too; exit with 1 over the budget");
+    sub.add_flag("--measure", args.measure,
+                 "Time the milliseconds instead of taking them from the cost model; the plan may differ from run to "
+                 "run");
+    add_integer_option(sub, "--seed", args.seed, 0, 1000000000, "Of the pixels that are probed")->capture_default_str();
+}
+
+PlanOptions plan_options(const PlanArgs& args) {
+    PlanOptions options;
+    options.budget = parse_budget(args.budget);
+    if (args.cameras != "all") options.cameras = words_of(args.cameras);
+    options.weights = parse_cost(args.cost);
+    parse_decisions(args.decide, options);
+    options.verify = args.verify, options.measure = args.measure;
+    options.seed = std::uint32_t(args.seed);
+    expect_toml("--out", args.out);
+    expect_toml("--manifest", args.manifest);
+    if (!args.out.empty() && args.out == args.manifest && args.out != null_device)
+        throw Error(Refusal::usage, "--manifest " + args.manifest + ": is --out too; give two names");
+    return options;
+}
+
+} // namespace bake

@@ -1,0 +1,21 @@
+// Options of bake plan.
+#pragma once
+#include "bake/verdict/plan/plan.h"
+#include "options.h"
+
+namespace bake {
+
+struct PlanArgs {
+    std::string scene, out, manifest;
+    std::string budget = "normal", cameras = "all", cost, decide = "object";
+    std::optional<std::pair<int, int>> size; ///< none: the scene's
+    bool verify = false, measure = false;
+    int seed = 0;
+};
+
+void add_plan_options(CLI::App& sub, PlanArgs& args);
+/// Throws Error{Refusal::usage} for words that are no budget, weight or decision, and for the name of an output that is
+/// not a scene.
+PlanOptions plan_options(const PlanArgs& args);
+
+} // namespace bake
