@@ -8,16 +8,16 @@ namespace bake {
 namespace {
 
 constexpr int most_levels = 10; ///< of a displacement
-constexpr double most_refined =
-    4e6; ///< triangles of all meshes, beyond which no reference is refined for its own error
+/// Triangles of all meshes beyond which no reference is refined for its own error.
+constexpr double most_refined = 5e6;
 constexpr double edges_per_wave = 12;
 constexpr int measured_pixels = 256;
 constexpr double tolerable = 0.15; ///< error of a reference, as a part of the budget
 
-/// Makes the reference finer, up to `level`. Returns whether it changed.
-bool raise(Candidate& c, int level) noexcept {
+/// Makes the reference finer, up to `level` and a number of triangles. Returns whether it changed.
+bool raise(Candidate& c, int level, double most) noexcept {
     level = std::min(level, c.most_level);
-    while (level > 0 && level > c.level && displaced_triangles(c, level) > c.most_triangles) --level;
+    while (level > 0 && level > c.level && displaced_triangles(c, level) > most) --level;
     const bool finer = level > c.level;
     c.level = std::max(level, c.level);
     return finer;
@@ -108,7 +108,7 @@ void References::measure(std::vector<Candidate>& candidates) {
 bool References::is_too_coarse(const Candidate& c) const noexcept {
     const double budget = work_.options.budget.value;
     return !c.done && budget > 0 && c.plan().reference_error > tolerable * budget &&
-           displaced_triangles(c, c.level + 1) <= std::min(most_refined, c.most_triangles);
+           displaced_triangles(c, c.level + 1) <= most_refined;
 }
 
 void References::prepare(std::vector<Candidate>& candidates) {
@@ -116,13 +116,13 @@ void References::prepare(std::vector<Candidate>& candidates) {
     for (Candidate& c : candidates) {
         if (c.done) continue;
         if (c.level < 0) c.most_level = most_levels;
-        changed = raise(c, wanted_level(c)) || changed;
+        changed = raise(c, wanted_level(c), c.most_triangles) || changed;
     }
     while (changed) {
         build(candidates);
         changed = false;
         for (Candidate& c : candidates)
-            if (is_too_coarse(c)) changed = raise(c, c.level + 1) || changed;
+            if (is_too_coarse(c)) changed = raise(c, c.level + 1, most_refined) || changed;
     }
 }
 

@@ -27,7 +27,7 @@ struct Candidate {
     std::size_t worst = 0;             ///< the camera that refused the last rung
     bool done = false;
     double first_triangles = 1e5;   ///< of all meshes, with which the reference begins
-    double most_triangles = 1.2e7;  ///< beyond which it is not refined
+    double most_triangles = 1.2e7;  ///< beyond which it is not refined for the sake of a rung
     int level = -1;                 ///< of the reference
     int most_level = 0;             ///< finer ones do not fit
     std::vector<ErrorMeter> meters; ///< one per camera
