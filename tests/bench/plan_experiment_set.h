@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -336,5 +338,14 @@ private:
     std::vector<PlanBase> bases_;
     std::vector<ReliefPicture> reliefs_;
 };
+
+/// Numbers of the configurations that have a row in a csv file.
+inline std::set<int> numbers_in(const std::string& file) {
+    std::set<int> numbers;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);)
+        if (!line.empty() && line[0] >= '0' && line[0] <= '9') numbers.insert(std::stoi(line));
+    return numbers;
+}
 
 } // namespace bench

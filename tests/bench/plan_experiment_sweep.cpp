@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <set>
 
 using namespace bench;
@@ -147,14 +146,6 @@ private:
     TruePicture first_reference_, reference_; ///< of few samples, and of all
     float exposure_ = 0;
 };
-
-std::set<int> numbers_in(const std::string& file) {
-    std::set<int> numbers;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);)
-        if (!line.empty() && line[0] >= '0' && line[0] <= '9') numbers.insert(std::stoi(line));
-    return numbers;
-}
 
 /// Pictures of configurations, ten in a row, each without relief and as the reference.
 void show(const PlanSet& set, const Arguments& arguments) {
