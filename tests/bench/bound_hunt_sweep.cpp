@@ -20,13 +20,14 @@ struct Tally {
 
 void count(std::uint32_t seed, Tally& tally) {
     constexpr double budget = 0.01;
-    const auto scene = test::drawn_scene(seed);
-    const test::Hunted found = test::hunt(*scene);
+    constexpr int half = 8;
+    const auto scene = test::drawn_scene(seed, "displace:8");
+    const test::Hunted found = test::hunt(*scene, half);
     ++tally.drawn;
     const bool sampled = seed % 10 == 0;
     if (!found.bound) {
         if (!sampled) return;
-        const bool within = test::measured_error(*scene).rmse() <= budget;
+        const bool within = test::measured_error(*scene, half).rmse() <= budget;
         tally.within_measured += within, tally.flat_within_measured += within && scene->base == "plane";
         return;
     }

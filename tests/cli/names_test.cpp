@@ -38,6 +38,7 @@ TEST_SUITE("cli") {
         const std::vector<std::vector<std::string>> lines = {
             {"check", png, obj},
             {"check", obj, "--against", obj},
+            {"check", obj, "--height", png},
             {"compare", png, png},
             {"plan", relief, "--size", "8", "-o", hostile + "_out.toml"},
             {"normal-map", obj, "--height", png, "--amplitude", "200%", "--size", "32", "-o", out_png},

@@ -77,6 +77,16 @@ TEST_SUITE("unit") {
         CHECK(check_brdf("", sum_of({cosine_lobe(LobeKind::normalised_phong, 1e5f)})).reciprocity.reciprocal());
     }
 
+    TEST_CASE("check_brdf: the narrower a lobe is, the nearer to the mirror direction it is compared") {
+        // The lobes are 0 at the next larger angle that is tried. Phong's f has n.l in its denominator.
+        for (const auto& [exponent, off] : {std::pair(3e4f, 1.0), {2e5f, 0.3}, {3e6f, 0.1}}) {
+            const BrdfRatio found = check_brdf("", sum_of({cosine_lobe(LobeKind::phong, exponent)})).reciprocity;
+            CHECK(std::abs(found.from_deg - found.to_deg) == doctest::Approx(off).epsilon(1e-6));
+            CHECK(found.ratio ==
+                  doctest::Approx(std::cos(80 * pi / 180) / std::cos((80 + off) * pi / 180)).epsilon(1e-4));
+        }
+    }
+
     TEST_CASE("check_brdf: text and JSON have the same figures, and one line per angle") {
         const BrdfReport report = check_brdf("phong:n=3", sum_of({cosine_lobe(LobeKind::phong, 3)}));
         const std::string text = to_text(report);

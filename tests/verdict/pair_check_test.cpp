@@ -152,6 +152,28 @@ TEST_SUITE("unit") {
         CHECK_FALSE(pair_recipe(check_pair(flat, wave_normals(64, 10)), 1));
     }
 
+    TEST_CASE("check_pair: relief along one axis alone is not flat") {
+        for (const bool upright : {false, true}) {
+            Image<float> height(64, 64, 1), normals(64, 64, 3);
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x) {
+                    const double phase = 2 * pi * 3 * ((upright ? y : x) + 0.5) / 64;
+                    height.at(x, y) = float(0.5 + 0.2 * std::sin(phase));
+                    // Rows run downwards, and green points up.
+                    const double slope = 10 * 0.2 * 2 * pi * 3 / 64 * std::cos(phase), z = 1 / std::hypot(slope, 1);
+                    normals.at(x, y, upright ? 1 : 0) = float((upright ? slope : -slope) * z);
+                    normals.at(x, y, 2) = float(z);
+                }
+            const PairCheck c = check_pair(height, normals);
+            CHECK_FALSE(c.flat);
+            CHECK(c.corr_x == doctest::Approx(upright ? 0 : 1).epsilon(1e-3));
+            CHECK(c.corr_y == doctest::Approx(upright ? 1 : 0).epsilon(1e-3));
+            CHECK_FALSE(c.inverted);
+            CHECK_FALSE(c.green_decided);
+            CHECK(c.scale == doctest::Approx(10).epsilon(0.02));
+        }
+    }
+
     TEST_CASE("check_pair: other relief does not agree, flat images are flat, one texel is accepted") {
         Image<float> other(128, 128, 1);
         for (int y = 0; y < 128; ++y)

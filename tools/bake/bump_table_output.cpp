@@ -135,6 +135,7 @@ nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& r) {
                              {"levels", r.height.levels},
                              {"step", r.height.step},
                              {"step_tilt_deg", r.tilt_deg},
+                             {"slope_loss", r.loss},
                              {"error_budget", to_json(r.budget)}};
     if (!r.notes.empty()) result["notes"] = r.notes;
     if (r.advice) result["better_filter"] = to_json(*r.advice);

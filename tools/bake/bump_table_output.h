@@ -1,6 +1,7 @@
 // The files and reports of the verb bump-table.
 #pragma once
 #include "bake/relief/map/bake_budget.h"
+#include "bake/relief/map/slope_loss.h"
 #include "options.h"
 
 namespace bake {
@@ -28,6 +29,7 @@ struct BumpTableReport {
     std::optional<SlopeCode> code;
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
+    double loss = 0;                ///< of the slopes, by the filter: slope_loss()
     double tilt_deg = 0;            ///< of the normal, by one level of the height
     Vec2d extent{1};                ///< object units
     std::vector<std::string> notes; ///< doubts about the height

@@ -4,6 +4,25 @@
 namespace bake {
 namespace {
 
+/// Of the slopes: a loss that is told.
+constexpr double least_loss = 0.1;
+
+/// Notes what the table gets wrong beyond what shows: levels that are too few, if the amplitude is given, and slopes that the
+/// filter loses.
+void note_errors(const BumpTableArgs& args, const BumpTableReport& report, const CommonArgs& common) {
+    if (args.height.amplitude && report.budget.quantisation_deg > smallest_seen_deg)
+        note(common,
+             format("%s: its levels tilt the normal by %.2g deg (rms): they are too few for this amplitude; give "
+                    "16 bits, or --dequantise a smooth height",
+                    args.height.path.c_str(), report.budget.quantisation_deg));
+    if (report.loss < least_loss || report.budget.filter_deg < smallest_seen_deg || report.budget.lossy) return;
+    const std::string filter(name(report.table.filter()));
+    note(common, format("%s: the filter %s loses %.0f %% of the slopes at its frequencies; ", args.height.path.c_str(),
+                        filter.c_str(), 100 * report.loss) +
+                     (report.advice ? "--filter " + std::string(name(report.advice->filter)) + " keeps them"
+                                    : "a picture of more texels or bits keeps them"));
+}
+
 /// Resolves the options that depend on others, and refuses what a table cannot be. Returns the depth of the file.
 Depth resolve(BumpTableArgs& args) {
     const Depth depth = resolve_depth(args.out, args.depth);
@@ -45,6 +64,8 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     const BudgetInput input = table_budget(height, args.options, depth, report.code);
     report.budget = error_budget(input);
     report.advice = better_filter(input, report.budget);
+    report.loss = slope_loss(height, table.filter(), args.options.wrap_u, args.options.wrap_v);
+    note_errors(args, report, common);
     if (report.advice) note(common, to_text(*report.advice));
     watch.lap("budget");
     report.extent = resolve_extent(args.options.extent_u, args.options.extent_v, table.width(), table.height());

@@ -1,7 +1,7 @@
 // bake check: what is in each file, and what is wrong with it.
 #include "bake/base/memory.h"
 #include "bake/verdict/brdf_check.h"
-#include "bake/verdict/inspect.h"
+#include "bake/verdict/relief_check.h"
 #include "inputs/brdf_input.h"
 #include "inputs/file_kind.h"
 #include "options.h"
@@ -15,6 +15,7 @@ struct CheckArgs {
     std::vector<std::pair<std::string, std::string>> pairs;
     std::vector<std::string> brdfs;
     std::string against;
+    HeightInput height; ///< for the meshes; none unless it has a path
     InspectOptions options;
     bool strict = false;
 };
@@ -32,8 +33,9 @@ bool over_limit(const DistanceReport& report) { return report.over_limit(); }
 bool over_limit(const PairReport& report) { return report.unexpected(); }
 template <class Report> bool over_limit(const Report&) { return false; }
 
+/// False if the file is refused.
 template <class Inspect>
-void add_result(Results& results, const std::string& file, const CommonArgs& common, const Inspect& inspect) {
+bool add_result(Results& results, const std::string& file, const CommonArgs& common, const Inspect& inspect) {
     const auto refuse = [&](const std::string& message, Refusal why) {
         const int code = fail(message, why);
         if (results.code == 0) results.code = code;
@@ -57,6 +59,7 @@ void add_result(Results& results, const std::string& file, const CommonArgs& com
             print_text((results.printed ? "\n" : "") + with_flags(to_text(report)));
             results.printed = true;
         }
+        return true;
     } catch (const Error& error) {
         if (error.refusal == Refusal::interrupted) throw;
         refuse(error.what(), error.refusal);
@@ -65,20 +68,37 @@ void add_result(Results& results, const std::string& file, const CommonArgs& com
         refuse(file + ": takes more memory than " + memory.described() + "; give a smaller one, or " + memory.advice(),
                Refusal::unsuitable);
     }
+    return false;
+}
+
+/// What the methods do with the height on a mesh.
+ReliefReport inspect_height(const std::string& file, const HeightTexture& height, const CheckArgs& args,
+                            const CommonArgs& common) {
+    const Mesh mesh = read_mesh(file, args.options.read);
+    const double size = diagonal(bounds(mesh));
+    const HeightOptions options = height_options(args.height, height.info, diagonal_of(size));
+    check_steepness(args.height, options.amplitude, size);
+    note(common, default_amplitude_note(args.height, height.info, options, diagonal_of(size)));
+    return inspect_relief(file, mesh, args.height.path, height, args.height.filter, options);
 }
 
 int run(const CheckArgs& args, const CommonArgs& common) {
     Results results;
+    std::optional<HeightTexture> relief;
+    if (!args.height.path.empty()) relief = load_height(args.height, common);
     for (const std::string& file : args.files) {
+        bool read = false;
         if (!args.against.empty())
             add_result(results, file, common, [&] { return inspect_distance(file, args.against, args.options); });
         else if (named_like_a_mesh(file))
-            add_result(results, file, common, [&] { return inspect_mesh(file, args.options); });
+            read = add_result(results, file, common, [&] { return inspect_mesh(file, args.options); });
         else
             add_result(results, file, common, [&] {
                 expect_picture(file);
                 return inspect_image(file, args.options);
             });
+        if (relief && read)
+            add_result(results, file, common, [&] { return inspect_height(file, *relief, args, common); });
     }
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common,
@@ -90,11 +110,35 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
 }
 
+/// Adds --height, and the options of the other verbs that say how it is read.
+CLI::Option* add_height_check(CLI::App& sub, HeightInput& input) {
+    CLI::Option* height = add_height_path(sub, "--height", input);
+    height->description(
+        "Report what each method does wrong with the relief of this picture on the meshes, as predicted");
+    add_relief_options(sub, input);
+    add_height_options(sub, input);
+    for (const char* flag : {"--amplitude", "--midlevel", "--filter", "--wrap", "--wrap-u", "--wrap-v", "--channel",
+                             "--invert", "--dequantise"})
+        sub.get_option(flag)->needs(height);
+    return height;
+}
+
+/// Refuses meshes and pictures that --height does not go with.
+void check_height_usage(const CheckArgs& args) {
+    if (args.height.path.empty()) return;
+    expect_picture(args.height.path);
+    if (args.files.empty()) throw Error(Refusal::usage, "--height: needs a mesh that the relief is for; name it first");
+    for (const std::string& file : args.files)
+        if (!named_like_a_mesh(file))
+            throw Error(Refusal::usage, file + ": is no mesh, which --height needs; check the picture separately");
+}
+
 } // namespace
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
     const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to inspect");
+    const auto height = add_height_check(sub, args->height);
     const auto pair = sub.add_option("--pair", args->pairs,
                                      "A height texture and the normal map said to be of it; may be given again")
                           ->allow_extra_args(false) // a file may follow
@@ -127,6 +171,7 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
         ->default_str(std::to_string(args->options.distance.samples));
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
     add_examples(sub, "  bake check meshes/torus.obj meshes/bricks.png\n"
+                      "  bake check meshes/torus.obj --height meshes/bricks.png --amplitude 2%\n"
                       "  bake check --strict --json meshes/*.obj\n"
                       "  bake check --audit meshes/torus.obj\n"
                       "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
@@ -136,13 +181,15 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                       "  bake check --brdf lambert:albedo=.5+normalised-blinn:n=32,specular=.3\n\n"
                       "Reflection models of --brdf, their keys and defaults:\n" +
                           brdf_models());
-    return [args, &common, files, pair, brdf] {
+    return [args, &common, files, pair, brdf, height] {
+        check_height_usage(*args);
         if (files->empty() && pair->empty() && brdf->empty())
             throw Error(Refusal::usage,
                         "check: no file given; name meshes, images, a --pair or a --brdf; see bake check --help");
-        if (!args->against.empty() && (files->empty() || !pair->empty() || !brdf->empty() || args->options.audit))
+        if (!args->against.empty() &&
+            (files->empty() || !pair->empty() || !brdf->empty() || !height->empty() || args->options.audit))
             throw Error(Refusal::usage,
-                        "check: --against takes meshes alone; run --audit, --pair and --brdf separately");
+                        "check: --against takes meshes alone; run --audit, --height, --pair and --brdf separately");
         for (const std::string& spec : args->brdfs) parse_brdf("--brdf", spec); // refused before a file is read
         return run(*args, common);
     };

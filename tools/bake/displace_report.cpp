@@ -76,6 +76,12 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutc
         note(common, format("%s: the height differs by up to %.4g across a uv seam, %.1f edges of the result: a step "
                             "shows there; --seam blend spreads it",
                             base.c_str(), r.seam_mismatch, r.seam_mismatch / o.edge));
+    if (o.facets.part() > smallest_seen_part && !args.max_error)
+        note(common,
+             format("%s: the faces miss %.0f %% of the relief: they are off by %.3g (rms; at most %.3g), because "
+                    "their edges span %.3g texels; %s, or put the rest into a map by bake normal-map --residual-of",
+                    base.c_str(), 100 * std::min(1.0, o.facets.part()), o.facets.rms, o.facets.max,
+                    o.facets.edge_texels, args.levels ? "raise --levels" : "cut them by --levels"));
     if (o.max_error > 0 && r.error_max > o.max_error)
         note(common, format("%s: the result is up to %.4g away from the displaced surface, more than --max-error %.4g: "
                             "no edge is cut into more than %d "
@@ -128,6 +134,11 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                                {"worst_uv", {r.fold_worst_uv.x, r.fold_worst_uv.y}}}},
                              {"no_normal", r.no_normal},
                              {"no_tangents", r.no_tangents}};
+    if (!args.vector)
+        object["faces_miss"] = {{"part", o.facets.part()},
+                                {"rms", o.facets.rms},
+                                {"max", o.facets.max},
+                                {"edge_texels", o.facets.edge_texels}};
     if (args.measure || args.max_error) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
     if (!o.notes.empty()) object["notes"] = o.notes;

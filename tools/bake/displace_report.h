@@ -1,6 +1,7 @@
 // What bake displace reports, as text, as notes and as JSON.
 #pragma once
 #include "bake/mesh/check/mesh_audit.h"
+#include "bake/relief/displace/facet_loss.h"
 #include "displace_options.h"
 
 namespace bake {
@@ -17,6 +18,7 @@ struct DisplaceOutcome {
     std::string amplitude_note;     ///< as in ReliefFile
     std::vector<std::string> notes; ///< doubts about the height
     DisplaceReport report;
+    FacetLoss facets; ///< predicted
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
     std::vector<std::string> mesh_notes; ///< of reading the mesh

@@ -103,6 +103,7 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.report = displaced.report;
     o.report.count.bytes = std::max(o.report.count.bytes, before);
     o.edge = mean_edge(displaced.mesh);
+    o.facets = facet_loss(displaced.mesh, file.relief);
     watch.lap("displace");
     progress.start("write", 0);
     if (args.margin) add_margin(displaced);

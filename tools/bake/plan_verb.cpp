@@ -83,10 +83,12 @@ int run(const PlanArgs& args, const CommonArgs& common) {
 std::function<int()> plan_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<PlanArgs>();
     add_plan_options(sub, *args);
-    add_examples(sub, "  bake plan meshes/studs.toml --size 64\n"
-                      "  bake plan meshes/studs.toml --size 64 --budget loose -o planned.toml --manifest "
-                      "bakes.toml\n"
-                      "  bake plan meshes/studs.toml --size 64 --budget rmse=0.05 --cost bytes=1 --json\n");
+    add_examples(
+        sub,
+        "  bake plan meshes/studs.toml --size 64\n"
+        "  bake plan meshes/studs.toml --size 64 --budget rmse=0.017 --cost triangles=1 -o planned.toml --manifest "
+        "bakes.toml\n"
+        "  bake plan meshes/studs.toml --size 64 --budget rmse=0.05 --cost bytes=1 --json\n");
     return [args, &common] { return run(*args, common); };
 }
 

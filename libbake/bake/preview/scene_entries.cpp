@@ -9,6 +9,7 @@
 #include "bake/preview/counted_twice.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/gltf_objects.h"
+#include "bake/preview/outline_doubt.h"
 #include "bake/preview/relief_doubt.h"
 #include "bake/preview/scene_positions.h"
 #include "bake/preview/shape_mesh.h"
@@ -277,6 +278,24 @@ void add_ground(const SceneEntries& entries, const Bounds& box, Loaded& loaded, 
     load_mesh(entries, square, loaded, scene);
 }
 
+/// Notes, of the built scene, the materials whose relief should show at an outline and does not.
+void note_outlines(const Loaded& loaded, Scene& scene) {
+    std::set<const Material*> seen;
+    for (const Instance& instance : scene.instances) {
+        if (!seen.insert(instance.material).second) continue;
+        const auto baked = std::find_if(loaded.reliefs.begin(), loaded.reliefs.end(),
+                                        [&](const auto& relief) { return relief.second.first == instance.material; });
+        if (baked == loaded.reliefs.end()) continue;
+        const ReliefEntry& relief = loaded.entries.materials[std::size_t(baked->first.second)].relief;
+        const Shade shade = relief.shade.value_or(ShadeMethod{}).shade;
+        if (displaces(shade) || shade == Shade::plain || shade == Shade::roughness) continue;
+        const HeightTexture& height = *loaded.heights.at(relief.file);
+        const ReliefOptions options = relief_options(relief, height.info, diagonal(bounds(baked->first.first->mesh)));
+        if (const std::string doubt = outline_doubt(scene, *instance.material, height, options); !doubt.empty())
+            scene.notes.push_back("material \"" + instance.material->name + "\": " + doubt);
+    }
+}
+
 } // namespace
 
 const CameraEntry& chosen_camera(const SceneEntries& entries) noexcept {
@@ -322,6 +341,7 @@ Scene load(const SceneEntries& entries) {
     if (!lit && entries.studio && !has_sky) add_studio_lights(scene);
     else if (!lit && !has_sky) add_default_light(scene);
     build(scene);
+    note_outlines(loaded, scene);
     return scene;
 }
 

@@ -269,6 +269,9 @@ TEST_SUITE("stability") {
                 const Vec2d at = picture_point(p, 16, height_of(format, 16), d);
                 CHECK((at.x >= 0 && at.x <= 16 && at.y >= 0 && at.y <= 16));
             }
+            // What has no direction is looked up at +z.
+            const int h = height_of(format, 16);
+            CHECK(picture_point(p, 16, h, Vec3d(0)) == picture_point(p, 16, h, Vec3d(0, 0, 1)));
             for (const double x : {-1e9, 0.0, 8.0, 16.0, 1e9})
                 for (const double y : {-1e9, 0.0, 8.0, 16.0, 1e9})
                     CHECK(glm::length(picture_direction(p, 16, height_of(format, 16), x, y)) == doctest::Approx(1));

@@ -61,4 +61,18 @@ TEST_SUITE("unit") {
         CHECK(cells.junctions().vertices.junctions.size() == vertices.junctions.size() + 2 * edges.junctions.size());
     }
 
+    TEST_CASE("patch_cells: each side of the cells of a face without area has an edge of its own") {
+        // Beside a quad, a quad and a triangle whose corners are two of its vertices.
+        const BaseSurface base(
+            bake_tests::cage_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}, {0, 0, 1, 1}, {2, 2, 3}}));
+        REQUIRE(base.complex().patches.size() == 3);
+        const PatchCells cells(base, 3);
+        std::vector<int> uses(cells.complex().edges);
+        for (std::uint32_t c = 0; c < cells.count(); ++c)
+            for (int i = 0; i < cells.complex().patches[c].sides(); ++i) ++uses.at(cells.complex().patches[c].edge[i]);
+        for (std::uint32_t c = 9; c < 27; ++c)
+            for (int i = 0; i < cells.complex().patches[c].sides(); ++i)
+                CHECK(uses[cells.complex().patches[c].edge[i]] == 1);
+    }
+
 } // TEST_SUITE

@@ -59,9 +59,10 @@ TEST_SUITE("unit") {
             CHECK(layout.text_scale == std::max(1, width / 216));
             const Image<float> sheet = contact_sheet(input);
             const int s = layout.text_scale, base = layout.top(0) - 2 * s - glyph_height * s;
-            for (int y = 0; y < glyph_height * s; ++y)
+            for (int y = 0; y < (glyph_height + 2) * s; ++y) // and nothing between the caption and the picture
                 for (int x = 0; x < 2 * glyph_width * s; ++x) {
-                    const bool ink = covers(glyph_of("Ag"[x / (glyph_width * s)]), x / s % glyph_width, y / s);
+                    const bool ink = y < glyph_height * s &&
+                                     covers(glyph_of("Ag"[x / (glyph_width * s)]), x / s % glyph_width, y / s);
                     CHECK((sheet.at(layout.left(0) + x, base + y) < 0.5f) == ink);
                 }
         }

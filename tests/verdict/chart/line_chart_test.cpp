@@ -129,4 +129,30 @@ TEST_SUITE("unit") {
         c.marks = {{NAN, "a"}, {1, "<b>"}};
         CHECK(is_well_formed(line_chart_svg(c)));
     }
+
+    TEST_CASE(
+        "line_chart_svg: the key is read from left to right and then downwards, beneath the plot and in the picture") {
+        LineChart c = chart();
+        for (int i = 0; i < 12; ++i)
+            c.series.push_back({"a line with a long name, number " + std::to_string(i), {{0, 0}, {1, double(i)}}});
+        const std::string svg = line_chart_svg(c);
+        REQUIRE(is_well_formed(svg));
+        const double bottom = svg_all(svg, "rect").at(0).number("height");
+        double x = 0, y = svg_all(svg, "rect").at(1).number("y") + svg_all(svg, "rect").at(1).number("height");
+        int rows = 0, labels = 0;
+        for (const SvgPiece& text : svg_all(svg, "text")) {
+            if (!text.text.starts_with("a line")) continue;
+            ++labels;
+            if (text.number("y") == y) {
+                CHECK(text.number("x") > x + 50);
+            } else {
+                CHECK(text.number("y") > y + 10);
+                ++rows;
+            }
+            x = text.number("x"), y = text.number("y");
+        }
+        CHECK(labels == 12);
+        CHECK(rows > 2);
+        CHECK(y < bottom);
+    }
 }

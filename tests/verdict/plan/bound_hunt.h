@@ -28,7 +28,7 @@ private:
 
 /// Values whose differences from texel to texel are at most about 1.
 inline HeightTexture drawn_height(Draw& draw) {
-    const int size = 16 << draw.below(3), kind = draw.below(4);
+    const int size = 16 << draw.below(3), kind = draw.below(5);
     const double offset = draw.chance(0.3) ? draw.between(-3, 3) : 0;
     if (kind == 0) {
         const double k = 1 + draw.below(size / 5), m = 1 + draw.below(size / 5);
@@ -43,7 +43,11 @@ inline HeightTexture drawn_height(Draw& draw) {
             return offset + size * wide * std::exp(-d2 / (2 * wide * wide));
         });
     }
-    if (kind == 2) // white noise
+    if (kind == 2) { // a constant height, which moves nothing but the border
+        const double height = draw.between(-20, 20);
+        return height_of(size, [=](double, double) { return height; });
+    }
+    if (kind == 3) // white noise
         return height_of(size, [&](double, double) { return offset + draw.unit(); });
     const double step = draw.between(0.2, 0.8); // a step, and a gutter
     return height_of(size, [=](double u, double v) { return offset + (u < step) + 0.5 * (std::abs(v - 0.5) < 0.1); });

@@ -38,6 +38,19 @@ TEST_SUITE("unit") {
         CHECK(estimate.high() == doctest::Approx(std::sqrt(0.25 + 2 * estimate.error)));
     }
 
+    TEST_CASE(
+        "error_tally: the error between pixels counts as far as pixels are left, that of the samples as far as not") {
+        ErrorTally tally;
+        for (const PixelSquare& pixel : {PixelSquare{0.5, 1, 0.02}, {0.25, 1, 0.01}, {0, 2, 0.03}}) tally.add(pixel);
+        const double pixels = tally.estimate().error, samples = tally.estimate(1).error;
+        // R = .1875; q = .3125, .0625, -.375
+        CHECK(pixels == doctest::Approx(std::sqrt(0.3125 * 0.3125 + 0.0625 * 0.0625 + 0.375 * 0.375 + 0.25) / 4));
+        CHECK(samples == doctest::Approx(std::sqrt(0.06 + 0.03) / 4));
+        CHECK(tally.estimate(0.25).error ==
+              doctest::Approx(std::sqrt(0.75 * pixels * pixels + 0.25 * samples * samples)));
+        CHECK(tally.estimate(1).square == tally.estimate().square);
+    }
+
     TEST_CASE("error_tally: without pixels and with equal pictures the estimate is exactly 0") {
         for (const auto& pixels : {std::vector<PixelSquare>{}, {{0, 1}, {0, 0.3}, {0, 0.1}}}) {
             const SquareEstimate estimate = estimate_of(pixels);

@@ -150,6 +150,12 @@ TEST_SUITE("unit") {
         }
         twice.face_begin.push_back(8);
         CHECK_FALSE(patch_of(twice));
+        // With corners of its own, which are not quite those of the first.
+        for (int k = 0; k < 4; ++k) {
+            twice.positions.push_back(twice.positions[std::size_t(k)] * (1 - 1e-6f));
+            twice.corner_position[std::size_t(4 + k)] += 4;
+        }
+        CHECK_FALSE(patch_of(twice));
     }
 
     TEST_CASE("flat_patch: cameras in the plane or too close to it see nothing that is known") {

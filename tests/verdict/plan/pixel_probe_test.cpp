@@ -228,8 +228,11 @@ TEST_SUITE("unit") {
         CHECK(pixels_for(0, Settled::over) < 256);
         const auto enough = pixels_for(3 * error.rmse(), Settled::within);
         CHECK((enough >= 364 && enough < 400)); // the first look at no fewer than 256
-        CHECK(pixels_for(error.rmse(), Settled::open) == error.pixels);
-        StoppingRule rule;
+        // Between fail_at and pass_at it is open to the end.
+        StoppingRule rule{.fail_at = 0.99, .pass_at = 1.01};
+        const auto open = probe.judge(pair.shown(), error.rmse(), 0, rule);
+        CHECK(open.settled == Settled::open);
+        CHECK(open.estimate.pixels == error.pixels);
         rule.most = 300;
         const auto capped = probe.judge(pair.shown(), error.rmse(), 0, rule).estimate;
         CHECK((capped.pixels >= 300 && capped.pixels < 320));
@@ -299,7 +302,7 @@ TEST_SUITE("oracle") {
         const Pair pair;
         ProbeOptions options = probe_options(pair.candidate, 16);
         Mean truth;
-        for (std::uint32_t seed = 1000; seed < 1008; ++seed)
+        for (std::uint32_t seed = 1000; seed < 1006; ++seed)
             truth.add(tally_of(whole_picture(pair.candidate, options, 64, seed),
                                whole_picture(pair.reference, options, 64, seed))
                           .estimate()
@@ -318,6 +321,49 @@ TEST_SUITE("oracle") {
             CHECK(std::abs(estimate.mean() - truth.mean()) < 3 * error);
             CHECK(naive.mean() > truth.mean() + 6 * error);
         }
+    }
+
+    TEST_CASE("square_of: v is the variance of m over seeds") {
+        const Pair pair;
+        ProbeOptions options = probe_options(pair.candidate, 12);
+        options.half = 4;
+        const auto pixels = all_pixels(12);
+        std::vector<Mean> m(pixels.size()), v(pixels.size());
+        for (std::uint32_t seed = 0; seed < 96; ++seed) {
+            options.seed = seed;
+            const auto a = probe_pixels(pair.shown(), pixels, options),
+                       b = probe_pixels(pair.wanted(), pixels, options);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const PixelSquare square = square_of(a[i], b[i]);
+                m[i].add(square.m), v[i].add(square.v);
+            }
+        }
+        double spread = 0, told = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            spread += m[i].squares / m[i].count - m[i].mean() * m[i].mean(), told += v[i].mean();
+        CHECK(told == doctest::Approx(spread).epsilon(0.15));
+    }
+
+    TEST_CASE(
+        "reference_probe: with all pixels visited the interval is that of the samples, and has the truth as often") {
+        const Pair pair;
+        ProbeOptions options = probe_options(pair.candidate, 20);
+        options.half = 8;
+        const double truth = tally_of(whole_picture(pair.candidate, options, 128, 1000),
+                                      whole_picture(pair.reference, options, 128, 1000))
+                                 .estimate()
+                                 .rmse();
+        int inside = 0, seeds = 60;
+        double width = 0;
+        for (int seed = 0; seed < seeds; ++seed) {
+            options.seed = std::uint32_t(seed);
+            ReferenceProbe probe(pair.wanted(), pair.pixels(options), options);
+            const SquareEstimate estimate = probe.measure(pair.shown(), 1 << 20);
+            inside += estimate.low() <= truth && truth <= estimate.high();
+            width += (estimate.high() - estimate.low()) / truth / seeds;
+        }
+        CHECK(inside >= 0.9 * seeds);
+        CHECK(width < 0.6);
     }
 
     TEST_CASE(

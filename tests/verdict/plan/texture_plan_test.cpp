@@ -93,6 +93,28 @@ TEST_SUITE("unit") {
         CHECK(kept.error.rmse() == 0);
     }
 
+    TEST_CASE("texture plan: a file of 8 bits is not made larger, and stays as it is where nothing smaller will do") {
+        SceneEntries entries;
+        entries.materials.emplace_back().albedo = "dots.png";
+        Scene scene;
+        scene.shapes.push_back(make_shape(plane_mesh()));
+        scene.materials.push_back(std::make_unique<Material>());
+        Material material;
+        auto dots = std::make_shared<Image<float>>(8, 8, 3);
+        for (std::size_t i = 0; i < dots->size(); ++i) dots->data()[i] = i % 5 == 0 ? 1.0f : 0.0f;
+        material.albedo = dots;
+        scene.materials.push_back(std::make_unique<Material>(material));
+        add_instance(scene, *scene.shapes[0], *scene.materials[1]);
+        scene.settings.width = scene.settings.height = 16;
+        scene.lights = {directional({0, 0, 1})};
+        build(scene);
+        const auto plan = plan_textures(scene, &entries, options(0))[0];
+        CHECK(plan.file == "dots.png");
+        CHECK(plan.bits == 8);
+        CHECK(plan.bytes == plan.source_bytes);
+        CHECK(plan.why.starts_with("the file stays as it is"));
+    }
+
     TEST_CASE("texture plan: the same texels give an error of 0, and other ones do not") {
         const Scene scene = square(with_normals(waves(32, 4, 0.3f)));
         Scene twin = twin_of(scene);
@@ -117,7 +139,7 @@ TEST_SUITE("unit") {
         material.normal_map = {};
         scene.materials.push_back(std::make_unique<Material>(material));
         add_instance(scene, *scene.shapes[0], *scene.materials[0]);
-        add_instance(scene, *scene.shapes[0], *scene.materials[1], {.translate = {0, 0, 1}});
+        add_instance(scene, *scene.shapes[0], *scene.materials[1], {.translate = {2, 0, 0}});
         const auto textures = scene_textures(scene);
         REQUIRE(textures.size() == 2);
         CHECK(textures[0].use == TextureUse::normal);

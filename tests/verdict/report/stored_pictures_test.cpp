@@ -93,6 +93,18 @@ TEST_SUITE("unit") {
         CHECK(tight.p99_levels > tight.rms_levels);
     }
 
+    TEST_CASE("stored pictures: errors take 15 % of the bytes and no more") {
+        const std::vector<ReportPicture> all = noise_pictures(3, 65);
+        for (double budget = 4000; budget <= 14000; budget += 1000) {
+            const StoredPictures stored = store_pictures(all, 0, budget);
+            double errors = 0;
+            for (const StoredPicture& p : stored.pictures) errors += double(p.errors.size());
+            CHECK(errors <= 0.15 * budget);
+        }
+        CHECK(
+            !store_pictures(noise_pictures(2, 33), 0, 5000).pictures[1].errors.empty()); // one method and its reference
+    }
+
     TEST_CASE("stored pictures: 11 pictures of 1024 x 1024 leave 60 KB for the page below 3 MB") {
         CHECK(report_budget(11 * 1024.0 * 1024) * 4 / 3 + 60e3 < 3e6);
         CHECK(report_budget(100) == report_budget(11 * 1024.0 * 1024));

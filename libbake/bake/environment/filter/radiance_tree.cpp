@@ -41,9 +41,12 @@ SkyNode parent_of(const SkyNode* children, int count, int channels) noexcept {
     d /= omega;
     SkyNode node;
     node.omega = float(omega);
-    node.d = Vec3f(d);
-    // Moments are taken about the rounded centre that is stored, so that the rounding has no effect.
-    d = Vec3d(node.d);
+    // Moments are taken about the rounded centre that is stored, so that the rounding has no effect. Vectorising for x86-64,
+    // GCC 12 leaves out the rounding of a pair of numbers to float and back; that to a volatile number it keeps.
+    for (int k = 0; k < 3; ++k) {
+        const volatile float rounded = float(d[k]);
+        d[k] = double(node.d[k] = rounded);
+    }
     double h = 0, rho = 0, Q = 0, uneven = 0, second[4];
     for (int i = 0; i < count; ++i) {
         const Vec3d off = Vec3d(children[i].d) - d;

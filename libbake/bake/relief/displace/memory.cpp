@@ -110,9 +110,7 @@ namespace {
 /// What the user may change: the finest level that fits, a step that may be left out.
 std::string what_would_fit(const DisplaceMemory& memory, const Plan& plan, const SeamBlend* blend) {
     const DisplaceOptions& options = memory.options();
-    const auto fits = [&](const DisplaceCount& c) {
-        return c.bytes <= memory.limit() && std::max(c.points, c.corners) < no_index;
-    };
+    const auto fits = [&](const DisplaceCount& c) { return c.bytes <= memory.limit() && within_indices(c); };
     const bool indices = plan.layout.points < no_index && plan.layout.corners < no_index;
     std::string mend = indices ? memory.advice() : "split the mesh";
     for (std::size_t i = 0; i < options.later.size(); ++i)
@@ -142,8 +140,7 @@ void refuse_large_height(const DisplaceMemory& memory) {
 
 DisplaceCount refuse_too_large(const DisplaceMemory& memory, const Plan& plan, const SeamBlend* blend) {
     const DisplaceCount count = memory.count(plan, blend);
-    const bool indices = std::max(count.points, count.corners) < no_index;
-    if (count.bytes <= memory.limit() && indices) return count;
+    if (count.bytes <= memory.limit() && within_indices(count)) return count;
     std::string parts;
     for (std::size_t i = 0; i < memory.options().later.size(); ++i) {
         const std::string& option = memory.options().later[i].option;

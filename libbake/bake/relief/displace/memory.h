@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/base/memory.h"
 #include "bake/relief/displace/rates.h"
+#include <algorithm>
 
 namespace bake {
 
@@ -46,6 +47,11 @@ private:
     const DisplaceOptions* options_;
     MemoryLimit limit_;
 };
+
+/// Whether the indices of a mesh can count the points and the corners of a result.
+inline bool within_indices(const DisplaceCount& count) noexcept {
+    return std::max(count.points, count.corners) < no_index;
+}
 
 /// Throws Error{Refusal::unsuitable} if the height alone needs more memory than it may use.
 void refuse_large_height(const DisplaceMemory& memory);

@@ -21,11 +21,12 @@ void ErrorTally::add(const PixelSquare& pixel) noexcept {
     if (!(pixel.a > 0)) return;
     m_ += pixel.m, a_ += pixel.a;
     mm_ += pixel.m * pixel.m, ma_ += pixel.m * pixel.a, aa_ += pixel.a * pixel.a;
-    largest_ = std::max(largest_, std::abs(pixel.m));
+    v_ += pixel.v;
+    largest_ = std::max(largest_, std::abs(pixel.m)), largest_v_ = std::max(largest_v_, pixel.v);
     ++pixels_;
 }
 
-SquareEstimate ErrorTally::estimate() const noexcept {
+SquareEstimate ErrorTally::estimate(double visited) const noexcept {
     SquareEstimate estimate;
     estimate.pixels = pixels_;
     if (!(a_ > 0)) return estimate;
@@ -33,7 +34,8 @@ SquareEstimate ErrorTally::estimate() const noexcept {
     // The sum of (m - r a)^2; rounding may bring it below 0.
     const double squares = std::max(0.0, mm_ - 2 * r * ma_ + r * r * aa_);
     estimate.square = r;
-    estimate.error = std::sqrt(squares + largest_ * largest_) / a_;
+    const double of_pixels = squares + largest_ * largest_, of_samples = v_ + largest_v_;
+    estimate.error = std::sqrt((1 - visited) * of_pixels + visited * of_samples) / a_;
     return estimate;
 }
 

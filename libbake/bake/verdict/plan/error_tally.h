@@ -7,6 +7,13 @@
 //   R = sum m / sum a,   q = m - R a,   se^2 = (sum q^2 + max |m|^2) / (sum a)^2
 // The largest |m| counts twice, because one per cent of the pixels can carry half of the squared error, and few pixels may
 // have missed them.
+//
+// That is the error of pixels drawn from a picture without end. Of a share f of all pixels of the object, drawn without
+// replacement, it counts by 1 - f (Cochran, Sampling Techniques, 1977, section 2.6), and what is left is the noise within the
+// visited pixels:
+//   se^2 = ((1 - f) (sum q^2 + max |m|^2) + f (sum v + max v)) / (sum a)^2,   v = (|d_a|^2 - |d_b|^2)^2 / 36
+// v is an estimate of the variance of m: of independent d_a and d_b with the same normal distribution, (d_a + d_b) /
+// sqrt(2) and (d_a - d_b) / sqrt(2) are independent as well, and v is the square of 1/3 of their product.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -15,6 +22,7 @@ namespace bake {
 
 struct PixelSquare {
     double m = 0, a = 0;
+    double v = 0;
 };
 
 struct SquareEstimate {
@@ -31,10 +39,11 @@ struct SquareEstimate {
 class ErrorTally {
 public:
     void add(const PixelSquare& pixel) noexcept;
-    SquareEstimate estimate() const noexcept;
+    /// `visited`: share of the object's pixels, f.
+    SquareEstimate estimate(double visited = 0) const noexcept;
 
 private:
-    double m_ = 0, a_ = 0, mm_ = 0, ma_ = 0, aa_ = 0, largest_ = 0;
+    double m_ = 0, a_ = 0, mm_ = 0, ma_ = 0, aa_ = 0, v_ = 0, largest_ = 0, largest_v_ = 0;
     std::int64_t pixels_ = 0;
 };
 

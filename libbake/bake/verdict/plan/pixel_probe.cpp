@@ -83,7 +83,8 @@ PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference
                         std::popcount(candidate.covered[1] | reference.covered[1]);
     if (covered == 0) return {};
     const Vec3d a(candidate.mean[0] - reference.mean[0]), b(candidate.mean[1] - reference.mean[1]);
-    return {glm::dot(a, b) / 3, double(covered) / (2.0 * reference.samples)};
+    const double product = (glm::dot(a, a) - glm::dot(b, b)) / 6;
+    return {glm::dot(a, b) / 3, double(covered) / (2.0 * reference.samples), product * product};
 }
 
 ReferenceProbe::ReferenceProbe(const ProbedScene& reference, std::vector<Pixel> pixels, const ProbeOptions& options)
@@ -110,7 +111,8 @@ bool ReferenceProbe::visit(const ProbedScene& candidate, std::int64_t wanted, Vi
 }
 
 SquareEstimate ReferenceProbe::estimate(const Visit& visited) const noexcept {
-    SquareEstimate out = visited.tally.estimate();
+    const double share = pixels_.empty() ? 1 : double(visited.next) / double(pixels_.size());
+    SquareEstimate out = visited.tally.estimate(share);
     out.all = visited.next == pixels_.size();
     return out;
 }

@@ -42,7 +42,7 @@ struct ProbedScene {
 std::vector<ProbedPixel> probe_pixels(const ProbedScene& scene, std::span<const Pixel> pixels,
                                       const ProbeOptions& options);
 
-/// m and a of one pixel in two scenes; zeros where no sample sees the object in either of them.
+/// m, a and v of one pixel in two scenes; zeros where no sample sees the object in either of them.
 PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference) noexcept;
 
 /// Pixels in which some ray hits the object in one of the scenes (a lattice of rays_per_edge^2 rays each) and their

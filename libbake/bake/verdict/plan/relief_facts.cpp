@@ -156,7 +156,7 @@ void add_seen_points(const FactsView& facts, std::uint32_t instance, PointFacts&
 } // namespace
 
 ReliefFacts relief_facts(const FactsInput& input) {
-    const ReliefPoints points(input);
+    const ReliefPoints points(*input.scene, input.instance, input.relief, input.options.height);
     const FactsView facts{*input.scene, PictureView(*input.scene, input.camera, input.width, input.height), points};
     PointFacts all;
     add_surface_points(facts, all);

@@ -65,10 +65,11 @@ double tangent_between(const Vec3d& a, const Vec3d& b) noexcept {
 
 } // namespace
 
-ReliefPoints::ReliefPoints(const FactsInput& input)
-    : instance_(input.scene->instances[input.instance]), surface_(instance_.shape->surface), relief_(input.relief),
-      options_(input.options.height), linear_(instance_.linear), normals_(instance_.normals),
-      translate_(Vec3d(instance_.translate) - Vec3d(input.scene->origin)) {
+ReliefPoints::ReliefPoints(const Scene& scene, std::uint32_t instance, const HeightTexture* relief,
+                           const HeightOptions& options)
+    : instance_(scene.instances[instance]), surface_(instance_.shape->surface), relief_(relief), options_(options),
+      linear_(instance_.linear), normals_(instance_.normals),
+      translate_(Vec3d(instance_.translate) - Vec3d(scene.origin)) {
     if (!relief_ || relief_->values.empty()) {
         relief_ = nullptr;
         return;

@@ -1,6 +1,8 @@
 // Points of a placed shape with the relief of a height there, in world space.
 #pragma once
-#include "bake/verdict/plan/relief_facts.h"
+#include "bake/preview/relief_method.h"
+#include "bake/preview/scene.h"
+#include <optional>
 
 namespace bake {
 
@@ -17,10 +19,9 @@ struct ReliefPoint {
 /// Derivatives are those of the triangles, so that the shape needs none.
 class ReliefPoints {
 public:
-    /// The input and what it points to must outlive this object.
-    explicit ReliefPoints(const FactsInput& input);
+    /// The scene and the height, which may be null, must outlive this object.
+    ReliefPoints(const Scene& scene, std::uint32_t instance, const HeightTexture* relief, const HeightOptions& options);
 
-    const Instance& instance() const noexcept { return instance_; }
     std::int64_t triangles() const noexcept { return std::int64_t(surface_.triangles.size()); }
     Vec3d world(const Vec3d& p) const noexcept { return linear_ * p + translate_; }
     /// Nothing where the shape has no normal. Without uvs the relief is 0.

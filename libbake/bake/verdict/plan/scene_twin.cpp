@@ -50,6 +50,7 @@ Scene twin_of(const Scene& scene) {
 
 void set_sky(Scene& twin, Cube cube) {
     twin.sky.cube = std::move(cube);
+    twin.sky_light = SkyLight(twin.sky);
     if (!twin.sky.halvings.empty()) add_halvings(twin.sky);
     if (twin.settings.sky_light == SkyLighting::irradiance) complete(twin.sky_levels, twin.sky.cube);
 }

@@ -11,9 +11,9 @@ Scene twin_of(const Scene& scene);
 /// Copies a cube.
 Cube copied(const Cube& cube);
 
-/// Shows another sky. Directions are still drawn from the table of the old one, so that both scenes take the same samples and
-/// their difference has less noise. Together with the directions that are drawn for surfaces that table reaches every
-/// direction.
+/// Shows another sky, and is lit by it as a scene that is built with it. (The table of the old sky would give the difference of
+/// the two less noise, but too few samples to where a small light is blurred: what such samples lack in number they have in
+/// size, and the clamp of samples takes it away.)
 void set_sky(Scene& twin, Cube cube);
 
 /// Replaces textures of one picture in all materials; the new one has its mips.
