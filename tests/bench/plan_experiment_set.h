@@ -99,6 +99,7 @@ inline std::string file_of(const PlanFolders& folders, const char* file, const c
 inline Image<float> wave_sum(int texels, int least, int most, double fall, int count, std::uint64_t seed) {
     Draws draw(seed);
     Image<float> sum(texels, texels, 1);
+    std::fill_n(sum.data(), sum.size(), 0.f);
     std::vector<double> c(static_cast<std::size_t>(texels)), s(c.size());
     for (int i = 0; i < count; ++i) {
         const double periods = draw.scale(least, most), turn = draw.between(0, 2 * pi), phase = draw.between(0, 2 * pi);

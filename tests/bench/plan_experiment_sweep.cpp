@@ -152,6 +152,7 @@ void show(const PlanSet& set, const Arguments& arguments) {
     constexpr int tile = 112, columns = 10;
     const int rows = (arguments.count + columns - 1) / columns;
     Image<float> sheet(columns * tile, 2 * rows * tile, 3);
+    std::fill_n(sheet.data(), sheet.size(), 0.f);
     for (int i = 0; i < arguments.count; ++i) {
         const PlanTrial trial = set.trial(arguments.first + i);
         const ComparedScene scenes(trial.entries, "");
