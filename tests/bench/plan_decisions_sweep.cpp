@@ -1,10 +1,10 @@
 // plan_decisions_sweep: what `bake plan` decides in the configurations of plan_experiment_set.h, for scripts/plan_experiment.
 //
-//   plan_decisions_sweep TRUTH.csv [--threads N] [--data FOLDER] [--meshes FOLDER] [--seed N] [--every N] [--only N]
+//   plan_decisions_sweep TRUTH.csv [--threads N] [--data FOLDER] [--meshes FOLDER] [--seed N] [--only N] [--done FILE]
 //
 // Takes number and exposure of each configuration from the truth, and prints one row of csv per configuration and budget: the
 // chosen model, processor seconds, and all rungs in the order of their cost, each as name|how it is known|square|standard
-// error|bound.
+// error|bound. Rows without a head are for appending to the file after --done; its configurations are left out.
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/verdict/compare/compared_scene.h"
@@ -93,7 +93,8 @@ void decide(const PlanTrial& trial, std::uint32_t seed) {
 int main(int argc, char** argv) try {
     if (argc < 2) throw Error(Refusal::usage, "the file with the truth is missing");
     PlanFolders folders{"../shared/data", "meshes"};
-    int threads = 1, every = 1, only = -1;
+    int threads = 1, only = -1;
+    std::string done_file;
     std::uint32_t seed = 0;
     for (int i = 2; i + 1 < argc; i += 2) {
         const auto is = [&](const char* word) { return std::strcmp(argv[i], word) == 0; };
@@ -101,16 +102,17 @@ int main(int argc, char** argv) try {
         else if (is("--data")) folders.data = argv[i + 1];
         else if (is("--meshes")) folders.meshes = argv[i + 1];
         else if (is("--seed")) seed = std::uint32_t(std::stoul(argv[i + 1]));
-        else if (is("--every")) every = std::stoi(argv[i + 1]);
+        else if (is("--done")) done_file = argv[i + 1];
         else if (is("--only")) only = std::stoi(argv[i + 1]);
         else throw Error(Refusal::usage, std::string(argv[i]) + ": is not known");
     }
     const ThreadLimit limit(threads);
     const PlanSet set(folders);
-    std::printf("trial,budget,chosen,seconds,reference,reference_seconds,reference_error,rungs\n");
-    int index = 0;
+    const std::set<int> done = done_file.empty() ? std::set<int>{} : numbers_in(done_file);
+    if (done_file.empty())
+        std::printf("trial,budget,chosen,seconds,reference,reference_seconds,reference_error,rungs\n");
     for (const KnownTrial& known : trials_in(argv[1])) {
-        if (index++ % every != 0 || (only >= 0 && known.number != only)) continue;
+        if (done.contains(known.number) || (only >= 0 && known.number != only)) continue;
         PlanTrial trial = set.trial(known.number);
         trial.entries.settings.exposure = known.exposure;
         decide(trial, seed);

@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -97,6 +99,7 @@ inline std::string file_of(const PlanFolders& folders, const char* file, const c
 inline Image<float> wave_sum(int texels, int least, int most, double fall, int count, std::uint64_t seed) {
     Draws draw(seed);
     Image<float> sum(texels, texels, 1);
+    std::fill_n(sum.data(), sum.size(), 0.f);
     std::vector<double> c(static_cast<std::size_t>(texels)), s(c.size());
     for (int i = 0; i < count; ++i) {
         const double periods = draw.scale(least, most), turn = draw.between(0, 2 * pi), phase = draw.between(0, 2 * pi);
@@ -336,5 +339,14 @@ private:
     std::vector<PlanBase> bases_;
     std::vector<ReliefPicture> reliefs_;
 };
+
+/// Numbers of the configurations that have a row in a csv file.
+inline std::set<int> numbers_in(const std::string& file) {
+    std::set<int> numbers;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);)
+        if (!line.empty() && line[0] >= '0' && line[0] <= '9') numbers.insert(std::stoi(line));
+    return numbers;
+}
 
 } // namespace bench

@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <set>
 
 using namespace bench;
@@ -148,19 +147,12 @@ private:
     float exposure_ = 0;
 };
 
-std::set<int> numbers_in(const std::string& file) {
-    std::set<int> numbers;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);)
-        if (!line.empty() && line[0] >= '0' && line[0] <= '9') numbers.insert(std::stoi(line));
-    return numbers;
-}
-
 /// Pictures of configurations, ten in a row, each without relief and as the reference.
 void show(const PlanSet& set, const Arguments& arguments) {
     constexpr int tile = 112, columns = 10;
     const int rows = (arguments.count + columns - 1) / columns;
     Image<float> sheet(columns * tile, 2 * rows * tile, 3);
+    std::fill_n(sheet.data(), sheet.size(), 0.f);
     for (int i = 0; i < arguments.count; ++i) {
         const PlanTrial trial = set.trial(arguments.first + i);
         const ComparedScene scenes(trial.entries, "");

@@ -206,8 +206,9 @@ void Decider::finish(Candidate& c, const std::string& why) {
     c.done = true;
     c.decision->decided = true;
     c.plan().why = why;
+    if (!work_.options.told) return;
     const std::string method = name(chosen_method(c.plan()));
-    if (work_.options.told) work_.options.told(c.plan().object + ": " + method + "; " + why);
+    work_.options.told(c.plan().object + ": " + (why.starts_with(method) ? why : method + "; " + why));
 }
 
 /// Of the chosen rung, and of the one that was probed before it.
