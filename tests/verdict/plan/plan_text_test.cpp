@@ -54,6 +54,8 @@ TEST_SUITE("unit") {
         ScenePlan plan = small_plan();
         plan.objects[0].rungs[2].known = Known::not_settled;
         CHECK(has(to_text(plan), "    not settled  "));
+        plan.objects[0].rungs[3].known = Known::not_settled;
+        CHECK(has(to_text(plan), "displace:4: rmse 0.0020 (0.0018 to 0.0022), not settled;"));
         plan.objects[0].rungs[2].known = Known::bound;
         plan.objects[0].rungs[2].bound = 0.0031;
         CHECK(has(to_text(plan), "<=0.0031  at most 0.0031"));

@@ -127,6 +127,19 @@ TEST_SUITE("unit") {
         CHECK_FALSE(round.read.materials[std::size_t(round.read.ground->material)].relief.shade);
     }
 
+    TEST_CASE("planned_scene: the ground alone, or one undecided mesh, keeps the material as the file has it") {
+        Round ground(shared + "[ground]\nmaterial = \"studs\"\n");
+        ground.plan.objects = {shown_by("all", "bump", {0, 1, 2, 3})};
+        ground.planned();
+        CHECK(ground.shades() == std::vector<std::string>{"bump", "bump", "bump", "bump"});
+        CHECK_FALSE(ground.read.materials[std::size_t(ground.read.ground->material)].relief.shade);
+        Round mesh(shared);
+        mesh.plan.objects = {shown_by("ring", "bump", {0, 3}), shown_by("ball", "bump", {1})};
+        mesh.planned();
+        CHECK(mesh.read.materials[std::size_t(mesh.read.meshes[2].material)].name == "studs");
+        CHECK_FALSE(mesh.read.materials[0].relief.shade);
+    }
+
     TEST_CASE("planned_scene: nothing chosen is the reference") {
         Round round(shared);
         round.plan.objects = {shown_by("ring", "bump", {0})};
