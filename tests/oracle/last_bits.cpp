@@ -52,7 +52,7 @@ template <class F> Values over(double from, double to, const F& f) {
     for (int i = 0; i < 20000; ++i) out.push_back(f(float(from + (to - from) * i / 19999)));
     return out;
 }
-/// Likewise of double precision; the last 24 bits of its result are the last bits of the float.
+/// Likewise of double precision: the last 23 bits of each result, as a whole number.
 template <class F> Values over_double(double from, double to, const F& f) {
     Values out;
     for (int i = 0; i < 20000; ++i) {
@@ -69,11 +69,21 @@ void add_functions(std::vector<Result>& out) {
     out.push_back({"log, float", over(1e-3, 1e3, [](float x) { return std::log(x); })});
     out.push_back({"pow, float", over(0, 4, [](float x) { return std::pow(x, 2.2f); })});
     out.push_back({"atan2, float", over(-4, 4, [](float x) { return std::atan2(x, 0.7f); })});
+    out.push_back({"tan, float", over(-1.5, 1.5, [](float x) { return std::tan(x); })});
+    out.push_back({"acos, float", over(-1, 1, [](float x) { return std::acos(x); })});
+    out.push_back({"expm1, float", over(-3, 3, [](float x) { return std::expm1(x); })});
+    out.push_back({"log1p, float", over(0, 9, [](float x) { return std::log1p(x); })});
     out.push_back({"sin, double", over_double(-30, 30, [](double x) { return std::sin(x); })});
     out.push_back({"exp, double", over_double(-20, 20, [](double x) { return std::exp(x); })});
     out.push_back({"log, double", over_double(1e-3, 1e3, [](double x) { return std::log(x); })});
     out.push_back({"pow, double", over_double(0, 4, [](double x) { return std::pow(x, 2.2); })});
     out.push_back({"atan2, double", over_double(-4, 4, [](double x) { return std::atan2(x, 0.7); })});
+    out.push_back({"tan, double", over_double(-1.5, 1.5, [](double x) { return std::tan(x); })});
+    out.push_back({"acos, double", over_double(-1, 1, [](double x) { return std::acos(x); })});
+    out.push_back({"exp2, double", over_double(-9, 9, [](double x) { return std::exp2(x); })});
+    out.push_back({"cbrt, double", over_double(0, 9, [](double x) { return std::cbrt(x); })});
+    out.push_back({"hypot, double", over_double(0, 9, [](double x) { return std::hypot(x, 1.3); })});
+    out.push_back({"log1p, double", over_double(0, 9, [](double x) { return std::log1p(x); })});
 }
 
 HeightTexture noise(int size) {

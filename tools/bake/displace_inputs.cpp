@@ -6,7 +6,7 @@
 namespace bake {
 
 BaseSurface make_base(const DisplaceArgs& args) {
-    BaseSurface surface = read_surface(args.surface);
+    BaseSurface surface = read_surface(args.surface, args.cells.value_or(std::pair(0, 0)));
     if (surface.mesh().corner_uv.empty())
         throw Error(Refusal::unsuitable,
                     args.surface.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");

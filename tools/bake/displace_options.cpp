@@ -22,6 +22,9 @@ void add_rate_options(CLI::App& sub, DisplaceArgs& args) {
 
 void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
     add_surface_input(sub, args.surface);
+    add_size_option(sub, args.cells, "Cells of a shape along u and v, whose edges are cut [enough to look smooth]",
+                    1024, "--resolution")
+        ->type_name("NxM|N");
     add_height_path(sub, "--height", args.height)->required();
     add_output_option(sub, args.out, "Mesh to write: .obj, .ply, .glb or .gltf");
     add_relief_options(sub, args.height);
@@ -58,6 +61,8 @@ void complete(DisplaceArgs& args) {
     if (args.kind == BaseKind::catmark) args.surface.scheme = Scheme::catmark;
     if (args.kind == BaseKind::loop) args.surface.scheme = Scheme::loop;
     check_usage(args.surface, "displace");
+    if (args.cells && args.surface.shape.empty())
+        throw usage("--resolution: is of a --shape; --levels cuts a mesh finer");
     expect_picture(args.height.path);
     if (mesh_format(args.out) == MeshFormat::unknown)
         throw usage("--out " + args.out + ": is not a mesh format known here; use .obj, .ply, .glb or .gltf");

@@ -17,6 +17,7 @@ enum class BaseKind {
 struct DisplaceArgs {
     SurfaceInput surface;
     BaseKind kind = BaseKind::automatic;
+    std::optional<std::pair<int, int>> cells; ///< of a shape
     std::string out, camera;
     HeightInput height;
     std::optional<Length> max_error;

@@ -85,6 +85,7 @@ TEST_SUITE("unit") {
         const Manifest manifest = Hall().manifest("displace+normal:8", "normal", "plain");
         REQUIRE(manifest.bakes.size() == 4);
         CHECK(manifest.bakes[0].name == "ring_one_displaced");
+        CHECK(manifest.bakes[0].options[1] == std::pair<std::string, std::string>("seam", "average"));
         CHECK(manifest.bakes[1].after == Words{"ring_one_displaced"});
         CHECK(command_of(manifest.bakes[1]) == Words{"normal-map", "torus.obj", "--height=dots.png",
                                                      "--residual-of=ring_one_displaced.glb", "--amplitude=0.125",

@@ -93,16 +93,19 @@ TEST_SUITE("oracle") {
         CHECK(f.most_slope < 1e-6);
     }
 
-    TEST_CASE("relief_facts: a bump in the middle of a ball is not near its contour") {
-        // u = 0 faces the camera, the contour is at u = 1/4 and 3/4.
-        Relief r(test::sphere_mesh(64, 32), test::height_of(128, [](double u, double v) {
-                     const double d = std::hypot(u - 0.5, v - 0.5);
-                     return d < 0.1 ? 0.1 * (1 - d / 0.1) : 0;
-                 }));
-        CHECK(r.facts().contour_px == 0);
-        CHECK(r.facts().height_px > 0.5);
-        r.look(Vec3f(4, 0, 0), 4); // now the bump is at the contour
-        CHECK(r.facts().contour_px > 3);
+    TEST_CASE("relief_facts: a bump of a ball is near the contour up to 3 pixels from it") {
+        // u = 0 faces the camera, the contour is at u = 1/4 and 3/4, and the radius is 50 pixels.
+        const auto bump = [](double at, double radius) {
+            return Relief(test::sphere_mesh(64, 32), test::height_of(256, [=](double u, double v) {
+                              return 0.1 * std::max(0.0, 1 - std::hypot(u - at, v - 0.5) / radius);
+                          }));
+        };
+        const auto u_at = [](double px) { return std::acos(std::sqrt(2 * px / 50)) / (2 * pi); };
+        CHECK(bump(0.5, 0.1).facts().contour_px == 0);
+        CHECK(bump(0.5, 0.1).facts().height_px > 0.5);
+        CHECK(bump(u_at(8), 0.02).facts().contour_px == 0);
+        CHECK(bump(u_at(2), 0.03).facts().contour_px > 1); // but not on it
+        CHECK(bump(0.25, 0.03).facts().contour_px > 3);
     }
 
     TEST_CASE("relief_facts: in perspective a point that rises moves away from the middle") {

@@ -42,6 +42,7 @@ TEST_SUITE("unit") {
         CHECK(frame.judge(twin, 0.06).within);
         CHECK(!each.judge(twin, 0.06).within);
         CHECK(each.judge(twin, 0.15).within);
+        CHECK(each.judge(twin, 0.15).error.rmse() == doctest::Approx(0.1).epsilon(1e-4));
         CHECK(frame_and_materials(scene).size() == 3);
         CHECK(frame_and_materials(scene, 1).size() == 3);
         CHECK(frame_and_materials(scene, 0).size() == 2);

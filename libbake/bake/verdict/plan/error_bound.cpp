@@ -12,6 +12,9 @@
 //     stretched by up to 1 + g tan(view angle).
 //     border: at most 1, or the brighter of object and background, in a band of `shift` pixels on both sides. A pixel's error
 //     is the mean over its area, so that a thin band in a pixel counts squared.
+//
+// The last case is loose, as slopes and borders that average out within a pixel count in full. Of 744 configurations of
+// plan_experiment_set.h it has a bound for 17, the planes under a sun alone, and none of these is below .01.
 #include "bake/base/text.h"
 #include "bake/verdict/plan/flat_patch.h"
 #include "bake/verdict/plan/height_bounds.h"

@@ -115,8 +115,6 @@ const char* Lister::obstacle(const Job& job) const {
     if (job.method.levels < 0 && displaces(shade)) return "how fine it is depends on the memory; give segments";
     if (mesh.subdivide && bakes_map(shade) && mesh.columns == 0)
         return "its cage is cut as fine as looks smooth; give the mesh \"segments\"";
-    if (displaces(shade) && !mesh.shape.empty() && mesh.columns > 0)
-        return "bake displace cuts a shape as it sees fit; leave \"segments\" of the mesh out";
     return nullptr;
 }
 
@@ -164,6 +162,8 @@ std::string Lister::displaced(const Job& job) {
     Bake bake{.verb = "displace", .inputs = {{"height", path(job.relief.file)}}, .use = "file"};
     if (job.mesh.shape.empty()) bake.files = {path(job.mesh.file)};
     else bake.options.emplace_back("shape", shape(job.mesh));
+    if (!job.mesh.shape.empty() && job.mesh.columns > 0)
+        bake.options.emplace_back("resolution", std::to_string(job.mesh.columns) + "x" + std::to_string(job.mesh.rows));
     mesh_options(job.mesh, bake);
     bake.options.emplace_back("levels", std::to_string(job.method.levels));
     if (job.method.shade == Shade::displace_normal) bake.options.emplace_back("seam", "average");

@@ -14,7 +14,8 @@ namespace {
 /// Triangles of a reference per pixel of the object: of the first one, whose edges are about a quarter of a pixel, and of the
 /// finest, whose edges are about an eighth. Half of them are behind.
 constexpr double least_triangles = 32, most_triangles = 256;
-constexpr int neighbour_pixels = 256; ///< on which the next dearer rung is measured
+constexpr double triangles_together = 1.2e7; ///< of the references of objects that are judged in the same scenes
+constexpr int neighbour_pixels = 256;        ///< on which the next dearer rung is measured
 
 bool is_coarser_than_reference(const Candidate& c, const Rung& rung) noexcept {
     return !displaces(rung.method.shade) || rung.method.levels + 2 <= c.level;
@@ -89,7 +90,9 @@ void Decider::begin(Candidate& c) {
                                               [&](float value) { return double(value) != options.midlevel; });
     const double pixels = pixels_in_view(c);
     c.first_triangles = std::clamp(least_triangles * pixels, candidates_.size() > 1 ? 4e3 : 2e4, 1e5);
-    c.most_triangles = std::clamp(most_triangles * pixels, 1e5, 1.2e7);
+    const double together = triangles_together / double(candidates_.size());
+    c.most_refined = std::min(5e6, together);
+    c.most_triangles = std::clamp(most_triangles * pixels, std::min(1e5, together), together);
     c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
     ObjectPlan& plan = c.plan();
     if (plan.rungs.empty()) list_rungs(c);
@@ -203,8 +206,9 @@ void Decider::finish(Candidate& c, const std::string& why) {
     c.done = true;
     c.decision->decided = true;
     c.plan().why = why;
+    if (!work_.options.told) return;
     const std::string method = name(chosen_method(c.plan()));
-    if (work_.options.told) work_.options.told(c.plan().object + ": " + method + "; " + why);
+    work_.options.told(c.plan().object + ": " + (why.starts_with(method) ? why : method + "; " + why));
 }
 
 /// Of the chosen rung, and of the one that was probed before it.

@@ -99,6 +99,7 @@ Json json_of(const TexturePlan& t) {
             {"height", t.height},
             {"channels", t.channels},
             {"bits", t.bits},
+            {"half", t.half},
             {"bytes", t.bytes},
             {"source",
              {{"width", t.source_width},

@@ -123,12 +123,12 @@ std::string estimate(const SquareEstimate& e) {
 std::string others(const ScenePlan& plan) {
     std::string text;
     for (const TexturePlan& t : plan.textures)
-        text += row("texture",
-                    printable(t.file) + ", " + t.kind +
-                        format(": %d x %d, %d channels of %d bits, %s MB; was %d x %d, %d of %d, %s MB; ", t.width,
-                               t.height, t.channels, t.bits, megabytes(t.bytes).c_str(), t.source_width,
-                               t.source_height, t.source_channels, t.source_bits, megabytes(t.source_bytes).c_str()) +
-                        "rmse " + estimate(t.error) + "; " + printable(t.why));
+        text += row("texture", printable(t.file) + ", " + t.kind +
+                                   format(": %d x %d, %d channels of %d bits%s, %s MB; was %d x %d, %d of %d, %s MB; ",
+                                          t.width, t.height, t.channels, t.bits, t.half ? " (half floats)" : "",
+                                          megabytes(t.bytes).c_str(), t.source_width, t.source_height,
+                                          t.source_channels, t.source_bits, megabytes(t.source_bytes).c_str()) +
+                                   "rmse " + estimate(t.error) + "; " + printable(t.why));
     if (plan.sky)
         text += row("sky", plan.sky->model +
                                format(": faces of %d, %d levels, %s MB; was %d, %s MB; ", plan.sky->face,

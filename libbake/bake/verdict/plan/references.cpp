@@ -8,8 +8,6 @@ namespace bake {
 namespace {
 
 constexpr int most_levels = 10; ///< of a displacement
-/// Triangles of all meshes beyond which no reference is refined for its own error.
-constexpr double most_refined = 5e6;
 constexpr double edges_per_wave = 12;
 constexpr int measured_pixels = 256;
 constexpr double tolerable = 0.15; ///< error of a reference, as a part of the budget
@@ -40,7 +38,7 @@ int first_level(const Candidate& candidate) noexcept {
     int level = 0;
     while (level < most_levels && displaced_triangles(candidate, level) < candidate.first_triangles) ++level;
     // One that is coarser by a level tells the error of the reference.
-    if (level == 0 && displaced_triangles(candidate, 1) <= most_refined) level = 1;
+    if (level == 0 && displaced_triangles(candidate, 1) <= candidate.most_refined) level = 1;
     return level;
 }
 
@@ -86,21 +84,26 @@ void References::build(std::vector<Candidate>& candidates) {
     measure(candidates);
 }
 
+/// Of the references that changed.
 void References::measure(std::vector<Candidate>& candidates) {
     BakedModels models = scene_->models;
-    for (const Candidate& c : candidates)
-        if (!c.done && c.level > 0)
-            models[std::size_t(c.decision->object)] =
-                work_.scenes.bake(c.decision->object, {Shade::displace, c.level - 1});
-    const auto coarse = work_.scenes.assemble(std::move(models));
+    std::vector<Candidate*> changed;
     for (Candidate& c : candidates) {
-        if (c.done) continue;
+        if (c.done || c.level == c.measured) continue;
+        c.measured = c.level;
         c.plan().reference_error = 0;
-        const bool resolved = c.edge / std::exp2(c.level) * edges_per_wave <= c.shortest;
-        for (std::size_t camera = 0; camera < c.meters.size() && c.level > 0; ++camera) {
+        if (c.level == 0) continue;
+        models[std::size_t(c.decision->object)] = work_.scenes.bake(c.decision->object, {Shade::displace, c.level - 1});
+        changed.push_back(&c);
+    }
+    if (changed.empty()) return;
+    const auto coarse = work_.scenes.assemble(std::move(models));
+    for (Candidate* c : changed) {
+        const bool resolved = c->edge / std::exp2(c->level) * edges_per_wave <= c->shortest;
+        for (std::size_t camera = 0; camera < c->meters.size(); ++camera) {
             work_.scenes.light_for(scene_->scene, camera), work_.scenes.light_for(coarse->scene, camera);
-            const double change = c.meters[camera].measure(c.of(*coarse), measured_pixels).rmse();
-            c.plan().reference_error = std::max(c.plan().reference_error, change / (resolved ? 3 : 1));
+            const double change = c->meters[camera].measure(c->of(*coarse), measured_pixels).rmse();
+            c->plan().reference_error = std::max(c->plan().reference_error, change / (resolved ? 3 : 1));
         }
     }
 }
@@ -108,7 +111,7 @@ void References::measure(std::vector<Candidate>& candidates) {
 bool References::is_too_coarse(const Candidate& c) const noexcept {
     const double budget = work_.options.budget.value;
     return !c.done && budget > 0 && c.plan().reference_error > tolerable * budget &&
-           displaced_triangles(c, c.level + 1) <= most_refined;
+           displaced_triangles(c, c.level + 1) <= c.most_refined;
 }
 
 void References::prepare(std::vector<Candidate>& candidates) {
@@ -122,7 +125,7 @@ void References::prepare(std::vector<Candidate>& candidates) {
         build(candidates);
         changed = false;
         for (Candidate& c : candidates)
-            if (is_too_coarse(c)) changed = raise(c, c.level + 1, most_refined) || changed;
+            if (is_too_coarse(c)) changed = raise(c, c.level + 1, c.most_refined) || changed;
     }
 }
 

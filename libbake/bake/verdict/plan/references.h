@@ -27,8 +27,10 @@ struct Candidate {
     std::size_t worst = 0;             ///< the camera that refused the last rung
     bool done = false;
     double first_triangles = 1e5;   ///< of all meshes, with which the reference begins
+    double most_refined = 5e6;      ///< beyond which it is not refined for its own error
     double most_triangles = 1.2e7;  ///< beyond which it is not refined for the sake of a rung
     int level = -1;                 ///< of the reference
+    int measured = -1;              ///< the level whose error is known
     int most_level = 0;             ///< finer ones do not fit
     std::vector<ErrorMeter> meters; ///< one per camera
 
