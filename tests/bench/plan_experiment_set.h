@@ -118,9 +118,9 @@ inline Image<float> wave_sum(int texels, int least, int most, double fall, int c
 }
 
 struct ReliefPicture {
-    std::shared_ptr<PictureFile> picture; ///< values from 0 to 1
-    float mean = 0;                       ///< of them
-    double slope = 0;                     ///< root mean square per texel, of a central difference
+    std::shared_ptr<LoadedPicture> picture; ///< values from 0 to 1
+    float mean = 0;                         ///< of them
+    double slope = 0;                       ///< root mean square per texel, of a central difference
 };
 
 /// Each value becomes the mean of its neighbours with the weights 1, 2, 1 along both axes: what is left has waves that the
@@ -154,7 +154,7 @@ inline ReliefPicture relief_picture(const PlanRelief& relief, const PlanFolders&
     }
     const auto [low, high] = std::minmax_element(values.data(), values.data() + values.size());
     const float from = *low, range = std::max(*high - *low, 1e-9f);
-    ReliefPicture made{.picture = std::make_shared<PictureFile>()};
+    ReliefPicture made{.picture = std::make_shared<LoadedPicture>()};
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         values.data()[i] = (values.data()[i] - from) / range;

@@ -53,8 +53,8 @@ inline constexpr Spectrum spectra[] = {
 
 /// Heights over the uv square for an rms slope of 1 on the surface.
 struct ReliefField {
-    std::shared_ptr<PictureFile> picture; ///< values are lengths
-    double range = 0;                     ///< highest minus lowest point, in units of the object's size
+    std::shared_ptr<LoadedPicture> picture; ///< values are lengths
+    double range = 0;                       ///< highest minus lowest point, in units of the object's size
 };
 
 struct Wave {
@@ -90,7 +90,7 @@ inline ReliefField relief_field(const Base& base, const Spectrum& spectrum, int 
     const auto maps = surface_maps(*surface, surface_mesh(*surface, kind, base.file.empty() ? 1 : 8), wanted,
                                    {.width = texels, .height = texels, .padding = 16}, base.name, report);
     const std::vector<Wave> waves = waves_of(spectrum, base.size);
-    ReliefField field{.picture = std::make_shared<PictureFile>()};
+    ReliefField field{.picture = std::make_shared<LoadedPicture>()};
     Image<float>& values = field.picture->image = Image<float>(texels, texels, 1);
     field.picture->info.type = SampleType::float32;
     field.picture->info.width = field.picture->info.height = texels;

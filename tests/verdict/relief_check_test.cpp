@@ -1,6 +1,6 @@
 // What check predicts of a height on a mesh, beside what bakes and displacements measure.
 #include "bake/mesh/file/mesh_io.h"
-#include "bake/preview/picture_file.h"
+#include "bake/preview/loaded_picture.h"
 #include "bake/relief/displace/displace.h"
 #include "bake/verdict/relief_check.h"
 #include "folders.h"

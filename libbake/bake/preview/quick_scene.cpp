@@ -35,14 +35,14 @@ void set_height(MaterialEntry& material, const std::string& file, const ImageInf
                                       double(*relief.amplitude) * across, 100.0 * double(*relief.amplitude)));
 }
 
-MapKind kind_of(const std::string& file, const PictureFile& picture, MapKind asked, std::vector<std::string>& notes) {
+MapKind kind_of(const std::string& file, const LoadedPicture& picture, MapKind asked, std::vector<std::string>& notes) {
     if (asked != MapKind::automatic) return asked;
     const MapKind kind = guess_map_kind(picture.image, picture.info);
     notes.push_back(file + ": is taken for " + name(kind) + "; `as` says otherwise");
     return kind;
 }
 
-void set_map(MaterialEntry& material, const QuickScene& quick, const PictureFile& picture, double across,
+void set_map(MaterialEntry& material, const QuickScene& quick, const LoadedPicture& picture, double across,
              std::vector<std::string>& notes) {
     const MapKind kind = kind_of(quick.map, picture, quick.as, notes);
     const bool relief = kind != MapKind::colour;

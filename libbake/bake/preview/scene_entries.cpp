@@ -75,7 +75,7 @@ std::shared_ptr<const SurfaceMaps> load_maps(const MaterialEntry& entry, Texture
     return any ? std::make_shared<const SurfaceMaps>(std::move(maps)) : nullptr;
 }
 
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache, const PictureFiles& known,
+std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache, const LoadedPictures& known,
                                         std::vector<std::string>& notes) {
     if (entry.relief.file.empty() && entry.relief.shade && entry.relief.shade->shade != Shade::plain)
         throw Error(Refusal::unreadable, "\"shade\" shows a height, and there is none; add height = {file = ...}");
@@ -126,7 +126,7 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
                                                Shape& shape, Loaded& loaded, Scene& scene) {
     auto& height = loaded.heights[relief.file];
     if (!height) {
-        const auto picture = picture_file(loaded.entries.pictures, relief.file);
+        const auto picture = loaded_picture(loaded.entries.pictures, relief.file);
         height =
             std::make_shared<const HeightTexture>(picture_height(relief.file, copied(picture->image), picture->info));
         for (const std::string& note : height->info.notes) scene.notes.push_back(relief.file + ": " + note);

@@ -76,9 +76,9 @@ struct SceneEntries {
     std::vector<MaterialEntry> materials;
     std::vector<MeshEntry> meshes;
     std::optional<GroundEntry> ground;
-    bool labels = false;   ///< the built-in test sky (label_sky()), instead of `sky`
-    PictureFiles pictures; ///< files that are read already
-    bool studio = false;   ///< without lights and sky: three lights placed relative to the camera instead of one
+    bool labels = false;     ///< the built-in test sky (label_sky()), instead of `sky`
+    LoadedPictures pictures; ///< files that are read already
+    bool studio = false;     ///< without lights and sky: three lights placed relative to the camera instead of one
 };
 
 /// The camera that is taken; an entry that shows the whole scene if there is none.

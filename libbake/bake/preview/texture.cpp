@@ -36,8 +36,8 @@ Texture shared(Image<float>&& image) { return std::make_shared<const Image<float
 } // namespace
 
 Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std::string>* notes,
-                    const PictureFiles& known) {
-    const auto picture = picture_file(known, file);
+                    const LoadedPictures& known) {
+    const auto picture = loaded_picture(known, file);
     ImageInfo info = picture->info;
     Image<float> image = copied(picture->image);
     require_finite(image, file);
@@ -47,8 +47,8 @@ Texture read_albedo(const std::string& file, ColourSpace space, std::vector<std:
 }
 
 Texture read_bump_table(const std::string& file, float scale, std::vector<std::string>* notes,
-                        const PictureFiles& known) {
-    const auto picture = picture_file(known, file);
+                        const LoadedPictures& known) {
+    const auto picture = loaded_picture(known, file);
     const ImageInfo& info = picture->info;
     const Image<float>& image = picture->image;
     tell(file, info, notes);
@@ -77,8 +77,8 @@ Texture read_bump_table(const std::string& file, float scale, std::vector<std::s
 }
 
 Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool directx, std::vector<std::string>* notes,
-                        const PictureFiles& known) {
-    const auto picture = picture_file(known, file);
+                        const LoadedPictures& known) {
+    const auto picture = loaded_picture(known, file);
     const ImageInfo& info = picture->info;
     const Image<float>& image = picture->image;
     tell(file, info, notes);

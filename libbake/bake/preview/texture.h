@@ -2,7 +2,7 @@
 #pragma once
 #include "bake/base/vec.h"
 #include "bake/environment/file/radiance.h"
-#include "bake/preview/picture_file.h"
+#include "bake/preview/loaded_picture.h"
 #include "bake/preview/texture_mips.h"
 #include "bake/relief/height/normal_values.h"
 #include <concepts>
@@ -35,19 +35,19 @@ private:
 /// unreadable, or unsuitable for what the comment of each says, and for NaN or Inf.
 /// `notes` receives what reading the file has to tell. A file among `known` is not read again.
 Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic,
-                    std::vector<std::string>* notes = nullptr, const PictureFiles& known = {});
+                    std::vector<std::string>* notes = nullptr, const LoadedPictures& known = {});
 /// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`. The channels are
 /// those named b_u and b_v, otherwise the first two. Integer samples are decoded by the SlopeCode that the file states.
 /// Unsuitable: integer samples without a SlopeCode; one channel; six and more, as in OpenImageIO's bumpslopes, which are
 /// in other units.
 Texture read_bump_table(const std::string& file, float scale = 1, std::vector<std::string>* notes = nullptr,
-                        const PictureFiles& known = {});
+                        const LoadedPictures& known = {});
 /// Tangent-space normals, decoded to vectors (three channels), green up unless `directx`. Channels and an automatic encoding
 /// are those of guess_normal_values(), but no sRGB curve is applied. `notes` also receives what is said of values that are
 /// not the usual ones. Unsuitable: one channel.
 Texture read_normal_map(const std::string& file, NormalEncoding encoding = NormalEncoding::automatic,
                         bool directx = false, std::vector<std::string>* notes = nullptr,
-                        const PictureFiles& known = {});
+                        const LoadedPictures& known = {});
 
 /// Value at uv (v up), bilinear between texel centres, repeated in both directions; of two or three channels.
 /// A uv that is not finite counts as 0.

@@ -53,8 +53,8 @@ TEST_SUITE("oracle") {
     TEST_CASE("outline: a sphere moved out or in by a constant height is off by that height in pixels") {
         for (const float midlevel : {0.0f, 1.0f}) {
             SceneEntries entries = smooth_scene("sphere", 0.1f);
-            auto white = std::make_shared<PictureFile>(
-                PictureFile{copied(entries.pictures["waves.exr"]->image), entries.pictures["waves.exr"]->info});
+            auto white = std::make_shared<LoadedPicture>(
+                LoadedPicture{copied(entries.pictures["waves.exr"]->image), entries.pictures["waves.exr"]->info});
             std::fill(white->image.data(), white->image.data() + white->image.size(), 0.5f);
             entries.pictures["waves.exr"] = white;
             entries.materials[0].relief.midlevel = midlevel;

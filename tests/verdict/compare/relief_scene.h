@@ -12,7 +12,7 @@ inline SceneEntries relief_scene(const std::string& shape, float amplitude) {
     entries.file = "scene.toml";
     entries.settings.width = entries.settings.height = 24;
     entries.settings.spp = 8;
-    auto waves = std::make_shared<PictureFile>();
+    auto waves = std::make_shared<LoadedPicture>();
     waves->image = Image<float>(32, 32, 1);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x)

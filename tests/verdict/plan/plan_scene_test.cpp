@@ -31,8 +31,8 @@ const Rung& chosen(const ObjectPlan& plan) {
 
 /// Moves the heights by a constant.
 void raise_heights(SceneEntries& entries, float by) {
-    auto waves = std::make_shared<PictureFile>();
-    const PictureFile& old = *entries.pictures.at("waves.exr");
+    auto waves = std::make_shared<LoadedPicture>();
+    const LoadedPicture& old = *entries.pictures.at("waves.exr");
     waves->image = copied(old.image), waves->info = old.info;
     for (std::size_t i = 0; i < waves->image.size(); ++i) waves->image.data()[i] += by;
     entries.pictures["waves.exr"] = waves;
@@ -151,7 +151,7 @@ TEST_SUITE("stability") {
 
     TEST_CASE("plan_scene: a height that is not 0 in the mean moves the surface, which no map shows") {
         SceneEntries entries = relief_scene("sphere:R=1", 0.2f);
-        auto flat = std::make_shared<PictureFile>();
+        auto flat = std::make_shared<LoadedPicture>();
         flat->image = Image<float>(32, 32, 1), flat->info = entries.pictures.at("waves.exr")->info;
         std::fill_n(flat->image.data(), flat->image.size(), 1.5f);
         entries.pictures["waves.exr"] = flat;

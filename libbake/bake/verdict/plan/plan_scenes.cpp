@@ -123,7 +123,7 @@ void PlanScenes::find_parts() {
         object.base = instance.material;
         auto& height = heights[material.relief.file];
         if (!height) {
-            const PictureFile& picture = *entries_.pictures.at(material.relief.file);
+            const LoadedPicture& picture = *entries_.pictures.at(material.relief.file);
             height = std::make_shared<const HeightTexture>(
                 picture_height(material.relief.file, copied(picture.image), picture.info));
         }

@@ -1,5 +1,5 @@
 #include "bake/verdict/plan/scene_twin.h"
-#include "bake/preview/picture_file.h"
+#include "bake/preview/loaded_picture.h"
 #include <algorithm>
 
 namespace bake {

@@ -2,7 +2,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/text.h"
 #include "bake/picture/colour.h"
-#include "bake/preview/picture_file.h"
+#include "bake/preview/loaded_picture.h"
 #include "bake/relief/map/bake_budget.h"
 #include <algorithm>
 #include <cmath>

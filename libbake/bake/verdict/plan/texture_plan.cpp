@@ -1,7 +1,7 @@
 #include "bake/verdict/plan/texture_plan.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
-#include "bake/preview/picture_file.h"
+#include "bake/preview/loaded_picture.h"
 #include <algorithm>
 #include <cmath>
 

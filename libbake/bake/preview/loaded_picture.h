@@ -8,22 +8,22 @@
 
 namespace bake {
 
-struct PictureFile {
+struct LoadedPicture {
     Image<float> image; ///< as read_image() gives it
     ImageInfo info;
 };
 
 /// Files that are read already, by their names.
-using PictureFiles = std::map<std::string, std::shared_ptr<const PictureFile>>;
+using LoadedPictures = std::map<std::string, std::shared_ptr<const LoadedPicture>>;
 
-inline std::shared_ptr<const PictureFile> read_picture(const std::string& file) {
-    auto picture = std::make_shared<PictureFile>();
+inline std::shared_ptr<const LoadedPicture> read_picture(const std::string& file) {
+    auto picture = std::make_shared<LoadedPicture>();
     picture->image = read_image(file, &picture->info);
     return picture;
 }
 
 /// The file among `known`; read, if it is not.
-inline std::shared_ptr<const PictureFile> picture_file(const PictureFiles& known, const std::string& file) {
+inline std::shared_ptr<const LoadedPicture> loaded_picture(const LoadedPictures& known, const std::string& file) {
     const auto at = known.find(file);
     return at != known.end() ? at->second : read_picture(file);
 }
