@@ -145,6 +145,7 @@ TEST_SUITE("unit") {
     TEST_CASE("acceptable: at the end one standard error is enough") {
         CHECK(acceptable({1.0e-4, 0.2e-4, 2048, false}, 0.01));
         CHECK_FALSE(acceptable({1.0e-4, 0.22e-4, 2048, false}, 0.01));
-        CHECK_FALSE(acceptable({1.0e-4, 0.2e-4, 2048, false}, 0.01, 0.001));
+        CHECK(acceptable({1.0e-4, 0.2e-4, 2048, false}, 0.01, 0.0009));
+        CHECK_FALSE(acceptable({1.0e-4, 0.2e-4, 2048, false}, 0.01, 0.0011));
     }
 }

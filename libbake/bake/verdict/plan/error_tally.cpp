@@ -4,9 +4,6 @@
 namespace bake {
 namespace {
 
-/// sqrt(square), or 0 where noise made the square negative.
-double root(double square) noexcept { return std::sqrt(std::fmax(0.0, square)); }
-
 /// Neither picture shows the object.
 bool is_unseen(const SquareEstimate& estimate) noexcept { return estimate.all && estimate.pixels == 0; }
 
@@ -53,7 +50,8 @@ bool acceptable(const SquareEstimate& estimate, double budget, double reference_
                 const StoppingRule& rule) noexcept {
     if (std::isinf(budget) || is_unseen(estimate)) return true;
     if (!(budget > 0)) return is_nothing(estimate, reference_error);
-    return root(estimate.square + estimate.error) + reference_error <= rule.pass_at * budget;
+    const double most = rule.pass_at * budget;
+    return std::fmax(0.0, estimate.square + estimate.error) + reference_error * reference_error <= most * most;
 }
 
 } // namespace bake

@@ -65,8 +65,8 @@ struct StoppingRule {
 /// with error 0, as of equal pictures, and a reference without error.
 Settled judge(const SquareEstimate& estimate, double budget, double reference_error = 0,
               const StoppingRule& rule = {}) noexcept;
-/// At the end of the looks, what is still open may be taken if R + se <= (pass_at B)^2; e is
-/// added as above.
+/// At the end of the looks, what is still open may be taken if R + se + e^2 <= (pass_at B)^2: the errors of the candidate and
+/// of the reference have nothing to do with each other, so that their squares add up.
 bool acceptable(const SquareEstimate& estimate, double budget, double reference_error = 0,
                 const StoppingRule& rule = {}) noexcept;
 

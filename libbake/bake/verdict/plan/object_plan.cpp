@@ -120,9 +120,9 @@ bool Decider::is_settled_unseen(Candidate& c) {
     for (; !c.done && c.next < c.plan().rungs.size(); ++c.next) {
         Rung& rung = c.rung();
         const double edge = c.edge / std::exp2(rung.method.levels);
-        if (displaces(rung.method.shade) && 2 * edge > c.dominant) {
+        if (displaces(rung.method.shade) && edge > c.dominant) {
             rung.known = Known::skipped;
-            rung.note = format("its edges of %.3g texels are longer than half the waves of the height, which are %.3g "
+            rung.note = format("its edges of %.3g texels are longer than the waves of the height, which are %.3g "
                                "texels long",
                                edge, c.dominant);
             continue;

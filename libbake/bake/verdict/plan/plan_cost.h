@@ -6,7 +6,7 @@
 // Milliseconds are those of a million rays of the preview tracer on one core of a desktop processor:
 //   trace   300 + 40 log2(triangles drawn)
 //   lookups  60 for a bump table, 90 for a normal map, 30 more where what lookups average away widens the highlight
-// The constants were fitted to measured times; they order models and do not predict the time of another renderer.
+// The constants are round numbers of the right size. They order models; they are not measured times.
 #pragma once
 #include "bake/verdict/plan/plan.h"
 
