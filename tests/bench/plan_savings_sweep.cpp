@@ -1,8 +1,8 @@
-// plan_savings_bench: what bake plan saves of texture memory and of skies.
+// plan_savings_sweep: what bake plan saves of texture memory and of skies.
 //
-//   plan_savings_bench DATA [HEIGHTS]     normal maps: one row of csv per height and object on stdout; DATA is ../shared/data.
+//   plan_savings_sweep DATA [HEIGHTS]     normal maps: one row of csv per height and object on stdout; DATA is ../shared/data.
 //                                         HEIGHTS: only those whose names contain it
-//   plan_savings_bench --sky DATA         skies: one row per sky, material and kind of light
+//   plan_savings_sweep --sky DATA         skies: one row per sky, material and kind of light
 //
 // Normal maps: the exact normals of a height with an rms slope of .3 on a plane and on five meshes, magnified to one texel per
 // pixel, under one directional light, with a highlight of Phong 50 on a diffuse surface. The reference is the full-size map in
@@ -281,5 +281,5 @@ void measure_skies(const std::string& data) {
 int main(int argc, char** argv) {
     if (argc == 3 && std::strcmp(argv[1], "--sky") == 0) measure_skies(argv[2]);
     else if (argc == 2 || argc == 3) measure_maps(argv[1], argc == 3 ? argv[2] : "");
-    else return std::fprintf(stderr, "plan_savings_bench DATA [HEIGHTS] | --sky DATA\n"), 2;
+    else return std::fprintf(stderr, "plan_savings_sweep DATA [HEIGHTS] | --sky DATA\n"), 2;
 }
