@@ -155,8 +155,8 @@ TEST_SUITE("stability") {
         flat->image = Image<float>(32, 32, 1), flat->info = entries.pictures.at("waves.exr")->info;
         std::fill_n(flat->image.data(), flat->image.size(), 1.5f);
         entries.pictures["waves.exr"] = flat;
-        const Rung& rung = chosen(plan_one(entries, 0.02));
-        CHECK(displaces(rung.method.shade));
+        const ObjectPlan plan = plan_one(entries, 0.02);
+        CHECK(displaces(chosen(plan).method.shade));
     }
 
     TEST_CASE("plan_scene: an object that is not in view, or behind the camera, is shown plainly") {
