@@ -12,13 +12,6 @@
 namespace bake {
 namespace {
 
-/// How --object and messages call a mesh.
-std::string name_of(const MeshEntry& mesh) {
-    if (!mesh.name.empty()) return mesh.name;
-    return mesh.file.empty() ? mesh.shape.substr(0, mesh.shape.find(':'))
-                             : std::filesystem::path(mesh.file).stem().string();
-}
-
 bool has_height(const SceneEntries& entries, const MeshEntry& mesh) {
     return mesh.material >= 0 && !entries.materials[std::size_t(mesh.material)].relief.file.empty();
 }
@@ -67,6 +60,12 @@ template <class Part, class Count> std::int64_t sum_of(const MethodScene& scene,
 
 } // namespace
 
+std::string object_name(const MeshEntry& mesh) {
+    if (!mesh.name.empty()) return mesh.name;
+    return mesh.file.empty() ? mesh.shape.substr(0, mesh.shape.find(':'))
+                             : std::filesystem::path(mesh.file).stem().string();
+}
+
 ComparedScene::ComparedScene(const SceneEntries& entries, const std::string& object) : entries_(entries) {
     choose(object);
     read_pictures();
@@ -77,7 +76,7 @@ ComparedScene::ComparedScene(const SceneEntries& entries, const std::string& obj
 void ComparedScene::choose(const std::string& object) {
     std::vector<std::string> names;
     for (const MeshEntry& mesh : entries_.meshes)
-        if (has_height(entries_, mesh)) names.push_back(name_of(mesh));
+        if (has_height(entries_, mesh)) names.push_back(object_name(mesh));
     if (names.empty())
         throw Error(Refusal::unsuitable, entries_.file + ": no mesh has a material with a height, and without relief "
                                                          "there is nothing to compare; add height = {file = ...}");
@@ -89,13 +88,14 @@ void ComparedScene::choose(const std::string& object) {
                                         (meant.empty() ? "these are: " + known : meant));
     }
     for (MeshEntry& mesh : entries_.meshes) {
-        if (!has_height(entries_, mesh) || (!object.empty() && name_of(mesh) != object)) continue;
+        if (!has_height(entries_, mesh) || (!object.empty() && object_name(mesh) != object)) continue;
         MaterialEntry material = entries_.materials[std::size_t(mesh.material)];
-        material.name += " of " + name_of(mesh);
+        material.name += " of " + object_name(mesh);
         mesh.material = int(entries_.materials.size());
         materials_.push_back(mesh.material);
         entries_.materials.push_back(std::move(material));
-        if (object_.find(name_of(mesh)) == std::string::npos) object_ += (object_.empty() ? "" : ", ") + name_of(mesh);
+        if (object_.find(object_name(mesh)) == std::string::npos)
+            object_ += (object_.empty() ? "" : ", ") + object_name(mesh);
     }
 }
 

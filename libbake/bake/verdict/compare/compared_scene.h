@@ -5,6 +5,9 @@
 
 namespace bake {
 
+/// How options and messages call a mesh: by its name, else by that of its file or shape.
+std::string object_name(const MeshEntry& mesh);
+
 /// A built scene, and which of its instances are the object.
 struct MethodScene {
     Scene scene;

@@ -4,21 +4,15 @@
 #include "bake/preview/default_lights.h"
 #include "bake/preview/smooth_mesh.h"
 #include "bake/relief/height/picture_height.h"
+#include "bake/verdict/compare/compared_scene.h"
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <tuple>
 #include <utility>
 
 namespace bake {
 namespace {
-
-std::string name_of(const MeshEntry& mesh) {
-    if (!mesh.name.empty()) return mesh.name;
-    return mesh.file.empty() ? mesh.shape.substr(0, mesh.shape.find(':'))
-                             : std::filesystem::path(mesh.file).stem().string();
-}
 
 /// Meshes with equal keys show one shape with one material.
 auto key_of(const MeshEntry& mesh) {
@@ -78,7 +72,7 @@ void PlanScenes::choose_objects() {
         if (added) {
             MaterialEntry material = entries_.materials[std::size_t(mesh.material)];
             PlannedObject& object = objects_.emplace_back();
-            object.name = new_name(name_of(mesh), names);
+            object.name = new_name(object_name(mesh), names);
             object.material = material.name;
             material.name = new_name(material.name + " of " + object.name, materials);
             material.relief.shade = ShadeMethod{Shade::plain};
