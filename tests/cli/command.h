@@ -32,7 +32,8 @@ void write_file(const std::string& file, const std::string& bytes);
 std::size_t lines(const std::string& text);
 
 struct RunLimits {
-    double seconds = 20;         ///< killed after, in processor time; after 15 times as long in any case
+    /// Killed after, in processor time, and after 15 times as long in any case; four times as much with sanitizers.
+    double seconds = 20;
     long long file_bytes = -1;   ///< largest file it may write; -1: any
     double interrupt_after = -1; ///< seconds after which the signal is sent; -1: never
     int signal = SIGINT;
