@@ -310,7 +310,7 @@ private:
         const ReliefPicture& relief = reliefs_[std::size_t(trial.relief)];
         const bool fine = plan_reliefs[trial.relief].fine;
         const bool sheet = base.object->sheet; // most of which is far from a contour
-        const double most = (sheet ? 6 : 2.5) * (fine ? 0.3 : 1), least = (sheet ? 0.03 : 0.012) * (fine ? 0.6 : 1);
+        const double most = (sheet ? 6 : 2.5) * (fine ? 0.4 : 1), least = sheet ? 0.12 : 0.05;
         trial.height_px = draw.scale(least, most);
         double amplitude = trial.height_px / per_length; // in units of the object
         const double steepness = relief.slope * relief.picture->image.width() / base.uv_edge;

@@ -239,6 +239,12 @@ TEST_SUITE("unit") {
         CHECK_FALSE(capped.all);
         // A budget that the reference's own error uses up can not be kept.
         CHECK(probe.judge(pair.shown(), 3 * error.rmse(), 4 * error.rmse()).settled == Settled::open);
+        // Where a finer reference can be had, no pixels are spent on what this one cannot tell.
+        const auto doubted = probe.judge(pair.shown(), 3 * error.rmse(), 4 * error.rmse(), {.until_reference = true});
+        CHECK(doubted.settled == Settled::open);
+        CHECK((doubted.estimate.pixels >= 364 && doubted.estimate.pixels < 400));
+        CHECK(probe.judge(pair.shown(), 0.1 * error.rmse(), 0.3 * error.rmse(), {.until_reference = true}).settled ==
+              Settled::over);
     }
 
     TEST_CASE("reference_probe: an object out of view has no pixels and is within; a tiny one is visited whole") {

@@ -24,8 +24,10 @@ SquareEstimate ErrorMeter::estimate(const ProbedScene& candidate) const {
     return tile_flip(candidate, reference_, probe_.pixels(), options_, {.half = flip_half});
 }
 
-ReferenceProbe::Result ErrorMeter::judge(const ProbedScene& candidate, double budget, double reference_error) {
-    if (metric_ == Budget::Metric::rmse) return probe_.judge(candidate, budget, reference_error);
+ReferenceProbe::Result ErrorMeter::judge(const ProbedScene& candidate, double budget, double reference_error,
+                                         bool can_be_finer) {
+    if (metric_ == Budget::Metric::rmse)
+        return probe_.judge(candidate, budget, reference_error, {.until_reference = can_be_finer});
     const SquareEstimate found = estimate(candidate);
     return {found, bake::judge(found, budget, reference_error)};
 }

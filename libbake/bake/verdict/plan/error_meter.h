@@ -12,7 +12,9 @@ public:
     ErrorMeter(Budget::Metric metric, const ProbedScene& reference, std::vector<Pixel> pixels,
                const ProbeOptions& options);
 
-    ReferenceProbe::Result judge(const ProbedScene& candidate, double budget, double reference_error);
+    /// `can_be_finer`: the reference; then the looks end as with StoppingRule::until_reference.
+    ReferenceProbe::Result judge(const ProbedScene& candidate, double budget, double reference_error,
+                                 bool can_be_finer = false);
     /// Of at least `pixels` object pixels where the metric can do with fewer than all.
     SquareEstimate measure(const ProbedScene& candidate, int pixels);
     /// Mean FLIP, from fewer samples than a budget by FLIP takes.

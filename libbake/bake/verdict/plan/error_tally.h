@@ -57,6 +57,9 @@ struct StoppingRule {
     int pass_from = 256;  ///< object pixels from which a candidate can pass, unless all are visited
     double fail_at = 0.9; ///< over when R - 2 se >= (fail_at B)^2
     double pass_at = 1.1; ///< within when R + 2 se <= (pass_at B)^2
+    /// The looks end where a perfect reference would settle the judgement, and it is the error of the reference that leaves it
+    /// open.
+    bool until_reference = false;
 };
 
 /// `reference_error`: RMSE of the reference itself against a finer one, e. By the triangle inequality the RMSE against the

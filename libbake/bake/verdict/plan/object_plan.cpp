@@ -16,6 +16,7 @@ namespace {
 constexpr double least_triangles = 32, most_triangles = 256;
 constexpr double triangles_together = 1.2e7; ///< of the references of objects that are judged in the same scenes
 constexpr int neighbour_pixels = 256;        ///< on which the next dearer rung is measured
+constexpr const char* nothing_cheaper = "no cheaper model is within the budget";
 
 bool is_coarser_than_reference(const Candidate& c, const Rung& rung) noexcept {
     return !displaces(rung.method.shade) || rung.method.levels + 2 <= c.level;
@@ -117,7 +118,7 @@ double Decider::pixels_in_view(const Candidate& c) const {
 /// Settles rungs by what is known without rendering, up to one that needs a probe. True if the object is done.
 bool Decider::is_settled_unseen(Candidate& c) {
     const Budget& budget = work_.options.budget;
-    for (; !c.done && c.next < c.plan().rungs.size(); ++c.next) {
+    for (; !c.done && c.has_rung(); ++c.next) {
         Rung& rung = c.rung();
         const double edge = c.edge / std::exp2(rung.method.levels);
         if (displaces(rung.method.shade) && edge > c.dominant) {
@@ -133,13 +134,18 @@ bool Decider::is_settled_unseen(Candidate& c) {
             bound = ErrorBound{1, "no error is larger than the budget"};
         else if (budget.metric == Budget::Metric::rmse) bound = c.facts->bound(rung.method.shade);
         // Nothing but the reference is without error, unless there is no relief.
-        if (budget.value == 0 && c.has_relief) break;
+        if (budget.value == 0 && c.has_relief) {
+            finish(c, nothing_cheaper);
+            return true;
+        }
         if (!bound || bound->rmse > budget.value) return false;
         rung.bound = bound->rmse, rung.note = bound->why;
         choose(c, Known::bound);
         return true;
     }
-    if (!c.done) finish(c, "no cheaper model is within the budget");
+    // The reference that is shown is one whose error is known and small.
+    if (!c.done && (c.level < 0 || references_.is_too_coarse(c))) return false;
+    if (!c.done) finish(c, nothing_cheaper);
     return true;
 }
 
@@ -155,12 +161,13 @@ std::shared_ptr<const BakedModel> Decider::baked(const Candidate& c, Rung& rung)
     }
 }
 
-/// Each object with its next rung; those that are done, as in the reference. Null if a rung had to be skipped.
+/// Each object with its next rung; those that are done, as in the reference. Null if a rung had to be skipped, or none is left.
 std::unique_ptr<AssembledScene> Decider::next_scene() {
     BakedModels models = references_.scene().models;
-    bool complete = true;
+    bool complete = true, any = false;
     for (Candidate& c : candidates_) {
-        if (c.done) continue;
+        if (c.done || !c.has_rung()) continue;
+        any = true;
         Rung& rung = c.rung();
         std::shared_ptr<const BakedModel> model;
         if (is_coarser_than_reference(c, rung)) model = baked(c, rung);
@@ -168,19 +175,22 @@ std::unique_ptr<AssembledScene> Decider::next_scene() {
         if (!model) complete = false, ++c.next;
         else models[std::size_t(c.decision->object)] = std::move(model);
     }
-    return complete ? work_.scenes.assemble(std::move(models)) : nullptr;
+    return complete && any ? work_.scenes.assemble(std::move(models)) : nullptr;
 }
 
-/// The camera that refused the last rung is asked first.
+/// The camera that refused the last rung is asked first. Where the error of the reference leaves the judgement open, the
+/// candidate waits for a finer one.
 void Decider::probe(Candidate& c, AssembledScene& scene) {
     Rung& rung = c.rung();
     const double budget = work_.options.budget.value;
     const std::size_t first = c.worst;
+    const bool can_be_finer = references_.is_too_coarse(c);
     bool open = false, refused = false;
     for (std::size_t i = 0; i < c.meters.size(); ++i) {
         const std::size_t camera = (first + i) % c.meters.size();
         light_for(scene, camera);
-        const auto [estimate, settled] = c.meters[camera].judge(c.of(scene), budget, c.plan().reference_error);
+        const auto [estimate, settled] =
+            c.meters[camera].judge(c.of(scene), budget, c.plan().reference_error, can_be_finer);
         rung.known = Known::probe;
         if (i == 0 || settled == Settled::over || estimate.square > rung.error.square) {
             rung.error = estimate, rung.camera = work_.scenes.cameras()[camera].name;
@@ -188,6 +198,8 @@ void Decider::probe(Candidate& c, AssembledScene& scene) {
         }
         if (settled == Settled::within) continue;
         open = settled == Settled::open;
+        c.waits = open && can_be_finer;
+        if (c.waits) return;
         refused = refused || !open || !acceptable(estimate, budget, c.plan().reference_error);
         if (settled == Settled::over) break;
     }
@@ -249,17 +261,21 @@ void Decider::run() {
         references_.prepare(candidates_);
         std::unique_ptr<AssembledScene> scene = next_scene();
         if (!scene) continue;
+        bool went_on = false;
         for (Candidate& c : candidates_) {
-            if (c.done) continue;
+            if (c.done || !c.has_rung()) continue;
             if (work_.progress) work_.progress->start("plan " + c.plan().object + ": " + name(c.rung().method), 0);
             probe(c, *scene);
             if (c.done && work_.options.neighbours) {
                 add_flip(c, *scene);
                 if (candidates_.size() == 1) measure_dearer(c);
             }
-            if (!c.done) c.last = c.next++, c.probed = true;
+            if (!c.done && !c.waits) c.last = c.next++, c.probed = true;
+            went_on = went_on || !c.waits;
         }
+        if (!went_on) continue;
         previous_ = std::move(scene);
+        for (Candidate& c : candidates_) c.probed = c.probed && !c.waits; // previous_ does not show its last rung
     }
 }
 

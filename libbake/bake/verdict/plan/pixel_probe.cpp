@@ -126,6 +126,7 @@ ReferenceProbe::Result ReferenceProbe::judge(const ProbedScene& candidate, doubl
         Result result{estimate(visited)};
         result.settled = bake::judge(result.estimate, budget, reference_error, rule);
         if (result.settled != Settled::open || !more || wanted >= rule.most) return result;
+        if (rule.until_reference && bake::judge(result.estimate, budget, 0, rule) != Settled::open) return result;
         wanted = std::max(wanted + 1, std::floor(wanted * rule.growth));
     }
 }

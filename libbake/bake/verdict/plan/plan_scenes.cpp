@@ -5,6 +5,7 @@
 #include "bake/preview/smooth_mesh.h"
 #include "bake/relief/height/picture_height.h"
 #include "bake/verdict/compare/compared_scene.h"
+#include "bake/verdict/plan/scene_twin.h"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -26,13 +27,6 @@ std::string new_name(const std::string& wanted, std::set<std::string>& names) {
     std::string name = wanted;
     for (int i = 2; !names.insert(name).second; ++i) name = wanted + " " + std::to_string(i);
     return name;
-}
-
-Cube copy_of(const Cube& cube) {
-    Cube copy;
-    if (!cube.empty())
-        for (const CubeFace face : all_cube_faces) copy[face] = copied(cube[face]);
-    return copy;
 }
 
 /// What load() refuses, too.
@@ -212,13 +206,6 @@ std::unique_ptr<AssembledScene> PlanScenes::assemble(BakedModels models) const {
     scene.instances = plain_.instances;
     scene.settings = plain_.settings;
     scene.camera = cameras_.front().camera;
-    scene.sky.scale = plain_.sky.scale, scene.sky.yaw = plain_.sky.yaw, scene.sky.background = plain_.sky.background;
-    scene.sky.cube = copy_of(plain_.sky.cube);
-    if (scene.settings.sky_light == SkyLighting::irradiance) {
-        scene.sky_levels.irradiance = copy_of(plain_.sky_levels.irradiance);
-        for (const Cube& level : plain_.sky_levels.glossy) scene.sky_levels.glossy.push_back(copy_of(level));
-        scene.sky_levels.alphas = plain_.sky_levels.alphas;
-    }
     for (std::size_t i = 0; i < models.size(); ++i)
         for (const std::uint32_t at : objects_[i].instances)
             if (models[i]) {
@@ -227,6 +214,7 @@ std::unique_ptr<AssembledScene> PlanScenes::assemble(BakedModels models) const {
             }
     light_for(scene, 0);
     build(scene);
+    copy_sky(scene, plain_);
     // build() looks at the materials that the scene owns, and it owns none.
     for (const Instance& instance : scene.instances)
         scene.textured = scene.textured || has_textures(*instance.material);

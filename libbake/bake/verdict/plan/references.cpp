@@ -23,9 +23,8 @@ bool raise(Candidate& c, int level, double most) noexcept {
 
 /// For the next rung.
 int wanted_level(const Candidate& c) noexcept {
-    const ShadeMethod& method = c.plan().rungs[c.next].method;
     const int first = first_level(c);
-    return displaces(method.shade) ? std::max(first, method.levels + 2) : first;
+    return c.has_rung() && displaces(c.rung().method.shade) ? std::max(first, c.rung().method.levels + 2) : first;
 }
 
 } // namespace
@@ -110,7 +109,7 @@ void References::measure(std::vector<Candidate>& candidates) {
 
 bool References::is_too_coarse(const Candidate& c) const noexcept {
     const double budget = work_.options.budget.value;
-    return !c.done && budget > 0 && c.plan().reference_error > tolerable * budget &&
+    return budget > 0 && c.plan().reference_error > tolerable * budget && c.level < c.most_level &&
            displaced_triangles(c, c.level + 1) <= c.most_refined;
 }
 
@@ -120,12 +119,16 @@ void References::prepare(std::vector<Candidate>& candidates) {
         if (c.done) continue;
         if (c.level < 0) c.most_level = most_levels;
         changed = raise(c, wanted_level(c), c.most_triangles) || changed;
+        if (c.waits) changed = raise(c, c.level + 1, c.most_refined) || changed;
+        c.waits = false;
     }
-    while (changed) {
-        build(candidates);
+    for (;;) {
+        if (changed) build(candidates);
         changed = false;
         for (Candidate& c : candidates)
-            if (is_too_coarse(c)) changed = raise(c, c.level + 1, c.most_refined) || changed;
+            if (!c.done && !c.has_rung() && is_too_coarse(c))
+                changed = raise(c, c.level + 1, c.most_refined) || changed;
+        if (!changed) return;
     }
 }
 

@@ -1,7 +1,7 @@
 // The displaced meshes that objects are judged against, and how far these are from finer ones. Internal to this room.
 //
 // A reference is small at first. It becomes at least four times finer per edge than a displaced rung in question, and finer
-// where its own error is too large for the budget. With d the error of a mesh of twice the edges against it, its own error is
+// where its own error leaves the judgement of a rung open, or is shown because no rung is within the budget. With d the error of a mesh of twice the edges against it, its own error is
 // taken to be d / 3 where 12 of its edges make the shortest wave of the height, because errors of order 2 fall to a quarter
 // (Richardson, 1911), and d where its edges are longer than that.
 #pragma once
@@ -32,10 +32,12 @@ struct Candidate {
     int level = -1;                 ///< of the reference
     int measured = -1;              ///< the level whose error is known
     int most_level = 0;             ///< finer ones do not fit
+    bool waits = false;             ///< for a finer reference, to judge the next rung again
     std::vector<ErrorMeter> meters; ///< one per camera
 
     ObjectPlan& plan() const noexcept { return decision->plan; }
     Rung& rung() const noexcept { return decision->plan.rungs[next]; }
+    bool has_rung() const noexcept { return next < decision->plan.rungs.size(); }
     ProbedScene of(const AssembledScene& scene) const noexcept { return {&scene.scene, instances}; }
 };
 
@@ -48,8 +50,11 @@ class References {
 public:
     explicit References(PlanWork& work) : work_(work) {}
 
-    /// Makes the references of all candidates that are not done fine enough for their next rungs.
+    /// Makes the references of all candidates that are not done fine enough for their next rungs, of those that wait finer by
+    /// a level, and of those without a next rung fine enough to be shown.
     void prepare(std::vector<Candidate>& candidates);
+    /// Whether its error is too large for the budget, and a finer reference may have as many triangles as it needs.
+    bool is_too_coarse(const Candidate& c) const noexcept;
     AssembledScene& scene() noexcept { return *scene_; }
 
 private:
@@ -57,7 +62,6 @@ private:
     void build(std::vector<Candidate>& candidates);
     void make_meters(Candidate& c);
     void measure(std::vector<Candidate>& candidates);
-    bool is_too_coarse(const Candidate& c) const noexcept;
 
     PlanWork& work_;
     std::unique_ptr<AssembledScene> scene_;

@@ -38,14 +38,20 @@ Scene twin_of(const Scene& scene) {
     twin.lights = scene.lights, twin.ambient = scene.ambient;
     twin.camera = scene.camera;
     twin.settings = scene.settings;
-    twin.sky.scale = scene.sky.scale, twin.sky.yaw = scene.sky.yaw, twin.sky.background = scene.sky.background;
-    build(twin); // without a sky, what is made of which is copied instead
-    twin.sky.cube = copied(scene.sky.cube);
-    for (const Cube& halving : scene.sky.halvings) twin.sky.halvings.push_back(copied(halving));
-    twin.sky_light = scene.sky_light;
-    twin.sky_levels = copied(scene.sky_levels);
+    build(twin);
+    copy_sky(twin, scene);
     twin.textured = scene.textured;
     return twin;
+}
+
+void copy_sky(Scene& to, const Scene& from) {
+    to.sky.scale = from.sky.scale, to.sky.yaw = from.sky.yaw, to.sky.background = from.sky.background;
+    to.sky.cube = copied(from.sky.cube);
+    to.sky.halvings.clear();
+    for (const Cube& halving : from.sky.halvings) to.sky.halvings.push_back(copied(halving));
+    to.sky_light = from.sky_light;
+    to.sky_levels = copied(from.sky_levels);
+    to.textured = to.textured || !to.sky.halvings.empty();
 }
 
 void set_sky(Scene& twin, Cube cube) {

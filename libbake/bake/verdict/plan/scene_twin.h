@@ -8,6 +8,10 @@ namespace bake {
 /// i of the twin is a copy of material i of the scene.
 Scene twin_of(const Scene& scene);
 
+/// Gives a scene that was built without a sky a copy of the sky of a built scene, with all that build() makes of a sky: nothing
+/// is computed.
+void copy_sky(Scene& to, const Scene& from);
+
 /// Copies a cube.
 Cube copied(const Cube& cube);
 
