@@ -1,4 +1,5 @@
 #include "plan_options.h"
+#include "bake/verdict/report/page_tables.h"
 #include "inputs/file_kind.h"
 #include <sstream>
 
@@ -88,7 +89,7 @@ void add_plan_options(CLI::App& sub, PlanArgs& args) {
     sub.add_option("--report", args.report,
                    "HTML file to write, which opens without a network: the pictures of the planned scene, of full "
                    "displacement and of everything bumped for flipping, and all decisions")
-        ->type_name("PLAN.html");
+        ->type_name("OUT.html");
     sub.add_flag("--verify", args.verify,
                  "Render whole pictures of the planned scene and of the reference too; exit with 1 over the budget");
     sub.add_flag("--measure", args.measure,
@@ -115,9 +116,9 @@ PlanOptions plan_options(const PlanArgs& args) {
 
 std::string command_of(const PlanArgs& args) {
     const PlanArgs usual;
-    std::string text = "bake plan " + args.scene;
+    std::string text = "bake plan " + shell_word(args.scene);
     const auto add = [&](const char* flag, const std::string& value, const std::string& otherwise) {
-        if (value != otherwise) text += std::string(" ") + flag + " " + value;
+        if (value != otherwise) text += std::string(" ") + flag + " " + shell_word(value);
     };
     add("--budget", args.budget, usual.budget), add("--camera", args.cameras, usual.cameras);
     if (args.size) text += format(" --size %dx%d", args.size->first, args.size->second);

@@ -75,6 +75,13 @@ TEST_SUITE("unit") {
               "<li data-method=\"m\"><span><i>c</i></span><code>bake y</code></li>\n</ol>\n");
     }
 
+    TEST_CASE("report: words of commands are quoted where a shell would take them apart") {
+        CHECK(shell_word("--height=a_b-1.5%/x.png") == "--height=a_b-1.5%/x.png");
+        CHECK(shell_word("") == "''");
+        CHECK(shell_word("a b") == "'a b'");
+        CHECK(shell_word("it's $x") == "'it'\\''s $x'");
+    }
+
     TEST_CASE("base64: the vectors of RFC 4648") {
         CHECK(base64("") == "");
         CHECK(base64("f") == "Zg==");

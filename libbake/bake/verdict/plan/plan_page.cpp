@@ -1,11 +1,9 @@
 #include "bake/verdict/plan/plan_page.h"
-#include "bake/base/printable.h"
 #include "bake/base/text.h"
 #include "bake/verdict/chart/svg.h"
 #include "bake/verdict/compare/picture_errors.h"
 #include "bake/verdict/plan/plan_words.h"
 #include "bake/verdict/report/page_tables.h"
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace bake {
@@ -87,23 +85,11 @@ std::string list_of_notes(const ScenePlan& plan) {
     return out.empty() ? "" : "<ul>\n" + out + "</ul>\n";
 }
 
-/// A word as a shell takes it.
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) ||
-               std::string_view("_-+=./:,@%").find(c) != std::string_view::npos;
-    });
-    if (plain) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 std::string commands(const PlanPageText& text) {
     std::vector<PageCommand> list = {{"this plan", "", text.command}};
     for (const Bake& bake : text.manifest.bakes) {
         std::string command = "bake";
-        for (const std::string& word : command_of(bake)) command += " " + quoted(word);
+        for (const std::string& word : command_of(bake)) command += " " + shell_word(word);
         list.push_back({xml_text(bake.name), "", command});
     }
     std::string out = command_list(list);

@@ -20,6 +20,8 @@ struct PageCommand {
     std::string command; ///< text; empty: it is left out
 };
 std::string command_list(const std::vector<PageCommand>& commands);
+/// A word of a command as a POSIX shell takes it: between quotes if it has other characters than those of usual names.
+std::string shell_word(const std::string& word);
 
 std::string page_title(const nlohmann::ordered_json& report);
 std::string heading(const nlohmann::ordered_json& report);
