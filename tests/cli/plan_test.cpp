@@ -147,7 +147,11 @@ TEST_SUITE("cli") {
         const std::string plain = run_bake(folder, line(more)).out;
         CHECK(has(plain, "  verified"));
         CHECK(has(run.out, plain.substr(0, plain.find("  Errors are"))));
-        check_refused(folder, line({"--report", "no/such/plan.html"}), 5, "no/such/plan.html: ");
+        // What cannot be written is refused before heights are read.
+        write_file(folder / "lost.toml", "material = [{name = \"m\", height = \"lost.png\"}]\n"
+                                         "mesh = [{shape = \"sphere\", material = \"m\"}]\n");
+        check_refused(folder, {"plan", "lost.toml"}, 3, "lost.png: ");
+        check_refused(folder, {"plan", "lost.toml", "--report", "no/such/plan.html"}, 5, "no/such/plan.html: ");
     }
 
     TEST_CASE("plan: Ctrl-C keeps the decisions that were made, and exits with 130") {
