@@ -13,26 +13,8 @@ int chosen_levels(const ObjectPlan& plan) noexcept {
     return displaces(method.shade) ? method.levels : 0;
 }
 
-/// The references of all objects. The largest ones become coarser, but never coarser than what is planned, until all fit
-/// in memory together.
 BakedModels references(PlanWork& work, std::span<const ObjectDecision> decisions) {
-    std::vector<ShadeMethod> methods;
-    std::vector<double> triangles;
-    for (const ObjectDecision& decision : decisions) {
-        methods.push_back(decision.plan.reference);
-        triangles.push_back(double(decision.plan.reference_cost.triangles));
-    }
-    for (;;) {
-        double sum = 0;
-        std::size_t largest = decisions.size();
-        for (std::size_t i = 0; i < decisions.size(); ++i) {
-            sum += triangles[i];
-            const bool can = methods[i].levels > chosen_levels(decisions[i].plan);
-            if (can && (largest == decisions.size() || triangles[i] > triangles[largest])) largest = i;
-        }
-        if (sum <= most_reference_triangles || largest == decisions.size()) break;
-        --methods[largest].levels, triangles[largest] /= 4;
-    }
+    const std::vector<ShadeMethod> methods = fitting_references(decisions, most_reference_triangles);
     BakedModels models(work.scenes.objects().size());
     for (std::size_t i = 0; i < decisions.size(); ++i) {
         const ObjectPlan& plan = decisions[i].plan;
@@ -69,6 +51,26 @@ void add(PlanWork& work, Scene& scene, bool own_lights, PlanPicture::Shows shows
 }
 
 } // namespace
+
+std::vector<ShadeMethod> fitting_references(std::span<const ObjectDecision> decisions, double most_triangles) {
+    std::vector<ShadeMethod> methods;
+    std::vector<double> triangles;
+    for (const ObjectDecision& decision : decisions) {
+        methods.push_back(decision.plan.reference);
+        triangles.push_back(double(decision.plan.reference_cost.triangles));
+    }
+    for (;;) {
+        double sum = 0;
+        std::size_t largest = decisions.size();
+        for (std::size_t i = 0; i < decisions.size(); ++i) {
+            sum += triangles[i];
+            const bool can = methods[i].levels > chosen_levels(decisions[i].plan);
+            if (can && (largest == decisions.size() || triangles[i] > triangles[largest])) largest = i;
+        }
+        if (sum <= most_triangles || largest == decisions.size()) return methods;
+        --methods[largest].levels, triangles[largest] /= 4;
+    }
+}
 
 std::vector<PlanPicture> plan_pictures(PlanWork& work, std::span<const ObjectDecision> decisions,
                                        const SceneEntries& planned, Scene* shown) {

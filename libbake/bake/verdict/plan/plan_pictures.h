@@ -11,4 +11,8 @@ namespace bake {
 std::vector<PlanPicture> plan_pictures(PlanWork& work, std::span<const ObjectDecision> decisions,
                                        const SceneEntries& planned, Scene* shown);
 
+/// The references of all objects. The largest ones become coarser, but never coarser than what is planned, until all have at
+/// most so many triangles together.
+std::vector<ShadeMethod> fitting_references(std::span<const ObjectDecision> decisions, double most_triangles);
+
 } // namespace bake
