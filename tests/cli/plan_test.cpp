@@ -1,6 +1,7 @@
 // bake plan from outside.
 #include "bake/base/text.h"
 #include "bake/preview/scene_io.h"
+#include "bake/verdict/report/page_assets.h"
 #include "cli/command.h"
 #include <nlohmann/json.hpp>
 
@@ -111,10 +112,46 @@ TEST_SUITE("cli") {
         refused({"--decide", "objects"}, 2, "--decide objects: ");
         refused({"-o", "p.png"}, 2, "--out p.png: ");
         refused({"-o", "p.toml", "--manifest", "p.toml"}, 2, "--manifest p.toml: ");
+        refused({"-o", "p.toml", "--report", "p.toml"}, 2, "--report p.toml: is --out too");
+        refused({"--report", "p.toml", "--manifest", "p.toml"}, 2, "--report p.toml: is --manifest too");
         refused({"-o", "s.toml"}, 2, "s.toml: ");
         refused({"-o", "no/p.toml"}, 5, "no/p.toml: ");
         check_refused(folder, {"plan", "no.toml"}, 3, "no.toml: ");
         check_refused(folder, {"plan", "dots.png"}, 3, "dots.png: ");
+    }
+
+    TEST_CASE("plan: --report writes a page with decisions, pictures and the commands of the bakes" *
+              doctest::skip(*page_template == 0)) {
+        const Folder folder;
+        write_scene(folder);
+        const std::vector<std::string> more = {"--budget", "rmse=0.05", "--cost", "bytes=0.01", "--verify"};
+        std::vector<std::string> reported = line(more);
+        for (const char* word : {"--manifest", "bakes.toml", "--report", "plan.html"}) reported.push_back(word);
+        const Run run = run_bake(folder, reported);
+        CHECK(run.err == "");
+        REQUIRE(run.code == 0);
+        CHECK(has(run.out, "plan.html"));
+        const std::string page = contents(folder / "plan.html");
+        for (const char* part :
+             {"<th scope=\"row\">ring</th>", "<th scope=\"row\">ball</th>", "<dt>why</dt>", "<section id=\"verified\">",
+              "<section id=\"rungs\">", "(chosen)", "data-method=\"displaced in full\" data-view=\"1\"",
+              "data-method=\"planned\" data-view=\"0\"", "data-method=\"everything bumped\" data-view=\"1\"",
+              "<code>bake plan s.toml --budget rmse=0.05 --cost bytes=0.01 --verify --manifest bakes.toml --report "
+              "plan.html</code>"})
+            CHECK_MESSAGE(has(page, part), std::string(part));
+        CHECK(has(contents(folder / "bakes.toml"), "[[bake]]") == has(page, "<code>bake displace "));
+        // The page changes nothing in the plan, and is the same for any number of threads.
+        reported.push_back("--threads"), reported.push_back("1");
+        CHECK(run_bake(folder, reported).code == 0);
+        CHECK(contents(folder / "plan.html") == page);
+        const std::string plain = run_bake(folder, line(more)).out;
+        CHECK(has(plain, "  verified"));
+        CHECK(has(run.out, plain.substr(0, plain.find("  Errors are"))));
+        // What cannot be written is refused before heights are read.
+        write_file(folder / "lost.toml", "material = [{name = \"m\", height = \"lost.png\"}]\n"
+                                         "mesh = [{shape = \"sphere\", material = \"m\"}]\n");
+        check_refused(folder, {"plan", "lost.toml"}, 3, "lost.png: ");
+        check_refused(folder, {"plan", "lost.toml", "--report", "no/such/plan.html"}, 5, "no/such/plan.html: ");
     }
 
     TEST_CASE("plan: Ctrl-C keeps the decisions that were made, and exits with 130") {

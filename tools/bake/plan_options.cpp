@@ -1,4 +1,5 @@
 #include "plan_options.h"
+#include "bake/verdict/report/page_tables.h"
 #include "inputs/file_kind.h"
 #include <sstream>
 
@@ -53,6 +54,11 @@ void expect_toml(const char* flag, const std::string& file) {
         throw Error(Refusal::usage, std::string(flag) + " " + file + ": is written as TOML; end its name with .toml");
 }
 
+void expect_new(const char* flag, const std::string& file, const char* other_flag, const std::string& other) {
+    if (!file.empty() && file == other && file != null_device)
+        throw Error(Refusal::usage, std::string(flag) + " " + file + ": is " + other_flag + " too; give two names");
+}
+
 } // namespace
 
 void add_plan_options(CLI::App& sub, PlanArgs& args) {
@@ -80,6 +86,10 @@ void add_plan_options(CLI::App& sub, PlanArgs& args) {
     sub.add_option("-o,--out", args.out, "Scene to write: the same with the models that were chosen")
         ->type_name("PLANNED.toml");
     sub.add_option("--manifest", args.manifest, "List of the bakes that the models need")->type_name("BAKES.toml");
+    sub.add_option("--report", args.report,
+                   "HTML file to write, which opens without a network: the pictures of the planned scene, of full "
+                   "displacement and of everything bumped for flipping, and all decisions")
+        ->type_name("OUT.html");
     sub.add_flag("--verify", args.verify,
                  "Render whole pictures of the planned scene and of the reference too; exit with 1 over the budget");
     sub.add_flag("--measure", args.measure,
@@ -94,13 +104,30 @@ PlanOptions plan_options(const PlanArgs& args) {
     if (args.cameras != "all") options.cameras = words_of(args.cameras);
     options.weights = parse_cost(args.cost);
     parse_decisions(args.decide, options);
-    options.verify = args.verify, options.measure = args.measure;
+    options.verify = args.verify, options.measure = args.measure, options.pictures = !args.report.empty();
     options.seed = std::uint32_t(args.seed);
     expect_toml("--out", args.out);
     expect_toml("--manifest", args.manifest);
-    if (!args.out.empty() && args.out == args.manifest && args.out != null_device)
-        throw Error(Refusal::usage, "--manifest " + args.manifest + ": is --out too; give two names");
+    expect_new("--manifest", args.manifest, "--out", args.out);
+    expect_new("--report", args.report, "--out", args.out);
+    expect_new("--report", args.report, "--manifest", args.manifest);
     return options;
+}
+
+std::string command_of(const PlanArgs& args) {
+    const PlanArgs usual;
+    std::string text = "bake plan " + shell_word(args.scene);
+    const auto add = [&](const char* flag, const std::string& value, const std::string& otherwise) {
+        if (value != otherwise) text += std::string(" ") + flag + " " + shell_word(value);
+    };
+    add("--budget", args.budget, usual.budget), add("--camera", args.cameras, usual.cameras);
+    if (args.size) text += format(" --size %dx%d", args.size->first, args.size->second);
+    add("--cost", args.cost, usual.cost), add("--decide", args.decide, usual.decide);
+    if (args.seed != usual.seed) text += format(" --seed %d", args.seed);
+    if (args.verify) text += " --verify";
+    if (args.measure) text += " --measure";
+    add("-o", args.out, ""), add("--manifest", args.manifest, ""), add("--report", args.report, "");
+    return text;
 }
 
 } // namespace bake

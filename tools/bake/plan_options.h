@@ -6,7 +6,7 @@
 namespace bake {
 
 struct PlanArgs {
-    std::string scene, out, manifest;
+    std::string scene, out, manifest, report;
     std::string budget = "normal", cameras = "all", cost, decide = "object";
     std::optional<std::pair<int, int>> size; ///< none: the scene's
     bool verify = false, measure = false;
@@ -17,5 +17,7 @@ void add_plan_options(CLI::App& sub, PlanArgs& args);
 /// Throws Error{Refusal::usage} for words that are no budget, weight or decision, and for the name of an output that is
 /// not a scene.
 PlanOptions plan_options(const PlanArgs& args);
+/// The command line with these options.
+std::string command_of(const PlanArgs& args);
 
 } // namespace bake

@@ -4,11 +4,13 @@
 #include "bake/base/interruption.h"
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/plan/manifest.h"
+#include "bake/verdict/plan/plan_page.h"
 #include "bake/verdict/plan/planned_scene.h"
 #include "bake/verdict/report_text.h"
 #include "inputs/file_kind.h"
 #include "plan_options.h"
 #include "render_progress.h"
+#include <filesystem>
 #include <unistd.h>
 
 namespace bake {
@@ -28,6 +30,12 @@ SceneEntries read_entries(const PlanArgs& args, const PlanOptions& options) {
     return entries;
 }
 
+void write_page(const PlanArgs& args, const ScenePlan& plan, Manifest manifest, const std::string& folder) {
+    PageParts page = plan_page(plan, {args.scene, command_of(args), std::move(manifest), folder});
+    for (PageSection& section : page.sections) section.html = with_flags(section.html);
+    write_text(args.report, page_of(page));
+}
+
 /// What the user wants, and the files to write it to.
 void write_outputs(const PlanArgs& args, const SceneEntries& entries, const std::string& text, ScenePlan& plan) {
     if (!args.out.empty()) {
@@ -36,16 +44,20 @@ void write_outputs(const PlanArgs& args, const SceneEntries& entries, const std:
             plan.notes.push_back(args.out + ": has the models of the objects; what was decided on maps, sky and "
                                             "lights is in this report alone");
     }
-    if (args.manifest.empty()) return;
-    const Manifest manifest = plan_manifest(entries, plan, args.manifest);
+    const std::string& list = args.manifest.empty() ? args.report : args.manifest;
+    if (list.empty()) return;
+    Manifest manifest = plan_manifest(entries, plan, list);
     plan.notes.insert(plan.notes.end(), manifest.notes.begin(), manifest.notes.end());
-    write_text(args.manifest, to_toml(manifest));
+    if (!args.manifest.empty()) write_text(args.manifest, to_toml(manifest));
+    const std::string folder = std::filesystem::path(list).parent_path().string();
+    if (!args.report.empty()) write_page(args, plan, std::move(manifest), folder.empty() ? "." : folder);
 }
 
 std::string written(const PlanArgs& args) {
     std::string text;
     if (!args.out.empty()) text += row("planned", printable(args.out));
     if (!args.manifest.empty()) text += row("manifest", printable(args.manifest));
+    if (!args.report.empty()) text += row("report", printable(args.report));
     return text;
 }
 
@@ -53,16 +65,18 @@ nlohmann::json json_of(const PlanArgs& args, const ScenePlan& plan) {
     nlohmann::json json = nlohmann::json::parse(with_flags(to_json(plan, args.scene)));
     if (!args.out.empty()) json["planned"] = args.out;
     if (!args.manifest.empty()) json["manifest"] = args.manifest;
+    if (!args.report.empty()) json["report"] = args.report;
     return json;
 }
 
 int run(const PlanArgs& args, const CommonArgs& common) {
     PlanOptions options = plan_options(args);
+    if (!args.report.empty()) require_report_page();
     Stopwatch watch;
     const SceneEntries entries = read_entries(args, options);
     const FileBytes file = read_file(args.scene);
     // Files that cannot be written are refused before the work.
-    for (const std::string* path : {&args.out, &args.manifest})
+    for (const std::string* path : {&args.out, &args.manifest, &args.report})
         if (!path->empty()) OutputFile reserved(*path);
     if (is_visible(common) && isatty(STDERR_FILENO))
         options.told = [&](const std::string& line) { note(common, line); };

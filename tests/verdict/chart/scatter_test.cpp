@@ -131,4 +131,23 @@ TEST_SUITE("unit") {
                 CHECK(contains(svg, ">" + dot.label + "</text>") != contains(svg, ">No room for: " + dot.label));
         }
     }
+
+    TEST_CASE("scatter_svg: a limit is a line across at its error, inside the plot") {
+        ScatterChart c = chart({{"a", 1, 0.1}, {"b", 10, 0.01}});
+        const auto limit_of = [](const std::string& svg) {
+            for (const SvgPiece& line : svg_all(svg, "line"))
+                if (line.value("class") == "limit") return line.number("y1");
+            return -1.0;
+        };
+        CHECK(limit_of(scatter_svg(c)) == -1);
+        c.limit = 0.01;
+        std::string svg = scatter_svg(c);
+        CHECK(limit_of(svg) == doctest::Approx(svg_all(svg, "circle")[1].number("cy")));
+        c.limit = 1e-5;
+        svg = scatter_svg(c);
+        CHECK(limit_of(svg) < plot(svg).bottom);
+        CHECK(limit_of(svg) > svg_all(svg, "circle")[1].number("cy"));
+        c.limit = std::numeric_limits<double>::infinity();
+        CHECK(limit_of(scatter_svg(c)) == -1);
+    }
 }

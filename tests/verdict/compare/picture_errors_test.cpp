@@ -153,4 +153,16 @@ TEST_SUITE("unit") {
         CHECK(root({-1, 0.04}).error == doctest::Approx(0.2));
         CHECK(root({0, 0}).error == 0);
     }
+
+    TEST_CASE("frame_errors: those of all pixels of picture_errors") {
+        const MethodPicture x = picture_of(noisy(0, 0.02, 5)), y = picture_of(noisy(1, 0.02, 6));
+        const PictureErrors all = picture_errors(x, y, {.exposure = 0.5f});
+        const FrameErrors frame = frame_errors(x.halves, y.halves, {.exposure = 0.5f});
+        CHECK(frame.rmse.value == all.frame.rmse.value);
+        CHECK(frame.rmse.error == all.frame.rmse.error);
+        CHECK(frame.flip_summary.mean == doctest::Approx(all.frame.flip.value));
+        CHECK(frame.flip_summary.p95 == doctest::Approx(all.frame.flip_of_pixels.p95));
+        CHECK(frame.worst.x == all.worst.x);
+        CHECK(frame.worst.y == all.worst.y);
+    }
 }

@@ -214,4 +214,45 @@ TEST_SUITE("stability") {
             CHECK(error.refusal == Refusal::unsuitable);
         }
     }
+
+    TEST_CASE("plan_scene: pictures of each camera, in full, as planned and bumped, if they are wanted") {
+        SceneEntries entries = relief_scene("sphere:R=1", 0.1f);
+        entries.cameras.push_back(entries.cameras[0]);
+        entries.cameras[0].name = "front", entries.cameras[1].name = "top";
+        entries.cameras[1].position = Vec3f(0, 4, 0.1f);
+        PlanOptions options = with_budget(0.01);
+        CHECK(plan_scene(entries, options).pictures.empty());
+        options.pictures = true;
+        const ScenePlan plan = plan_scene(entries, options);
+        REQUIRE(plan.pictures.size() == 6);
+        for (std::size_t i = 0; i < 6; ++i) {
+            CHECK(plan.pictures[i].camera == i / 3);
+            CHECK(int(plan.pictures[i].shows) == int(i % 3));
+        }
+        for (std::size_t k = 0; k < 6; k += 3) {
+            const Halves& full = plan.pictures[k].halves;
+            const double planned = mean_square_difference(full, plan.pictures[k + 1].halves);
+            const double bumped = mean_square_difference(full, plan.pictures[k + 2].halves);
+            CHECK(std::sqrt(std::max(0.0, planned)) < 0.011);
+            CHECK(bumped > 4 * planned);
+        }
+        CHECK(mean_square_difference(plan.pictures[0].halves, plan.pictures[3].halves) > 1e-4); // other cameras
+        // A height that does not repeat has no bump table.
+        entries.cameras.pop_back();
+        entries.materials[0].relief.wrap = Wrap::clamp;
+        CHECK(plan_scene(entries, options).pictures.size() == 2);
+    }
+
+    TEST_CASE("plan_scene: if sky and lights alone are decided, they are pictured beside the scene as it is") {
+        SceneEntries entries = relief_scene("sphere:R=1", 0.1f);
+        PlanOptions options = with_budget(0.05);
+        options.pictures = true, options.decide_objects = false;
+        CHECK(plan_scene(entries, options).pictures.empty());
+        options.decide_lights = true;
+        const ScenePlan plan = plan_scene(entries, options);
+        REQUIRE(plan.pictures.size() == 2);
+        CHECK(plan.pictures[1].shows == PlanPicture::Shows::planned);
+        // The light is needed, and its shadows are too small to be told.
+        CHECK(mean_square_difference(plan.pictures[0].halves, plan.pictures[1].halves) < 0.05 * 0.05);
+    }
 }

@@ -11,26 +11,6 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// One object on a ladder of five, of which the third is chosen.
-ScenePlan small_plan() {
-    ScenePlan plan;
-    plan.cameras = {"front", "top"};
-    ObjectPlan object;
-    object.object = "ring", object.material = "studs", object.meshes = {0};
-    object.rungs = {rung("plain", 0.03, 2000), rung("roughness", 0.02, 2000, Known::skipped), rung("bump", 0.008, 2000),
-                    rung("displace:4", 0.002, 32000), rung("displace:8", 0, 128000, Known::not_tried)};
-    object.rungs[1].note = "a reason";
-    object.rungs[2].flip = 0.016;
-    object.chosen = 2;
-    object.reference = *parse_shade("displace:64");
-    object.reference_cost = {.triangles = 8192000, .object_bytes = 900'000'000, .texture_bytes = 0, .ms = 5.25};
-    object.budget = 0.01;
-    object.why = "bump is enough";
-    object.rgb8_bytes = 10000;
-    plan.objects = {object};
-    return plan;
-}
-
 } // namespace
 
 TEST_SUITE("unit") {

@@ -1,5 +1,5 @@
 // Uses every control of a report in a headless Chromium: report_page.mjs FOLDER, which has report.html of
-// little_report.h, bare.html, a report of nothing, and job.json with what the pictures show.
+// little_report.h, plan.html of hand_made_plan.h, bare.html, a report of nothing, and job.json with what the pictures show.
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -42,7 +42,7 @@ async function open(where, options = {}) {
   page.on('pageerror', fault => faults.push(String(fault)));
   page.on('console', line => ['error', 'warning'].includes(line.type()) && faults.push(line.text()));
   await page.goto(where);
-  if (options.javaScriptEnabled !== false && where.includes('report.html'))
+  if (options.javaScriptEnabled !== false && !where.includes('bare.html'))
     await ready(page);
   return page;
 }
@@ -335,6 +335,44 @@ async function check_without_script() {
   await page.context().close();
 }
 
+/** Two cameras of three grey pictures each; see add_pictures() of hand_made_plan.h. */
+async function check_plan() {
+  const page = await open(address('plan.html'));
+  const left = { x: 5, y: 16 }, right = { x: 40, y: 16 };
+  const grey = async (pixel, light, what) => near(await colour(page, pixel), Array(3).fill(encode(light)), 1, `plan: ${what}`);
+  check(await page.isVisible('#decisions tbody tr >> nth=0'), 'plan: the first decision');
+  await page.keyboard.press('m');
+  await grey(left, 0.2, 'at the start, what is planned');
+  await page.keyboard.press('0');
+  await grey(left, 0.1, 'key 0 is the reference');
+  await page.keyboard.press(' ');
+  await grey(left, 0.2, 'space, and back');
+  await grey(right, 0.1, 'the half that is equal');
+  await page.keyboard.press('2');
+  await grey(right, 0.3, 'key 2 is everything bumped');
+  await page.keyboard.press('c');
+  await grey(right, 0.6, 'key c is the next camera');
+  check(await page.inputValue('#view') === '1', 'plan: the list of cameras');
+  await page.selectOption('#view', '0');
+  await grey(right, 0.3, 'the list of cameras chooses');
+  await page.click('[data-view="1"] tr[data-method="planned"]');
+  await grey(left, 0.5, 'a row shows the picture of its camera');
+  await page.waitForFunction(() => location.hash.includes('v=1'));
+  const other = await open(page.url());
+  check(await other.inputValue('#view') === '1', 'plan: the camera of a link');
+  await other.context().close();
+  await page.keyboard.press('e');
+  near(await colour(page, right), [0, 0, 4], 1, 'plan: no error where the pictures are equal');
+  check(await page.isHidden('#charts'), 'plan: no charts of methods');
+  await page.context().close();
+  const still = await open(address('plan.html'), { javaScriptEnabled: false });
+  check(await still.isVisible('#decisions tbody tr >> nth=0'), 'plan: decisions without a script');
+  check(await still.locator('#decisions dt:visible').count() === 4, 'plan: reasons without a script');
+  check(await still.isVisible('#rungs svg'), 'plan: a chart without a script');
+  check(await still.locator('#pictures img:visible').count() === 10, 'plan: pictures without a script');
+  await still.context().close();
+}
+
 try {
   const page = await open(report);
   const first = await page.evaluate(() => performance.getEntriesByName('first-picture')[0].startTime);
@@ -349,11 +387,12 @@ try {
   await check_links(page);
   await check_paper(page);
   await check_without_script();
+  await check_plan();
   const bare = await open(address('bare.html'));
   check((await bare.textContent('h1')) === 'scene', 'a report of nothing');
   for (const key of ['1', 'w', 'e', 's', '+', ']', ' ', 'ArrowLeft']) await bare.keyboard.press(key);
   const foreign = requests.filter(url => !url.startsWith('file:') && !url.startsWith('data:'));
-  const files = requests.filter(url => url.startsWith('file:') && !/\/(report|bare)\.html(#|$)/.test(url));
+  const files = requests.filter(url => url.startsWith('file:') && !/\/(report|plan|bare)\.html(#|$)/.test(url));
   check(!foreign.length && !files.length, `requests: ${[...foreign, ...files].slice(0, 3)}`);
   console.log(`${checks} checks; first picture after ${first.toFixed(0)} ms`);
 } catch (fault) {

@@ -1,10 +1,12 @@
 #include "bake/base/base64.h"
 #include "bake/base/error.h"
 #include "bake/picture/webp.h"
+#include "bake/verdict/plan/plan_page.h"
 #include "bake/verdict/report/page_assets.h"
 #include "bake/verdict/report/page_tables.h"
 #include "browser.h"
 #include "cli/command.h"
+#include "verdict/plan/hand_made_plan.h"
 #include "verdict/report/little_report.h"
 #include <cmath>
 #include <sys/wait.h>
@@ -57,6 +59,29 @@ TEST_SUITE("unit") {
         CHECK(list.find("--methods &#39;&lt;b&gt;&amp;&quot;blinn&quot;&#39;</code>") != std::string::npos);
     }
 
+    TEST_CASE("report: without errors over an object there is one table, of the frame") {
+        Json report = report_json();
+        for (Json& row : report["methods"]) row.erase("object");
+        const std::string tables = error_tables(report);
+        CHECK(count(tables, "<table>") == 1);
+        CHECK(count(tables, "<tr data-method=") == 10);
+        CHECK(tables.find(">triangles</th>") != std::string::npos);
+    }
+
+    TEST_CASE("report: a list of commands leaves out empty ones") {
+        CHECK(command_list({}) == "");
+        CHECK(command_list({{"a", "", "bake <x>"}, {"b", "m", ""}, {"<i>c</i>", "m", "bake y"}}) ==
+              "<ol>\n<li data-method=\"\"><span>a</span><code>bake &lt;x&gt;</code></li>\n"
+              "<li data-method=\"m\"><span><i>c</i></span><code>bake y</code></li>\n</ol>\n");
+    }
+
+    TEST_CASE("report: words of commands are quoted where a shell would take them apart") {
+        CHECK(shell_word("--height=a_b-1.5%/x.png") == "--height=a_b-1.5%/x.png");
+        CHECK(shell_word("") == "''");
+        CHECK(shell_word("a b") == "'a b'");
+        CHECK(shell_word("it's $x") == "'it'\\''s $x'");
+    }
+
     TEST_CASE("base64: the vectors of RFC 4648") {
         CHECK(base64("") == "");
         CHECK(base64("f") == "Zg==");
@@ -87,6 +112,25 @@ TEST_SUITE("unit" * doctest::skip(no_page())) {
         CHECK(page.find("<!--") == std::string::npos);
         CHECK(count(page, "http") == count(page, "http-equiv") + count(page, "http://www.w3.org"));
     }
+
+    TEST_CASE("report: a page of several cameras numbers the pictures of each, and has the sections that have text") {
+        PageParts parts{.title = "<t>",
+                        .heading = "<i>h</i>",
+                        .facts = "",
+                        .sections = {{"one", "One", "<p>text</p>\n"}, {"two", "Two", ""}},
+                        .data = R"({"views": [{"camera": "<front>"}, {"camera": "top"}]})",
+                        .pictures = {}};
+        for (int view = 0; view < 2; ++view)
+            for (const char* method : {"a", "b"}) parts.pictures.push_back({method, Image<float>(4, 3, 3), {}, view});
+        const std::string page = page_of(parts);
+        CHECK(page.find("<title>&lt;t&gt;</title>") != std::string::npos);
+        CHECK(count(page, "<section id=\"one\">\n<h2>One</h2>\n<p>text</p>") == 1);
+        CHECK(count(page, "<section id=\"two\">") == 0);
+        CHECK(count(page, "data-method=\"b\" data-view=\"1\"") == 1);
+        CHECK(count(page, "<kbd>0</kbd> <b>a</b> reference") == 2);
+        CHECK(count(page, "<span class=\"camera\">&lt;front&gt;</span> <kbd>1</kbd> <b>b</b>") == 1);
+        CHECK(count(page, "<img class=\"shown\" alt=\"b\" width=\"4\" height=\"3\"") == 2);
+    }
 }
 
 TEST_SUITE("cli" * doctest::skip(no_browser() || no_page())) {
@@ -99,6 +143,9 @@ TEST_SUITE("cli" * doctest::skip(no_browser() || no_page())) {
         write_file(folder / "job.json", job.dump());
         write_file(folder / "report.html", report_page(report_json().dump(), report_pictures()));
         write_file(folder / "bare.html", report_page("{}", {}));
+        ScenePlan plan = small_plan();
+        add_pictures(plan);
+        write_file(folder / "plan.html", page_of(plan_page(plan, {"s.toml", "bake plan s.toml", {}, "."})));
         const std::string log = folder / "log";
         const int status = std::system(("'" + (source_folder() / "scripts/three_viewer").string() + "' --run '" +
                                         (source_folder() / "tests/verdict/report/report_page.mjs").string() + "' '" +

@@ -40,6 +40,7 @@ Axis error_axis(const ScatterChart& chart) {
         errors.push_back(std::clamp(dot.error_low, dot.error / 10, dot.error));
         errors.push_back(std::max(dot.error_high, dot.error));
     }
+    if (chart.limit) errors.push_back(shown_error(chart, *chart.limit));
     return axis_of(errors, true);
 }
 
@@ -95,6 +96,13 @@ std::string draw_front(const std::vector<Point2>& corners) {
     for (const Point2& p : corners) points += (points.empty() ? "" : " ") + px(p.x) + "," + px(p.y);
     return "<polyline class=\"front\" fill=\"none\" stroke=\"#8fb4dd\" stroke-width=\"1.5\" points=\"" + points +
            "\"/>\n";
+}
+
+std::string draw_limit(const ScatterChart& chart, const Frame& frame) {
+    if (!chart.limit || !is_drawable(*chart.limit)) return {};
+    const double y = place_px(frame.y, shown_error(chart, *chart.limit));
+    return svg_line(frame.plot.left, y, frame.plot.right, y,
+                    "class=\"limit\" stroke=\"#b3261e\" stroke-dasharray=\"2 3\"");
 }
 
 std::string draw_dot(const ScatterChart& chart, const Placed& dot) {
@@ -183,7 +191,7 @@ std::string scatter_svg(const ScatterChart& chart) {
         if (!can_draw(dot)) notes.push_back("Not drawn: " + dot.label + " (" + figures(chart, dot) + ")");
 
     std::string out = draw_frame(text, frame, note_height * double(notes.size()));
-    out += draw_front(front_line(dots));
+    out += draw_limit(chart, frame) + draw_front(front_line(dots));
     out += leaders + names;
     for (const Placed& dot : dots) out += draw_dot(chart, dot);
     return out + draw_notes(text, notes) + "</svg>\n";

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/verdict/chart/pareto.h"
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ScatterChart {
     std::string title, x_label, y_label; ///< names of the axes with their units: "render, s"
     std::vector<ChartDot> dots;
     double noise = 0;              ///< errors up to this one are equal, and stand at the end of the axis
+    std::optional<double> limit;   ///< an error that is allowed: a dotted line across
     std::string note;              ///< a line beneath, such as what the bars are; empty: none
     int width = 720, height = 480; ///< px, without the lines beneath
 };

@@ -201,4 +201,15 @@ PictureErrors picture_errors(const MethodPicture& reference, const MethodPicture
     return errors;
 }
 
+FrameErrors frame_errors(const Halves& reference, const Halves& test, const PictureErrorOptions& options) {
+    const Pixels all(reference.a.size() / 3, 1);
+    FrameErrors errors;
+    errors.rmse = root(square_error(reference, test, options.exposure, all));
+    errors.flip = flip(exposed(mean_picture(reference), options.exposure),
+                       exposed(mean_picture(test), options.exposure), options.flip);
+    errors.flip_summary = summarise(errors.flip);
+    errors.worst = worst_part(errors.flip);
+    return errors;
+}
+
 } // namespace bake

@@ -67,4 +67,13 @@ Estimate root(const Estimate& square) noexcept;
 PictureErrors picture_errors(const MethodPicture& reference, const MethodPicture& test,
                              const PictureErrorOptions& options);
 
+/// Of all pixels of a picture.
+struct FrameErrors {
+    Estimate rmse;             ///< of exposed linear light, clamped to [0, 1]
+    Image<float> flip;         ///< one channel
+    ErrorSummary flip_summary; ///< of `flip`
+    PixelRect worst;           ///< the part of the picture with the largest FLIP error
+};
+FrameErrors frame_errors(const Halves& reference, const Halves& test, const PictureErrorOptions& options);
+
 } // namespace bake

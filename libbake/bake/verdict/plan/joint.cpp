@@ -10,7 +10,6 @@
 namespace bake {
 namespace {
 
-constexpr double most_together = 1.2e7; ///< triangles of references in one scene
 constexpr int object_pixels_judged = 512, frame_pixels_judged = 1024;
 constexpr int most_rounds = 8;
 
@@ -150,11 +149,11 @@ void check_together(PlanWork& work, std::span<ObjectDecision> decisions) {
 
 std::vector<std::vector<std::size_t>> reference_groups(std::span<const ObjectDecision> decisions) {
     std::vector<std::vector<std::size_t>> groups;
-    double triangles = most_together;
+    double triangles = most_reference_triangles;
     for (std::size_t i = 0; i < decisions.size(); ++i) {
         if (decisions.size() > 8 && is_unseen(decisions[i])) continue; // for the sake of time
         const double own = double(decisions[i].plan.reference_cost.triangles);
-        if (groups.empty() || triangles + own > most_together) groups.emplace_back(), triangles = 0;
+        if (groups.empty() || triangles + own > most_reference_triangles) groups.emplace_back(), triangles = 0;
         groups.back().push_back(i);
         triangles += own;
     }

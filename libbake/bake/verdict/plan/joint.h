@@ -15,6 +15,7 @@ void share_frame(const PlanWork& work, std::span<ObjectDecision> decisions);
 /// Probes all together and changes decisions until every budget holds. Nothing to do for an object that is alone.
 void check_together(PlanWork& work, std::span<ObjectDecision> decisions);
 
+inline constexpr double most_reference_triangles = 1.2e7; ///< of references in one scene
 /// Decisions in groups whose references fit in memory together.
 std::vector<std::vector<std::size_t>> reference_groups(std::span<const ObjectDecision> decisions);
 /// The planned models of all, but of the group its references.

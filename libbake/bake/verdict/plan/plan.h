@@ -1,5 +1,6 @@
 // The cheapest model of each part of a scene whose picture stays within a budget, found by probes of the picture.
 #pragma once
+#include "bake/preview/render.h"
 #include "bake/preview/scene_entries.h"
 #include "bake/verdict/plan/budget.h"
 #include "bake/verdict/plan/error_tally.h"
@@ -25,7 +26,9 @@ struct PlanOptions {
     bool decide_objects = true, decide_textures = false, decide_formats = false, decide_sky = false,
          decide_lights = false;
     bool verify = false;
-    bool neighbours = true; ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
+    bool pictures = false; ///< of each camera, see ScenePlan::pictures
+    bool neighbours =
+        true;             ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
     bool measure = false; ///< milliseconds are timed, and the plan may differ from run to run
     std::uint32_t seed = 0;
     std::function<void(const std::string&)> told; ///< a line for each decision
@@ -103,14 +106,26 @@ struct Verification {
     bool within = false;
 };
 
+/// A camera's picture of the scene, in linear light.
+struct PlanPicture {
+    enum class Shows { reference, planned, bumped };
+    std::size_t camera = 0; ///< in ScenePlan::cameras
+    Shows shows = Shows::reference;
+    Halves halves; ///< with the same random numbers in all
+};
+
 struct ScenePlan {
     Budget budget;
+    CostWeights weights;
     std::vector<std::string> cameras;
     std::vector<ObjectPlan> objects;
     std::vector<TexturePlan> textures;
     std::optional<SkyPlan> sky;
     std::vector<LightPlan> lights;
     std::vector<Verification> verified;
+    /// Of each camera: with every object displaced in full, as planned, and with a bump table on every object, if all
+    /// objects can have one. If no object is decided: as the scene is, and as planned.
+    std::vector<PlanPicture> pictures;
     std::vector<std::string> notes;
     float exposure = 0;
     double seconds = 0;

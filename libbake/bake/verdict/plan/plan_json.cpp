@@ -1,5 +1,5 @@
 // The plan as JSON.
-#include "bake/verdict/plan/plan.h"
+#include "bake/verdict/plan/plan_words.h"
 #include "bake/verdict/plan/rung_words.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -20,10 +20,6 @@ const char* name(Known known) noexcept {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name(Budget::Metric metric) {
-    return metric == Budget::Metric::degrees ? "deg" : metric == Budget::Metric::flip ? "flip" : "rmse";
-}
 
 Json number(double value) { return std::isinf(value) ? Json("inf") : std::isnan(value) ? Json() : Json(value); }
 
@@ -147,21 +143,22 @@ template <class List> Json list_of(const List& list) {
 } // namespace
 
 std::string to_json(const ScenePlan& plan, const std::string& scene) {
-    Json json = {
-        {"verb", "plan"},
-        {"scene", scene},
-        {"budget",
-         {{"name", plan.budget.name}, {"metric", name(plan.budget.metric)}, {"value", number(plan.budget.value)}}},
-        {"cameras", plan.cameras},
-        {"exposure", plan.exposure},
-        {"objects", list_of(plan.objects)},
-        {"textures", list_of(plan.textures)},
-        {"sky", plan.sky ? json_of(*plan.sky) : Json()},
-        {"lights", list_of(plan.lights)},
-        {"verified", list_of(plan.verified)},
-        {"interrupted", plan.interrupted},
-        {"over_budget", plan.over_budget},
-        {"notes", plan.notes}};
+    Json json = {{"verb", "plan"},
+                 {"scene", scene},
+                 {"budget",
+                  {{"name", plan.budget.name},
+                   {"metric", plan_words::unit(plan.budget.metric)},
+                   {"value", number(plan.budget.value)}}},
+                 {"cameras", plan.cameras},
+                 {"exposure", plan.exposure},
+                 {"objects", list_of(plan.objects)},
+                 {"textures", list_of(plan.textures)},
+                 {"sky", plan.sky ? json_of(*plan.sky) : Json()},
+                 {"lights", list_of(plan.lights)},
+                 {"verified", list_of(plan.verified)},
+                 {"interrupted", plan.interrupted},
+                 {"over_budget", plan.over_budget},
+                 {"notes", plan.notes}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

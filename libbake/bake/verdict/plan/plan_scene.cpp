@@ -6,6 +6,7 @@
 #include "bake/verdict/plan/object_plan.h"
 #include "bake/verdict/plan/plan.h"
 #include "bake/verdict/plan/plan_parts.h"
+#include "bake/verdict/plan/plan_pictures.h"
 #include "bake/verdict/plan/verification.h"
 #include <algorithm>
 #include <chrono>
@@ -100,6 +101,11 @@ bool decides_parts(const PlanOptions& options) noexcept {
     return options.decide_textures || options.decide_formats || options.decide_sky || options.decide_lights;
 }
 
+void take_notes(PlanWork& work, ScenePlan& plan) {
+    plan.notes.insert(plan.notes.end(), work.notes.begin(), work.notes.end());
+    work.notes.clear();
+}
+
 void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, ScenePlan& plan) {
     decide_objects(work, decisions, plan.interrupted);
     until_stopped(plan, [&] {
@@ -107,19 +113,27 @@ void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, SceneP
         check_together(work, decisions);
     });
     for (const ObjectDecision& decision : decisions) plan.objects.push_back(decision.plan);
-    plan.notes.insert(plan.notes.end(), work.notes.begin(), work.notes.end());
+    take_notes(work, plan);
 }
 
-void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
-                 ScenePlan& plan) {
-    std::optional<Scene> shown;
-    if (decides_parts(work.options)) {
-        shown.emplace(load(planned));
-        apply_parts(planned, plan, *shown);
-    }
-    plan.verified = verify(work, decisions, shown ? &*shown : nullptr);
+/// The planned scene, if other parts than objects are decided.
+std::optional<Scene> decided_scene(const PlanWork& work, const SceneEntries& planned, const ScenePlan& plan) {
+    if (!decides_parts(work.options)) return {};
+    std::optional<Scene> shown = load(planned);
+    apply_parts(planned, plan, *shown);
+    return shown;
+}
+
+/// Whole pictures, to compare and to look at.
+void show_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
+               ScenePlan& plan) {
+    std::optional<Scene> shown = decided_scene(work, planned, plan);
+    Scene* const scene = shown ? &*shown : nullptr;
+    if (work.options.verify) plan.verified = verify(work, decisions, scene);
     plan.over_budget =
         std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
+    if (work.options.pictures) plan.pictures = plan_pictures(work, decisions, planned, scene);
+    take_notes(work, plan);
 }
 
 } // namespace
@@ -127,7 +141,7 @@ void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, cons
 ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Progress* progress) {
     const Clock::time_point start = Clock::now();
     ScenePlan plan;
-    plan.budget = options.budget;
+    plan.budget = options.budget, plan.weights = options.weights;
     PlanScenes scenes(entries, options.cameras);
     for (const PlannedCamera& camera : scenes.cameras()) plan.cameras.push_back(camera.name);
     plan.notes = scenes.plain().notes;
@@ -144,7 +158,7 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
     else if (options.decide_objects) plan_objects(work, decisions, plan);
     const SceneEntries planned = scenes.as_seen(planned_entries(entries, plan));
     if (!plan.interrupted) plan_parts(planned, options, plan, progress);
-    if (options.verify) until_stopped(plan, [&] { verify_plan(work, decisions, planned, plan); });
+    if (options.verify || options.pictures) until_stopped(plan, [&] { show_plan(work, decisions, planned, plan); });
     if (progress) progress->finish();
     plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return plan;

@@ -154,10 +154,6 @@ void take(std::vector<Filled>& to, const Columns& columns, const std::string& ro
     }
 }
 
-void fact(std::string& out, const char* name, const std::string& value) {
-    if (!value.empty()) out += std::string("<div><dt>") + name + "</dt><dd>" + xml_text(value) + "</dd></div>\n";
-}
-
 } // namespace
 
 double number_or(const Json& json, const std::string& path, double otherwise) {
@@ -173,6 +169,11 @@ int integer_or(const Json& json, const std::string& path, int otherwise) {
 std::string text_or(const Json& json, const std::string& path, const std::string& otherwise) {
     const Json* at = find(json, path);
     return at && at->is_string() ? at->get<std::string>() : otherwise;
+}
+
+std::string page_fact(const char* name, const std::string& value) {
+    if (value.empty()) return "";
+    return std::string("<div><dt>") + name + "</dt><dd>" + xml_text(value) + "</dd></div>\n";
 }
 
 std::string page_title(const Json& report) {
@@ -192,14 +193,14 @@ std::string facts(const Json& report) {
     const int spp = integer_or(report, "spp", 0);
     std::string reference = text_or(report, "reference/method", "");
     const std::string note = text_or(report, "reference/note", "");
-    fact(out, "camera", text_or(report, "camera", ""));
-    fact(out, "picture",
-         (w > 0 && h > 0 ? format("%d × %d", w, h) : "") + (spp > 0 ? format(", %d samples per pixel", spp) : ""));
-    if (number(report, "exposure")) fact(out, "exposure", format("%+.3g stops", number_or(report, "exposure", 0)));
+    out += page_fact("camera", text_or(report, "camera", ""));
+    out += page_fact("picture", (w > 0 && h > 0 ? format("%d × %d", w, h) : "") +
+                                    (spp > 0 ? format(", %d samples per pixel", spp) : ""));
+    if (number(report, "exposure"))
+        out += page_fact("exposure", format("%+.3g stops", number_or(report, "exposure", 0)));
     if (const auto s = number(report, "reference/prepare_seconds")) reference += format(", %.3g s to prepare", *s);
     if (const auto s = number(report, "reference/render_seconds")) reference += format(", %.3g s to render", *s);
-    fact(out, "reference", reference + (note.empty() ? "" : "; " + note));
-    return out;
+    return out + page_fact("reference", reference + (note.empty() ? "" : "; " + note));
 }
 
 std::string caption(const Json& report, const std::string& method, std::size_t index) {
@@ -217,26 +218,39 @@ std::string caption(const Json& report, const std::string& method, std::size_t i
 std::string error_tables(const Json& report) {
     std::vector<Filled> object, frame;
     take(object, error_columns, "object/", report);
-    take(object, cost_columns, "", report);
     take(frame, error_columns, "frame/", report);
+    const bool whole = object.empty() && !frame.empty();
+    take(whole ? frame : object, cost_columns, "", report);
+    if (whole) return table_of("Errors over the frame", report, frame);
     std::string out = table_of("Errors over the object, and costs", report, object);
     if (!frame.empty()) out += table_of("Errors over the frame", report, frame);
     return out;
 }
 
-std::string commands(const Json& report) {
+std::string command_list(const std::vector<PageCommand>& commands) {
     std::string out;
-    const auto item = [&](const std::string& label, const std::string& method, const std::string& command) {
-        if (!command.empty())
-            out += "<li data-method=\"" + xml_text(method) + "\"><span>" + label + "</span><code>" + xml_text(command) +
-                   "</code></li>\n";
-    };
-    item("all", "", text_or(report, "command", ""));
+    for (const PageCommand& one : commands)
+        if (!one.command.empty())
+            out += "<li data-method=\"" + xml_text(one.method) + "\"><span>" + one.label + "</span><code>" +
+                   xml_text(one.command) + "</code></li>\n";
+    return out.empty() ? "" : "<ol>\n" + out + "</ol>\n";
+}
+
+std::string shell_word(const std::string& word) {
+    const char* const usual = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    if (!word.empty() && word.find_first_not_of(usual) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+    return out + "'";
+}
+
+std::string commands(const Json& report) {
+    std::vector<PageCommand> all = {{"all", "", text_or(report, "command", "")}};
     for (std::size_t i = 0; i < methods(report).size(); ++i) {
         const std::string method = text_or(methods(report)[i], "method", "?");
-        item(key(i + 1) + " " + xml_text(method), method, text_or(methods(report)[i], "command", ""));
+        all.push_back({key(i + 1) + " " + xml_text(method), method, text_or(methods(report)[i], "command", "")});
     }
-    return out.empty() ? "" : "<ol>\n" + out + "</ol>\n";
+    return command_list(all);
 }
 
 } // namespace bake

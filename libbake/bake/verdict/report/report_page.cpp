@@ -6,6 +6,7 @@
 #include "bake/verdict/metric/false_colour.h"
 #include "bake/verdict/report/page_assets.h"
 #include "bake/verdict/report/page_tables.h"
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -29,25 +30,50 @@ std::string fill(std::string_view page, const std::vector<std::pair<std::string,
     return out;
 }
 
-std::string image(const char* kind, const std::string& webp, const std::string& text, const Json& report) {
+std::string image(const char* kind, const std::string& webp, const std::string& text, const Image<float>& picture) {
     if (webp.empty()) return "";
-    const std::string size =
-        format(" width=\"%d\" height=\"%d\"", integer_or(report, "width", 1024), integer_or(report, "height", 1024));
+    const std::string size = format(" width=\"%d\" height=\"%d\"", picture.width(), picture.height());
     return std::string("<img class=\"") + kind + "\" alt=\"" + xml_text(text) + "\"" + size +
            " decoding=\"async\" loading=\"lazy\" src=\"data:image/webp;base64," + base64(webp) + "\">\n";
+}
+
+/// What one camera sees; a report without views is of one camera.
+const Json& view_of(const Json& report, int view) {
+    const auto views = report.find("views");
+    const bool several = views != report.end() && views->is_array() && std::size_t(view) < views->size();
+    return several ? (*views)[std::size_t(view)] : report;
+}
+
+std::string camera_of(const Json& report, const Json& view) {
+    const std::string camera = &view == &report ? "" : text_or(view, "camera", "");
+    return camera.empty() ? "" : "<span class=\"camera\">" + xml_text(camera) + "</span> ";
 }
 
 /// A figure per picture: what is shown, its highlights, which only the script reads, and the false colours of the errors.
 std::string figures(const Json& report, const std::vector<ReportPicture>& pictures, const StoredPictures& stored) {
     std::string out;
+    std::map<int, std::size_t> known; // pictures of each view
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const std::string& method = pictures[i].method;
+        const ReportPicture& picture = pictures[i];
         const StoredPicture& files = stored.pictures[i];
-        out += "<figure data-method=\"" + xml_text(method) + "\">\n<div>" +
-               image("shown", files.shown, method, report) + image("highlights", files.highlights, "", report) +
-               image("errors", files.errors, "FLIP errors of " + method, report) + "</div>\n<figcaption>" +
-               caption(report, method, i) + "</figcaption>\n</figure>\n";
+        const Json& view = view_of(report, picture.view);
+        out += "<figure data-method=\"" + xml_text(picture.method) +
+               format("\" data-view=\"%d\">\n<div>", picture.view) +
+               image("shown", files.shown, picture.method, picture.picture) +
+               image("highlights", files.highlights, "", picture.picture) +
+               image("errors", files.errors, "FLIP errors of " + picture.method, picture.picture) +
+               "</div>\n<figcaption>" + camera_of(report, view) + caption(view, picture.method, known[picture.view]++) +
+               "</figcaption>\n</figure>\n";
     }
+    return out;
+}
+
+std::string text_of(const std::vector<PageSection>& sections) {
+    std::string out;
+    for (const PageSection& section : sections)
+        if (!section.html.empty())
+            out +=
+                "<section id=\"" + section.id + "\">\n<h2>" + section.title + "</h2>\n" + section.html + "</section>\n";
     return out;
 }
 
@@ -98,26 +124,36 @@ void require_report_page() {
             "bake was built without esbuild, which makes the page of reports; install esbuild and build bake anew");
 }
 
-std::string report_page(const std::string& json, const std::vector<ReportPicture>& pictures) {
+std::string page_of(const PageParts& parts) {
     require_report_page();
-    const Json report = Json::parse(json);
+    const Json report = Json::parse(parts.data);
     double pixels = 0;
-    for (const ReportPicture& picture : pictures) pixels += double(picture.picture.width()) * picture.picture.height();
+    for (const ReportPicture& one : parts.pictures) pixels += double(one.picture.width()) * one.picture.height();
     const StoredPictures stored =
-        store_pictures(pictures, float(number_or(report, "exposure", 0)), report_budget(pixels));
-    return fill(page_template, {{"title", xml_text(page_title(report))},
+        store_pictures(parts.pictures, float(number_or(report, "exposure", 0)), report_budget(pixels));
+    return fill(page_template, {{"title", xml_text(parts.title)},
                                 {"style", page_style},
                                 {"script", page_script},
                                 {"magma", magma_tables()},
-                                {"heading", heading(report)},
-                                {"facts", facts(report)},
-                                {"tables", error_tables(report)},
-                                {"shares", share_bars(report)},
-                                {"commands", commands(report)},
-                                {"figures", figures(report, pictures, stored)},
+                                {"heading", parts.heading},
+                                {"facts", parts.facts},
+                                {"sections", text_of(parts.sections)},
+                                {"figures", figures(report, parts.pictures, stored)},
                                 {"stored", xml_text(stored_note(stored))},
                                 {"stored_errors", xml_text(errors_note(stored))},
                                 {"data", script_data(report)}});
+}
+
+std::string report_page(const std::string& json, std::vector<ReportPicture> pictures) {
+    const Json report = Json::parse(json);
+    return page_of({.title = page_title(report),
+                    .heading = heading(report),
+                    .facts = facts(report),
+                    .sections = {{"shares", "Share of the squared error by cause", share_bars(report)},
+                                 {"tables", "Figures", error_tables(report)},
+                                 {"commands", "Commands", commands(report)}},
+                    .data = json,
+                    .pictures = std::move(pictures)});
 }
 
 } // namespace bake

@@ -12,6 +12,7 @@ struct ReportPicture {
     std::string method;
     Image<float> picture; ///< linear RGB radiance, not exposed
     Image<float> errors;  ///< one channel, FLIP from 0 to 1; of the reference it may be empty
+    int view = 0;         ///< of the page: which camera sees it
 };
 
 /// Stops above white that the picture of highlights reaches: its level v stands for 2^(v / 255 * highlight_stops).

@@ -9,19 +9,25 @@ import { make_viewer } from './viewer.js';
 const $ = id => document.getElementById(id);
 const data = JSON.parse($('data').textContent);
 const report = data.report;
-const rows = Array.isArray(report.methods) ? report.methods : [];
+const views = Array.isArray(report.views) && report.views.length ? report.views : [report]; // one per camera
+const rows_of = view => (Array.isArray(view.methods) ? view.methods : []);
+const all_rows = views.flatMap(rows_of);
 const pictures = find_pictures(data);
 
-/** Entry i is chosen by key i: the reference, then the methods. */
-const entries = [
-  { index: 0, name: report.reference?.method ?? pictures[0]?.method ?? 'reference', row: undefined, picture: pictures[0] },
-  ...rows.map((row, i) => ({
-    index: i + 1,
-    name: row.method ?? '?',
-    row,
-    picture: pictures.slice(1).find(picture => picture.method === row.method),
-  })),
-];
+/** Entry i of a view is chosen by key i: the reference, then the methods. */
+const all_entries = views.map((view, k) => {
+  const own = pictures.filter(picture => picture.view === k);
+  return [
+    { index: 0, name: view.reference?.method ?? own[0]?.method ?? 'reference', row: undefined, picture: own[0] },
+    ...rows_of(view).map((row, i) => ({
+      index: i + 1,
+      name: row.method ?? '?',
+      row,
+      picture: own.slice(1).find(picture => picture.method === row.method),
+    })),
+  ];
+});
+let entries = all_entries[0]; // those of the camera that is chosen
 const first_exposure = Number(report.exposure) || 0;
 const error_of = entry => entry.row && metric_of(state.metric).of(entry.row, state.area);
 let point; // the pixel below the pointer
@@ -101,7 +107,7 @@ function write_list() {
 
 /** What the report says of an entry, in one line. */
 function summary(entry) {
-  const cost = entry.row ?? report.reference ?? {};
+  const cost = entry.row ?? views[state.view].reference ?? {};
   const texts = [];
   const error = error_of(entry);
   if (error) texts.push(`${metric_of(state.metric).name} ${digits(error.value)}` + (error.error ? ` ± ${digits(error.error, 1)}` : ''));
@@ -138,12 +144,15 @@ function write_controls() {
   $('wiped').textContent = entries[state.method].name;
   $('legend').hidden = state.mode !== 'error' || !state.method;
   $('marker').checked = state.marker;
+  $('view').value = state.view;
   $('metric').value = metric_of(state.metric).key;
   $('area').value = state.area;
 }
 
 let drawn = '';
 function update() {
+  state.view = Math.min(state.view, views.length - 1);
+  entries = all_entries[state.view];
   state.method = Math.min(state.method, entries.length - 1);
   if (state.method) last_method = state.method;
   write_controls();
@@ -153,7 +162,7 @@ function update() {
 
 /** Everything but the picture and its controls. It waits for the first picture, and panning leaves it as it is. */
 function write_rest() {
-  const now = [state.method, state.metric, state.area].join();
+  const now = [state.view, state.method, state.metric, state.area].join();
   if (now === drawn) return;
   drawn = now;
   write_list();
@@ -163,7 +172,7 @@ function write_rest() {
   $('charts').hidden = !document.querySelector('#plots svg');
 }
 
-const choose = index => index < entries.length && change({ method: index });
+const choose = (index, view = state.view) => index < entries.length && change({ method: index, view });
 const next = step => choose((state.method + step + entries.length) % entries.length);
 const expose = exposure => change({ exposure: Math.min(Number($('exposure').max), Math.max(Number($('exposure').min), exposure)) });
 const worst = () => entries[state.method].row?.worst && viewer.jump(entries[state.method].row.worst);
@@ -201,7 +210,10 @@ function wire() {
   $('wipe').addEventListener('input', () => change({ wipe: $('wipe').value / 1000 }));
   $('marker').addEventListener('change', () => change({ marker: $('marker').checked }));
   $('area').addEventListener('change', () => change({ area: $('area').value }));
-  $('metric').innerHTML = metrics_in(rows).map(m => `<option value="${m.key}">${m.name}</option>`).join('');
+  $('metric').innerHTML = metrics_in(all_rows).map(m => `<option value="${m.key}">${m.name}</option>`).join('');
+  $('viewing').hidden = views.length < 2;
+  $('view').innerHTML = views.map((view, k) => `<option value="${k}">${escaped(view.camera || k + 1)}</option>`).join('');
+  $('view').addEventListener('change', () => change({ view: Number($('view').value) }));
   $('metric').addEventListener('change', () => change({ metric: $('metric').value }));
   for (const button of document.querySelectorAll('[data-mode]'))
     button.addEventListener('click', () => change({ mode: button.dataset.mode }));
@@ -211,11 +223,11 @@ function wire() {
       const hit = event.target.closest('[data-index]');
       if (hit) choose(Number(hit.dataset.index));
     });
-  for (const box of [$('shares'), $('tables')])
+  for (const box of document.querySelectorAll('#shares, #tables'))
     box.addEventListener('click', event => {
       const hit = event.target.closest('[data-method]');
       const entry = hit && entries.find(e => e.index && e.name === hit.dataset.method);
-      if (entry) choose(entry.index);
+      if (entry) choose(entry.index, Number(hit.closest('[data-view]')?.dataset.view ?? state.view));
     });
 }
 
@@ -224,6 +236,7 @@ const key_actions = {
   '[': () => expose(state.exposure - 0.25), ']': () => expose(state.exposure + 0.25), r: () => expose(first_exposure),
   '+': () => viewer.zoom(2), '=': () => viewer.zoom(2), '-': () => viewer.zoom(1 / 2),
   f: viewer.fit, o: viewer.one, w: worst, m: () => change({ marker: !state.marker }),
+  c: () => change({ view: (state.view + 1) % views.length }),
   ArrowRight: () => next(1), ArrowLeft: () => next(-1),
   ' ': () => choose(state.method ? 0 : last_method),
 };
@@ -246,10 +259,11 @@ addEventListener('keydown', event => {
 
 wire();
 state.exposure = first_exposure;
-state.metric = metrics_in(rows)[0]?.key ?? '';
-// At the start: the method whose error is largest, because its worst region is the worst of all.
+state.metric = metrics_in(all_rows)[0]?.key ?? '';
+if (!all_rows.some(row => row.object)) state.area = 'frame', $('area').hidden = true;
+// At the start what `first` names, else the method whose error is largest, because its worst region is the worst of all.
 const largest = entries.reduce((a, b) => ((error_of(b)?.value ?? -1) > (error_of(a)?.value ?? -1) ? b : a));
-state.method = largest.index || Math.min(1, entries.length - 1);
+state.method = entries.find(e => e.name === report.first)?.index ?? (largest.index || Math.min(1, entries.length - 1));
 start(['reference', ...entries.slice(1).map(entry => entry.name)]);
 listen(update);
 update();

@@ -34,12 +34,13 @@ export function draw_ramp(canvas) {
   context.putImageData(image, 0, 0);
 }
 
-/** The pictures of the page in its order, the reference first. */
+/** The pictures of the page in its order, of each view the reference first. */
 export function find_pictures(data) {
   first_exposure = Number(data.report.exposure) || 0;
   highlight_stops = data.highlight_stops;
   const pictures = [...document.querySelectorAll('#pictures figure')].map(figure => ({
     method: figure.dataset.method,
+    view: Number(figure.dataset.view),
     images: Object.fromEntries(['shown', 'highlights', 'errors'].map(kind => [kind, figure.querySelector('img.' + kind)])),
     canvases: {},
     loading: {},

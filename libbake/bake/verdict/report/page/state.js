@@ -1,8 +1,8 @@
 // What the page shows, and its permalink. All parts read `state` and change it through change().
 
-/** zoom: CSS pixels per pixel of the picture, 0: the whole picture; x, y: the pixel in the middle; exposure in stops. */
+/** view: which camera; zoom: CSS pixels per pixel of the picture, 0: the whole picture; x, y: the pixel in the middle; exposure in stops. */
 export const state = {
-  method: 0, mode: 'picture', exposure: 0, zoom: 0, x: 0, y: 0, wipe: 0.5, marker: true, metric: '', area: 'object',
+  view: 0, method: 0, mode: 'picture', exposure: 0, zoom: 0, x: 0, y: 0, wipe: 0.5, marker: true, metric: '', area: 'object',
 };
 export const modes = ['picture', 'wipe', 'error'];
 
@@ -25,6 +25,7 @@ const round = (value, digits) => String(Number(value.toFixed(digits)));
 /** Key of the hash -> its text from the state, and the state from its text; undefined where the text is none. */
 const keys = {
   m: { write: () => names[state.method], read: text => at('method', names.indexOf(text), i => i >= 0) },
+  v: { write: () => String(state.view), read: text => at('view', Number(text), k => Number.isInteger(k) && k >= 0 && k < 1e6) },
   mode: { write: () => state.mode, read: text => at('mode', text, t => modes.includes(t)) },
   e: { write: () => round(state.exposure, 3), read: text => number('exposure', text, -30, 30) },
   z: { write: () => (state.zoom ? round(state.zoom, 4) : '0'), read: text => number('zoom', text, 0, 256) },
