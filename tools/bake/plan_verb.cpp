@@ -32,9 +32,7 @@ SceneEntries read_entries(const PlanArgs& args, const PlanOptions& options) {
 void write_outputs(const PlanArgs& args, const SceneEntries& entries, const std::string& text, ScenePlan& plan) {
     if (!args.out.empty()) {
         write_text(args.out, planned_scene(text, entries, plan, args.out));
-        if (!plan.textures.empty() || plan.sky || !plan.lights.empty())
-            plan.notes.push_back(args.out + ": has the models of the objects; what was decided on maps, sky and "
-                                            "lights is in this report alone");
+        for (const std::string& line : not_in_scene(entries, plan)) plan.notes.push_back(args.out + ": " + line);
     }
     if (args.manifest.empty()) return;
     const Manifest manifest = plan_manifest(entries, plan, args.manifest);

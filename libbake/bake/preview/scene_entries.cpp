@@ -256,7 +256,7 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     EnvironmentReport report;
     Environment sky = read_environment(inputs, options, &report);
     for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
-    return sky_cube(std::move(sky));
+    return reduced(sky_cube(std::move(sky)), entry.reduction);
 }
 
 void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {

@@ -1,5 +1,6 @@
 // The checked content of a scene file, and the function that loads its files.
 #pragma once
+#include "bake/environment/filter/sky_reduction.h"
 #include "bake/preview/camera_entry.h"
 #include "bake/preview/relief_entry.h"
 #include "bake/preview/scene.h"
@@ -47,6 +48,7 @@ struct SkyEntry {
     ColourSpace space = ColourSpace::automatic;
     BadPolicy bad = BadPolicy::refuse;
     float scale = 1, yaw_deg = 0;
+    SkyReduction reduction;
     std::string irradiance;    ///< file for SkyLighting::irradiance; empty: computed
     std::string specular;      ///< the same, six files with levels
     std::vector<float> alphas; ///< of the levels in `specular`

@@ -75,7 +75,7 @@ void read_sky_levels(const Section& in, SkyEntry& sky) {
 
 void read_sky(const Section& in, SceneEntries& scene) {
     allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad", "irradiance", "specular",
-                    "specular-roughness"});
+                    "specular-roughness", "face-size", "sh-bands"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -105,6 +105,8 @@ void read_sky(const Section& in, SceneEntries& scene) {
     read(in, "scale", scene.sky.scale, 0);
     read(in, "yaw-deg", scene.sky.yaw_deg, -360, 360);
     read_colour_space(in, "colour-space", scene.sky.space);
+    read(in, "face-size", scene.sky.reduction.face_size, 1, 32768);
+    read(in, "sh-bands", scene.sky.reduction.sh_bands, 1, 32);
     read_sky_levels(in, scene.sky);
     read_choice<BadPolicy>(in, "bad", scene.sky.bad,
                            {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});

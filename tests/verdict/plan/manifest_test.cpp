@@ -116,6 +116,36 @@ TEST_SUITE("unit") {
         CHECK(hall.manifest("bump", "plain", "plain").bakes.size() == 1);
     }
 
+    TEST_CASE("manifest: smaller faces of a sky are a bake, and what no command makes of it is told") {
+        Hall hall;
+        hall.entries.sky.image = hall.folder / "forest_%s.png";
+        const auto manifest = [&](const std::string& model, int face) {
+            ScenePlan plan;
+            plan.sky = SkyPlan{.model = model, .face = face, .source_face = 64};
+            return plan_manifest(hall.entries, plan, hall.folder / "b.toml");
+        };
+        const Manifest smaller = manifest("faces", 16);
+        REQUIRE(smaller.bakes.size() == 1);
+        CHECK(command_of(smaller.bakes[0]) ==
+              Words{"cubemap", "forest_%s.png", "--size=16", "--samples=exact", "--out=sky_16_%s.exr"});
+        CHECK(smaller.bakes[0].use == "faces");
+        CHECK(manifest("faces", 64).bakes.empty());
+        CHECK(manifest("faces", 64).notes.empty());
+        const auto told = [&](const Manifest& none, const std::string& why) {
+            CHECK(none.bakes.empty());
+            REQUIRE(none.notes.size() == 1);
+            CHECK(none.notes[0].starts_with(why));
+        };
+        told(manifest("sh:3", 32), "sky: no command bakes its harmonics: ");
+        told(manifest("constant", 1), "sky: no command bakes its mean: ");
+        hall.entries.sky.image = hall.folder / "{a}.exr";
+        told(manifest("faces", 16), "sky: no command bakes its smaller faces: a manifest keeps the characters");
+        hall.entries.sky.image = "";
+        // The words say other faces than the places in the list.
+        hall.entries.sky.faces = {"nx.png", "px.png", "py.png", "ny.png", "pz.png", "nz.png"};
+        told(manifest("faces", 16), "sky: no command bakes its smaller faces: its files are named like other faces");
+    }
+
     TEST_CASE("manifest: TOML and back is the same") {
         Manifest manifest = Hall().manifest("displace+normal:8", "normal", "bump");
         manifest.bakes[0].options.emplace_back("flip-v", "");

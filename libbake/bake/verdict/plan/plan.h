@@ -25,7 +25,8 @@ struct PlanOptions {
     bool decide_objects = true, decide_textures = false, decide_formats = false, decide_sky = false,
          decide_lights = false;
     bool verify = false;
-    bool neighbours = true; ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
+    bool neighbours =
+        true;             ///< FLIP of the chosen rung and of the next cheaper one, and the error of the next dearer one
     bool measure = false; ///< milliseconds are timed, and the plan may differ from run to run
     std::uint32_t seed = 0;
     std::function<void(const std::string&)> told; ///< a line for each decision
@@ -125,7 +126,8 @@ std::vector<ShadeMethod> plan_rungs(std::int64_t triangles);
 /// not in the scene.
 ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Progress* progress = nullptr);
 
-/// The entries as planned: each object with its method.
+/// The entries as planned: each object with its method, the sky as chosen, without the lights and shadows that are left
+/// out. What not_in_scene() (planned_scene.h) lists is not among them.
 SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan);
 
 std::string to_text(const ScenePlan& plan);

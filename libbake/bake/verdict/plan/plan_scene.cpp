@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace bake {
 namespace {
@@ -110,10 +108,11 @@ void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, SceneP
     plan.notes.insert(plan.notes.end(), work.notes.begin(), work.notes.end());
 }
 
-void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
+void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& entries,
                  ScenePlan& plan) {
     std::optional<Scene> shown;
     if (decides_parts(work.options)) {
+        const SceneEntries planned = work.scenes.as_seen(planned_entries(entries, plan));
         shown.emplace(load(planned));
         apply_parts(planned, plan, *shown);
     }
@@ -142,36 +141,11 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
     std::vector<ObjectDecision> decisions;
     if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height: no model is chosen");
     else if (options.decide_objects) plan_objects(work, decisions, plan);
-    const SceneEntries planned = scenes.as_seen(planned_entries(entries, plan));
-    if (!plan.interrupted) plan_parts(planned, options, plan, progress);
-    if (options.verify) until_stopped(plan, [&] { verify_plan(work, decisions, planned, plan); });
+    if (!plan.interrupted) plan_parts(scenes.as_seen(planned_entries(entries, plan)), options, plan, progress);
+    if (options.verify) until_stopped(plan, [&] { verify_plan(work, decisions, entries, plan); });
     if (progress) progress->finish();
     plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return plan;
-}
-
-SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan) {
-    SceneEntries planned = entries;
-    std::set<std::string> names;
-    for (const MaterialEntry& material : entries.materials) names.insert(material.name);
-    // Objects with the same material and the same method keep one material.
-    std::map<std::pair<int, std::string>, int> made;
-    for (const ObjectPlan& object : plan.objects) {
-        if (object.meshes.empty()) continue;
-        const ShadeMethod method = chosen_method(object);
-        const int material = entries.meshes[std::size_t(object.meshes.front())].material;
-        const auto [at, added] = made.try_emplace({material, name(method)}, int(planned.materials.size()));
-        if (added) {
-            MaterialEntry own = entries.materials[std::size_t(material)];
-            std::string wanted = own.name + " as " + name(method);
-            while (!names.insert(wanted).second) wanted += "'";
-            own.name = wanted;
-            own.relief.shade = method;
-            planned.materials.push_back(std::move(own));
-        }
-        for (const int mesh : object.meshes) planned.meshes[std::size_t(mesh)].material = at->second;
-    }
-    return planned;
 }
 
 } // namespace bake

@@ -2,7 +2,8 @@
 #include "bake/base/error.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/verdict/plan/folder_from.h"
-#include "bake/verdict/plan/text_edits.h"
+#include "bake/verdict/plan/planned_parts.h"
+#include "bake/verdict/plan/scene_text.h"
 #include "bake/verdict/plan/toml_string.h"
 #include <algorithm>
 #include <filesystem>
@@ -26,21 +27,6 @@ struct Version {
     bool kept = false; ///< the file has this one, and nothing changes
 };
 
-/// Tables of a [[list]], in the order of the file.
-std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) {
-    std::vector<const toml::table*> list;
-    if (const toml::array* array = root[key].as_array())
-        for (const toml::node& node : *array)
-            if (const toml::table* table = node.as_table()) list.push_back(table);
-    return list;
-}
-
-/// Where the parser saw a value, or the head of a table.
-Span span_of(const TextEdits& edits, const toml::node& node) {
-    const auto place = [](const toml::source_position& at) { return Place{at.line, at.column}; };
-    return {edits.offset(place(node.source().begin)), edits.offset(place(node.source().end))};
-}
-
 class Planner {
 public:
     Planner(const std::string& text, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan)
@@ -53,15 +39,15 @@ public:
 
     void move_paths(const fs::path& folder);
     void set_methods();
+    void set_parts();
     std::string text() const { return edits_.apply(); }
 
 private:
     void move_path(const toml::node* node, const fs::path& folder);
     std::vector<Version> versions(int material);
     void set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const;
-    void add_key(TextEdits& edits, const toml::table& table, const toml::node& behind, const std::string& line) const;
     void add_copy(const toml::table& material, const Version& version, const TextEdits& moved);
-    Span block_of(const toml::table& material) const;
+    Span block_of_material(const toml::table& material) const;
     void refer_to_versions();
     std::string unused_name(const std::string& wanted);
 
@@ -133,17 +119,6 @@ std::vector<Version> Planner::versions(int material) {
     return list;
 }
 
-/// Adds a key to a table on the line after the value `behind`, or after it within braces.
-void Planner::add_key(TextEdits& edits, const toml::table& table, const toml::node& behind,
-                      const std::string& line) const {
-    const Span span = span_of(edits, behind);
-    if (table.is_inline()) return edits.insert(span.end, ", " + line);
-    const std::size_t begin = edits.line_begin(span.begin);
-    const std::size_t key = edits.text().find_first_not_of(" \t", begin);
-    const std::string indent(edits.text().substr(begin, key - begin));
-    edits.insert(edits.line_end(span.end), edits.newline(span.end) + indent + line);
-}
-
 void Planner::set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const {
     if (const toml::node* old = material.get("shade")) return edits.replace(span_of(edits, *old), toml_string(shade));
     // A height in a table of its own is no place for a key of the material.
@@ -152,19 +127,10 @@ void Planner::set_shade(TextEdits& edits, const toml::table& material, const std
     add_key(edits, material, one_value ? *height : *material.get("name"), "shade = " + toml_string(shade));
 }
 
-/// From the first line of a table to the last line of its values.
-Span Planner::block_of(const toml::table& material) const {
-    Span span = span_of(edits_, material);
+/// The text of a material; refuses one with other tables within.
+Span Planner::block_of_material(const toml::table& material) const {
+    const Span span = block_of(edits_, material);
     if (material.is_inline()) return span;
-    std::size_t last = span.end;
-    const auto reach = [&](const toml::table& table, const auto& self) -> void {
-        for (auto&& [key, node] : table) {
-            if (node.is_table() && !node.as_table()->is_inline()) self(*node.as_table(), self);
-            else last = std::max(last, span_of(edits_, node).end);
-        }
-    };
-    reach(material, reach);
-    span = {edits_.line_begin(span.begin), edits_.line_end(last)};
     const auto within = [&](const toml::node& node) {
         const std::size_t at = span_of(edits_, node).begin;
         return &node != &material && at > span.begin && at < span.end;
@@ -182,7 +148,7 @@ Span Planner::block_of(const toml::table& material) const {
 
 /// Adds the material once more under another name, behind itself.
 void Planner::add_copy(const toml::table& material, const Version& version, const TextEdits& moved) {
-    const Span block = block_of(material);
+    const Span block = block_of_material(material);
     TextEdits copy = moved;
     copy.replace(span_of(copy, *material.get("name")), toml_string(version.name));
     set_shade(copy, material, version.shade);
@@ -222,6 +188,11 @@ void Planner::set_methods() {
     refer_to_versions();
 }
 
+void Planner::set_parts() {
+    reduce_sky(edits_, root_, plan_);
+    remove_lights(edits_, root_, entries_, plan_);
+}
+
 } // namespace
 
 std::optional<ShadeMethod> planned_method(const ScenePlan& plan, int mesh) {
@@ -245,6 +216,7 @@ std::string planned_scene(const std::string& text, const SceneEntries& entries, 
     Planner planner(text, root, entries, plan);
     if (const fs::path folder = folder_from(entries.file, out); folder != ".") planner.move_paths(folder);
     planner.set_methods();
+    planner.set_parts();
     return planner.text();
 }
 
