@@ -40,8 +40,8 @@ Image<float> rendered(const Folder& folder, const std::string& scene) {
 }
 
 /// Renders the object by this model, runs the bakes that it needs, and renders it from their files instead. `mesh`: the line
-/// that names it. Returns the RMSE between the two pictures.
-double difference(const std::string& model, const std::string& mesh) {
+/// that names it, `map`: what is decided on its map. Returns the RMSE between the two pictures.
+double difference(const std::string& model, const std::string& mesh, const std::optional<TexturePlan>& map = {}) {
     const Folder folder;
     fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
     fs::copy_file(own_meshes() / "torus.obj", folder / "torus.obj");
@@ -53,10 +53,12 @@ double difference(const std::string& model, const std::string& mesh) {
     const SceneEntries entries = read_scene(folder / "s.toml");
     ScenePlan plan;
     plan.objects = {shown_by("ring", model, {0})};
+    if (map) plan.textures = {*map};
     write_file(folder / "planned.toml", planned_scene(scene, entries, plan, folder / "planned.toml"));
     write_file(folder / "bakes.toml", to_toml(plan_manifest(entries, plan, folder / "bakes.toml")));
 
     std::string shown = mesh, maps;
+    if (map) maps = "relief-size = " + std::to_string(map->width) + "\n";
     for (const Bake& bake : parse_manifest(contents(folder / "bakes.toml"), "bakes.toml").bakes) {
         const Run run = run_bake(folder, command_of(bake));
         REQUIRE_MESSAGE(run.code == 0, run.err);
@@ -101,6 +103,15 @@ double sky_difference(const std::string& sky, const std::string& more, int sourc
 } // namespace
 
 TEST_SUITE("cli") {
+    TEST_CASE("manifest: maps of the bits that were decided show the same, up to these bits") {
+        TexturePlan map{.kind = "normal", .width = 64, .height = 64, .channels = 3, .bits = 8};
+        map.source_width = map.source_height = 256, map.meshes = {0};
+        const std::string file = "file = \"torus.obj\"";
+        CHECK(difference("normal", file, map) < 3e-3);
+        map.kind = "bump", map.bits = 16, map.channels = 2;
+        CHECK(difference("bump", file, map) < 2e-4);
+    }
+
     TEST_CASE("manifest: the files of a smaller sky show what the planned scene does") {
         CHECK(sky_difference("faces = \"sky_%s.png\"\n", "", 192) < 5e-4);
         const std::string list = "faces = [\"sky_px.png\", \"sky_nx.png\", \"sky_py.png\", \"sky_ny.png\", "

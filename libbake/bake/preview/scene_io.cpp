@@ -119,7 +119,8 @@ void read_material(const Section& in, SceneEntries& scene) {
                     "metallic",     "roughness",     "ior",          "emission",     "reflect",       "albedo",
                     "albedo-space", "bump",          "bump-scale",   "normal",       "encoding",      "directx",
                     "height",       "shade",         "repeat",       "specular-map", "shininess-map", "roughness-map",
-                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency"});
+                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency",
+                    "albedo-size",  "relief-size"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -151,6 +152,8 @@ void read_material(const Section& in, SceneEntries& scene) {
         refuse(in, *share, "\"translucency\" has no \"subsurface\"; give the mean free path of the light in the body");
     read_path(in, "albedo", m.albedo);
     read_colour_space(in, "albedo-space", m.albedo_space);
+    read(in, "albedo-size", m.albedo_size, 1, 32768);
+    read(in, "relief-size", m.relief_size, 1, 32768);
     read_maps(in, m);
     read_path(in, "bump", m.bump_table);
     read(in, "bump-scale", m.bump_scale);

@@ -96,6 +96,28 @@ TEST_SUITE("unit") {
         CHECK(manifest.bakes[3].after == Words{"ball_surface"});
     }
 
+    TEST_CASE("manifest: baked maps have the bits that were decided for them") {
+        Hall hall;
+        ScenePlan plan;
+        plan.objects = {shown_by("ring one", "normal", {0}), shown_by("ball", "bump", {1}),
+                        shown_by("wheel", "normal", {2})};
+        const auto decide = [&](const std::string& kind, int bits, bool half) {
+            TexturePlan& texture = plan.textures.emplace_back(TexturePlan{.kind = kind, .bits = bits, .half = half});
+            texture.meshes = {int(plan.textures.size()) - 1};
+        };
+        decide("normal", 8, false), decide("bump", 16, false), decide("normal", 16, false);
+        const auto bakes = [&] { return plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes; };
+        REQUIRE(bakes().size() == 3);
+        CHECK(command_of(bakes()[0]) == Words{"normal-map", "torus.obj", "--height=dots.png", "--amplitude=0.125",
+                                              "--depth=8", "--out=ring_one_normal.png"});
+        CHECK(command_of(bakes()[1]) ==
+              Words{"bump-table", "dots.png", "--amplitude=0.125", "--depth=16", "--out=ball_bump.png"});
+        CHECK(bakes()[2].outputs[0].second == "wheel_normal.png");
+        CHECK(bakes()[2].options.back().first != "depth");
+        plan.textures[1].half = true;
+        CHECK(command_of(bakes()[1]) == Words{"bump-table", "dots.png", "--amplitude=0.125", "--out=ball_bump.exr"});
+    }
+
     TEST_CASE("manifest: paths are seen from its own folder") {
         Hall hall;
         fs::create_directory(hall.folder / "out");

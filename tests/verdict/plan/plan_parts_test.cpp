@@ -52,7 +52,7 @@ TEST_SUITE("unit") {
         const Scene scene = load(entries);
         const SceneEntries decided = planned_entries(entries, plan);
         Scene planned = load(decided);
-        apply_parts(decided, plan, planned);
+        round_textures(decided, plan, planned);
         CHECK(planned.lights.size() == 1);
         CHECK(!planned.settings.shadows);
         PartOptions other;

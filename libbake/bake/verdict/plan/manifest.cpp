@@ -32,14 +32,15 @@ bool bakes_map(Shade shade) { return shade == Shade::normal || shade == Shade::d
 
 class Lister {
 public:
-    Lister(const SceneEntries& entries, const std::string& out) : entries_(entries) {
+    Lister(const SceneEntries& entries, const ScenePlan& plan, const std::string& out)
+        : entries_(entries), plan_(plan) {
         // Absolute paths in the entries are the user's own, unless the scene itself was named so.
         const fs::path file(entries.file);
         moves_ = !file.is_absolute();
         folder_ = folder_from(moves_ ? "here" : entries.file, out);
     }
 
-    void add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method);
+    void add(const ObjectPlan& object, int mesh, const ShadeMethod& method);
     void add(const SkyPlan& sky);
     Manifest take() { return std::move(manifest_); }
 
@@ -49,6 +50,7 @@ private:
         const MeshEntry& mesh;
         const ReliefEntry& relief;
         ShadeMethod method;
+        const TexturePlan* map; ///< of what is baked; null: not decided
     };
     std::string path(const std::string& file) const;
     std::string shape(const MeshEntry& mesh) const { return shape_beside((folder_ / "manifest").string(), mesh.shape); }
@@ -65,6 +67,7 @@ private:
     const char* obstacle(const SkyPlan& sky) const;
 
     const SceneEntries& entries_;
+    const ScenePlan& plan_;
     fs::path folder_;
     bool moves_ = true;
     Manifest manifest_;
@@ -159,7 +162,9 @@ void Lister::mesh_options(const MeshEntry& mesh, Bake& bake) const {
 void Lister::table(const Job& job) {
     Bake bake{.verb = "bump-table", .files = {path(job.relief.file)}, .use = "bump"};
     height_options(job, bake, false);
-    add(std::move(bake), job.object.object, "bump.exr");
+    const bool integers = job.map && !job.map->half;
+    if (integers) bake.options.emplace_back("depth", "16");
+    add(std::move(bake), job.object.object, integers ? "bump.png" : "bump.exr");
 }
 
 /// Returns the name of the bake.
@@ -202,6 +207,7 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     bake.files = {shape_file(job, bake)};
     if (bake.after.empty()) mesh_options(job.mesh, bake);
     height_options(job, bake, true);
+    if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
         bake.inputs.emplace_back("residual-of", output_of(displaced));
         bake.after.push_back(displaced);
@@ -209,8 +215,12 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     add(std::move(bake), job.object.object, displaced.empty() ? "normal.png" : "detail.png");
 }
 
-void Lister::add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method) {
-    const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method};
+void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method) {
+    const MeshEntry& mesh = entries_.meshes[std::size_t(index)];
+    const TexturePlan* map = nullptr;
+    for (const TexturePlan& texture : plan_.textures)
+        if (std::find(texture.meshes.begin(), texture.meshes.end(), index) != texture.meshes.end()) map = &texture;
+    const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method, map};
     const Shade shade = method.shade;
     if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
     if (const char* why = obstacle(job)) {
@@ -270,12 +280,12 @@ void Lister::add(const SkyPlan& sky) {
 } // namespace
 
 Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const std::string& out) {
-    Lister lister(entries, out);
+    Lister lister(entries, plan, out);
     for (const ObjectPlan& object : plan.objects)
         for (const int mesh : object.meshes) {
             const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
             const auto method = planned_method(plan, mesh);
-            if (entry.material >= 0 && method) lister.add(object, entry, *method);
+            if (entry.material >= 0 && method) lister.add(object, mesh, *method);
         }
     if (plan.sky) lister.add(*plan.sky);
     return lister.take();

@@ -1,4 +1,5 @@
 // What a scene file cannot say of a plan.
+#include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
 
 namespace bake {
@@ -8,8 +9,18 @@ std::vector<std::string> not_in_scene(const SceneEntries& entries, const ScenePl
     for (const LightPlan& light : plan.lights)
         if (!light.keep && std::size_t(light.light) >= entries.lights.size())
             lines.push_back("keeps light " + std::to_string(light.light) + ", which is of a glTF file");
-    if (!plan.textures.empty())
-        lines.push_back("has all maps as they are; what was decided on them is in this report alone");
+    std::string stored;
+    for (const TexturePlan& texture : plan.textures) {
+        const std::string map = "the " + texture.kind + " map of " + texture.file;
+        if (size_limit(texture) > 0 && texture.materials.empty() && texture.meshes.empty())
+            lines.push_back("keeps the size of " + map + ", which is of no [[material]] or of the ground");
+        if (texture.channels != texture.source_channels || texture.bits != texture.source_bits || texture.half)
+            stored += (stored.empty() ? "" : ", ") + map;
+    }
+    if (!stored.empty())
+        lines.push_back("does not say the channels and bits of maps, and shows them unrounded; chosen ones are in this "
+                        "report, for " +
+                        stored);
     return lines;
 }
 

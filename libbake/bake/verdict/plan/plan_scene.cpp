@@ -114,7 +114,7 @@ void verify_plan(PlanWork& work, std::span<const ObjectDecision> decisions, cons
     if (decides_parts(work.options)) {
         const SceneEntries planned = work.scenes.as_seen(planned_entries(entries, plan));
         shown.emplace(load(planned));
-        apply_parts(planned, plan, *shown);
+        round_textures(planned, plan, *shown);
     }
     plan.verified = verify(work, decisions, shown ? &*shown : nullptr);
     plan.over_budget =

@@ -86,6 +86,14 @@ void set_key(TextEdits& edits, const toml::table& root, const std::string& secti
     add_key(edits, *table, last_value(edits, *table), table->is_inline() ? line : section + "." + line);
 }
 
+void set_material_key(TextEdits& edits, const toml::table& material, const std::string& key, const std::string& value) {
+    if (const toml::node* old = material.get(key)) return edits.replace(span_of(edits, *old), value);
+    // A height in a table of its own is no place for a key of the material.
+    const toml::node* height = material.get("height");
+    const bool one_value = height && (!height->is_table() || height->as_table()->is_inline());
+    add_key(edits, material, one_value ? *height : *material.get("name"), key + " = " + value);
+}
+
 void remove_table(TextEdits& edits, const toml::table& table) {
     const std::string_view text = edits.text();
     Span block = block_of(edits, table);

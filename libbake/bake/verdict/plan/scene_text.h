@@ -24,6 +24,9 @@ void add_key(TextEdits& edits, const toml::table& table, const toml::node& behin
 void set_key(TextEdits& edits, const toml::table& root, const std::string& section, const std::string& key,
              const std::string& value);
 
+/// Gives a key of a material a value; adds the key after the height, or else after the name.
+void set_material_key(TextEdits& edits, const toml::table& material, const std::string& key, const std::string& value);
+
 /// Removes a table of a list, with an empty line that would be doubled.
 void remove_table(TextEdits& edits, const toml::table& table);
 
