@@ -40,8 +40,8 @@ Image<float> rendered(const Folder& folder, const std::string& scene) {
 }
 
 /// Renders the object by this model, runs the bakes that it needs, and renders it from their files instead. `mesh`: the line
-/// that names it. Returns the RMSE between the two pictures.
-double difference(const std::string& model, const std::string& mesh) {
+/// that names it, `map`: what is decided on its map. Returns the RMSE between the two pictures.
+double difference(const std::string& model, const std::string& mesh, const std::optional<TexturePlan>& map = {}) {
     const Folder folder;
     fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
     fs::copy_file(own_meshes() / "torus.obj", folder / "torus.obj");
@@ -53,10 +53,12 @@ double difference(const std::string& model, const std::string& mesh) {
     const SceneEntries entries = read_scene(folder / "s.toml");
     ScenePlan plan;
     plan.objects = {shown_by("ring", model, {0})};
+    if (map) plan.textures = {*map};
     write_file(folder / "planned.toml", planned_scene(scene, entries, plan, folder / "planned.toml"));
     write_file(folder / "bakes.toml", to_toml(plan_manifest(entries, plan, folder / "bakes.toml")));
 
     std::string shown = mesh, maps;
+    if (map) maps = "relief-size = " + std::to_string(map->width) + "\n";
     for (const Bake& bake : parse_manifest(contents(folder / "bakes.toml"), "bakes.toml").bakes) {
         const Run run = run_bake(folder, command_of(bake));
         REQUIRE_MESSAGE(run.code == 0, run.err);
@@ -71,9 +73,52 @@ double difference(const std::string& model, const std::string& mesh) {
     return distance(rendered(folder, "planned.toml"), rendered(folder, "baked.toml"));
 }
 
+/// The same of a mirror under a sky that is planned with smaller faces. `sky`: the line that names it.
+double sky_difference(const std::string& sky, const std::string& more, int source_face) {
+    const Folder folder;
+    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
+        const std::string name = std::string("sky_") + face + ".png";
+        fs::copy_file(own_meshes() / name, folder / name);
+    }
+    const std::string keys = more + "yaw-deg = 30\nscale = 2\n",
+                      ball = "[[material]]\nname = \"steel\"\nreflect = 0.5\n[[mesh]]\nshape = \"sphere:R=1\"\n"
+                             "material = \"steel\"\n";
+    const std::string scene = around + "[sky]\n" + sky + keys + ball;
+    write_file(folder / "s.toml", scene);
+    const SceneEntries entries = read_scene(folder / "s.toml");
+    ScenePlan plan;
+    plan.sky = SkyPlan{.model = "faces", .face = 32, .source_face = source_face};
+    write_file(folder / "planned.toml", planned_scene(scene, entries, plan, folder / "planned.toml"));
+    const Manifest manifest = plan_manifest(entries, plan, folder / "bakes.toml");
+    REQUIRE(manifest.bakes.size() == 1);
+    const Bake& bake = manifest.bakes[0];
+    CHECK(bake.use == "faces");
+    const Run run = run_bake(folder, command_of(bake));
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    const std::string files = "faces = \"" + bake.outputs.front().second + "\"\n";
+    write_file(folder / "baked.toml", around + "[sky]\n" + files + "yaw-deg = 30\nscale = 2\n" + ball);
+    return distance(rendered(folder, "planned.toml"), rendered(folder, "baked.toml"));
+}
+
 } // namespace
 
 TEST_SUITE("cli") {
+    TEST_CASE("manifest: maps of the bits that were decided show the same, up to these bits") {
+        TexturePlan map{.kind = "normal", .width = 64, .height = 64, .channels = 3, .bits = 8};
+        map.source_width = map.source_height = 256, map.meshes = {0};
+        const std::string file = "file = \"torus.obj\"";
+        CHECK(difference("normal", file, map) < 3e-3);
+        map.kind = "bump", map.bits = 16, map.channels = 2;
+        CHECK(difference("bump", file, map) < 2e-4);
+    }
+
+    TEST_CASE("manifest: the files of a smaller sky show what the planned scene does") {
+        CHECK(sky_difference("faces = \"sky_%s.png\"\n", "", 192) < 5e-4);
+        const std::string list = "faces = [\"sky_px.png\", \"sky_nx.png\", \"sky_py.png\", \"sky_ny.png\", "
+                                 "\"sky_pz.png\", \"sky_nz.png\"]\n";
+        CHECK(sky_difference(list, "colour-space = \"linear\"\nbad = \"clamp\"\n", 192) < 5e-4);
+    }
+
     TEST_CASE("manifest: its bakes make files with which the picture is the same, up to the rounding of the files") {
         const std::string file = "file = \"torus.obj\"", shape = "shape = \"torus:R=1,r=0.4\"";
         CHECK(difference("bump", file) < 2e-4);

@@ -96,6 +96,29 @@ TEST_SUITE("cli") {
         for (const auto& line : json["verified"]) CHECK(line["measured"]["rmse"].get<double>() > 0);
     }
 
+    TEST_CASE("plan: sizes, sky and lights that were decided are in the planned scene") {
+        const Folder folder;
+        write_scene(folder);
+        for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
+            const std::string name = std::string("sky_") + face + ".png";
+            fs::copy_file(own_meshes() / name, folder / name);
+        }
+        std::string scene = contents(folder / "s.toml") + "[sky]\nfaces = \"sky_%s.png\"\n";
+        scene.replace(scene.find("# high"), 6, "\nshade = \"normal\"");
+        write_file(folder / "s.toml", scene);
+        // Nothing may be seen, so that each decision is the cheapest.
+        const Run run = run_bake(folder, line({"--budget", "rmse=inf", "--decide", "texture,sky,lights", "-o", "p.toml",
+                                               "--manifest", "b.toml", "--verify"}));
+        REQUIRE_MESSAGE(run.code == 0, run.err);
+        const SceneEntries planned = read_scene(folder / "p.toml");
+        CHECK(planned.lights.empty());
+        CHECK_FALSE(planned.settings.shadows);
+        CHECK(planned.sky.reduction.sh_bands == 1);
+        for (const MaterialEntry& material : planned.materials) CHECK(material.relief_size == 1);
+        CHECK_MESSAGE(has(run.out, "sky: no command bakes its mean"), run.out);
+        CHECK(run_bake(folder, {"render", "p.toml", "-o", "p.png", "--spp", "1"}).code == 0);
+    }
+
     TEST_CASE("plan: refusals name the option or the file, and leave nothing behind") {
         const Folder folder;
         write_scene(folder);

@@ -51,6 +51,18 @@ TEST_SUITE("unit") {
                   std::string::npos);
     }
 
+    TEST_CASE("scene_sky: smaller skies") {
+        const SkyReduction both = entries(sky + "face-size = 64\nsh-bands = 3\n").sky.reduction;
+        CHECK(both.face_size == 64);
+        CHECK(both.sh_bands == 3);
+        CHECK(entries(sky).sky.reduction.face_size == 0);
+        CHECK(entries(sky).sky.reduction.sh_bands == 0);
+        CHECK(refusal(sky + "face-size = 0\n").find(":3: [sky] \"face-size\" is 0, outside 1 to") != std::string::npos);
+        CHECK(refusal(sky + "face-size = 6.5\n").find("is not a whole number") != std::string::npos);
+        CHECK(refusal(sky + "sh-bands = 33\n").find(":3: [sky] \"sh-bands\" is 33, outside 1 to 32") !=
+              std::string::npos);
+    }
+
     TEST_CASE("scene_sky: translucency is off unless a mean free path is given") {
         const Reflectance off = entries(material).materials.at(0).reflectance;
         CHECK(off.subsurface == Vec3f(0));

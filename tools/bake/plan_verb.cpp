@@ -40,9 +40,7 @@ void write_page(const PlanArgs& args, const ScenePlan& plan, Manifest manifest, 
 void write_outputs(const PlanArgs& args, const SceneEntries& entries, const std::string& text, ScenePlan& plan) {
     if (!args.out.empty()) {
         write_text(args.out, planned_scene(text, entries, plan, args.out));
-        if (!plan.textures.empty() || plan.sky || !plan.lights.empty())
-            plan.notes.push_back(args.out + ": has the models of the objects; what was decided on maps, sky and "
-                                            "lights is in this report alone");
+        for (const std::string& line : not_in_scene(entries, plan)) plan.notes.push_back(args.out + ": " + line);
     }
     const std::string& list = args.manifest.empty() ? args.report : args.manifest;
     if (list.empty()) return;

@@ -14,6 +14,7 @@
 #include "bake/preview/scene_positions.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/preview/smooth_mesh.h"
+#include "bake/preview/texture_size.h"
 #include "bake/relief/height/picture_height.h"
 #include <algorithm>
 #include <map>
@@ -34,69 +35,6 @@ template <class Work> auto at_line(const SceneEntries& entries, int line, Work&&
         const Refusal why = error.refusal == Refusal::usage ? Refusal::unreadable : error.refusal; // of a shape's keys
         throw Error(why, entries.file + ":" + std::to_string(line) + ": " + message);
     }
-}
-
-/// Textures by their file and all options of reading, so that materials share them.
-using TextureCache = std::map<std::string, Texture>;
-
-template <class Read> Texture cached(TextureCache& cache, const std::string& key, Read&& read) {
-    throw_if_interrupted();
-    Texture& texture = cache[key];
-    if (!texture) texture = read();
-    return texture;
-}
-
-/// The textures besides albedo and normal. Null if there are none.
-std::shared_ptr<const SurfaceMaps> load_maps(const MaterialEntry& entry, TextureCache& cache,
-                                             std::vector<std::string>& notes) {
-    SurfaceMaps maps;
-    bool any = false;
-    const auto read_map = [&](const std::string& file, bool colour, SurfaceMap& to) {
-        if (file.empty()) return;
-        const ColourSpace space = colour ? ColourSpace::automatic : ColourSpace::linear;
-        to.texture = cached(cache, "albedo " + std::to_string(int(space)) + " " + file,
-                            [&] { return read_albedo(file, space, &notes); });
-        any = true;
-    };
-    read_map(entry.specular_map, true, maps.specular);
-    read_map(entry.emission_map, true, maps.emission);
-    read_map(entry.shininess_map, false, maps.shininess);
-    read_map(entry.roughness_map, false, maps.roughness);
-    read_map(entry.metallic_map, false, maps.metallic);
-    read_map(entry.occlusion_map, false, maps.occlusion);
-    if (entry.alpha_cutoff) {
-        maps.alpha.texture = read_alpha(entry.albedo);
-        if (!maps.alpha)
-            throw Error(Refusal::unsuitable,
-                        entry.albedo + ": is opaque, and \"alpha-cutoff\" needs its alpha; remove the key");
-        maps.alpha_mode = AlphaMode::mask, maps.alpha_cutoff = *entry.alpha_cutoff;
-        any = true;
-    }
-    return any ? std::make_shared<const SurfaceMaps>(std::move(maps)) : nullptr;
-}
-
-std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache& cache, const LoadedPictures& known,
-                                        std::vector<std::string>& notes) {
-    if (entry.relief.file.empty() && entry.relief.shade && entry.relief.shade->shade != Shade::plain)
-        throw Error(Refusal::unreadable, "\"shade\" shows a height, and there is none; add height = {file = ...}");
-    auto material = std::make_unique<Material>();
-    material->name = entry.name;
-    material->reflectance = entry.reflectance;
-    material->reflect = entry.reflect;
-    if (!entry.albedo.empty())
-        material->albedo = cached(cache, "albedo " + std::to_string(int(entry.albedo_space)) + " " + entry.albedo,
-                                  [&] { return read_albedo(entry.albedo, entry.albedo_space, &notes, known); });
-    if (!entry.bump_table.empty())
-        material->bump_table = cached(cache, "bump " + std::to_string(entry.bump_scale) + " " + entry.bump_table, [&] {
-            return read_bump_table(entry.bump_table, entry.bump_scale, &notes, known);
-        });
-    if (!entry.normal_map.empty())
-        material->normal_map = cached(
-            cache,
-            (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " + entry.normal_map,
-            [&] { return read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes, known); });
-    material->maps = load_maps(entry, cache, notes);
-    return material;
 }
 
 /// Shapes by their file or name and all options of reading.
@@ -122,8 +60,9 @@ struct Loaded {
 };
 
 /// The material with its relief, which is baked for this shape, and the shape that it is for.
-std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool repeats, const Material& material,
+std::pair<const Material*, Shape*> bake_relief(const MaterialEntry& entry, bool repeats, const Material& material,
                                                Shape& shape, Loaded& loaded, Scene& scene) {
+    const ReliefEntry& relief = entry.relief;
     auto& height = loaded.heights[relief.file];
     if (!height) {
         const auto picture = loaded_picture(loaded.entries.pictures, relief.file);
@@ -148,6 +87,8 @@ std::pair<const Material*, Shape*> bake_relief(const ReliefEntry& relief, bool r
     if (const std::string doubt = relief_doubt(shape, *height, options); !doubt.empty())
         scene.notes.push_back("material \"" + material.name + "\": " + doubt + "; use shade = \"exact\"");
     ReliefModel model = with_relief(material, shape, *height, options);
+    model.material.bump_table = halved_to(model.material.bump_table, entry.relief_size);
+    model.material.normal_map = normals_halved_to(model.material.normal_map, entry.relief_size);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
                               " segments per edge, the most that memory allows");
@@ -243,7 +184,9 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
         return note_relief(entry, material, *shape, loaded, scene);
     }
     auto& [shown, on] = loaded.reliefs[{shape, entry.material}]; // instances share what is baked
-    if (!shown) std::tie(shown, on) = bake_relief(relief, repeat != Vec2f(1), material, *shape, loaded, scene);
+    if (!shown)
+        std::tie(shown, on) = bake_relief(entries.materials[std::size_t(entry.material)], repeat != Vec2f(1), material,
+                                          *shape, loaded, scene);
     add_instance(scene, *on, *shown, entry.placement);
     if (on == shape) note_relief(entry, *shown, *on, loaded, scene);
 }
@@ -256,7 +199,7 @@ Cube load_sky(const SkyEntry& entry, std::vector<std::string>& notes) {
     EnvironmentReport report;
     Environment sky = read_environment(inputs, options, &report);
     for (const std::string& line : reading_notes(report, options.by_name)) notes.push_back("[sky] " + line);
-    return sky_cube(std::move(sky));
+    return reduced(sky_cube(std::move(sky)), entry.reduction);
 }
 
 void load_sky_levels(const SkyEntry& entry, SkyLevels& levels) {

@@ -1,28 +1,13 @@
 // The checked content of a scene file, and the function that loads its files.
 #pragma once
+#include "bake/environment/filter/sky_reduction.h"
 #include "bake/preview/camera_entry.h"
-#include "bake/preview/relief_entry.h"
+#include "bake/preview/material_entry.h"
 #include "bake/preview/scene.h"
 #include "bake/surface/subdivision/types.h"
 #include <optional>
 
 namespace bake {
-
-struct MaterialEntry {
-    std::string name;
-    Reflectance reflectance;
-    Vec3f reflect{0};
-    std::string albedo, bump_table, normal_map; ///< files; empty if not given
-    std::string specular_map, shininess_map, roughness_map, metallic_map, occlusion_map, emission_map; ///< likewise
-    std::optional<float> alpha_cutoff; ///< rays pass where the alpha of the albedo is below it
-    ColourSpace albedo_space = ColourSpace::automatic;
-    float bump_scale = 1;
-    NormalEncoding encoding = NormalEncoding::automatic;
-    bool directx = false;
-    ReliefEntry relief;
-    Vec2f repeat{1}; ///< how often the textures repeat over the unit square of uvs
-    int line = 0;    ///< line in the scene file, for messages
-};
 
 struct MeshEntry {
     std::string file;                ///< empty if `shape` is given
@@ -47,6 +32,7 @@ struct SkyEntry {
     ColourSpace space = ColourSpace::automatic;
     BadPolicy bad = BadPolicy::refuse;
     float scale = 1, yaw_deg = 0;
+    SkyReduction reduction;
     std::string irradiance;    ///< file for SkyLighting::irradiance; empty: computed
     std::string specular;      ///< the same, six files with levels
     std::vector<float> alphas; ///< of the levels in `specular`

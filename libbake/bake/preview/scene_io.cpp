@@ -75,7 +75,7 @@ void read_sky_levels(const Section& in, SkyEntry& sky) {
 
 void read_sky(const Section& in, SceneEntries& scene) {
     allow_only(in, {"faces", "image", "scale", "yaw-deg", "colour-space", "bad", "irradiance", "specular",
-                    "specular-roughness"});
+                    "specular-roughness", "face-size", "sh-bands"});
     scene.sky.line = line_of(in.table);
     const toml::node *faces = in.table.get("faces"), *image = in.table.get("image");
     if (!faces && !image)
@@ -105,6 +105,8 @@ void read_sky(const Section& in, SceneEntries& scene) {
     read(in, "scale", scene.sky.scale, 0);
     read(in, "yaw-deg", scene.sky.yaw_deg, -360, 360);
     read_colour_space(in, "colour-space", scene.sky.space);
+    read(in, "face-size", scene.sky.reduction.face_size, 1, 32768);
+    read(in, "sh-bands", scene.sky.reduction.sh_bands, 1, 32);
     read_sky_levels(in, scene.sky);
     read_choice<BadPolicy>(in, "bad", scene.sky.bad,
                            {{"refuse", BadPolicy::refuse}, {"zero", BadPolicy::zero}, {"clamp", BadPolicy::clamp}});
@@ -117,7 +119,8 @@ void read_material(const Section& in, SceneEntries& scene) {
                     "metallic",     "roughness",     "ior",          "emission",     "reflect",       "albedo",
                     "albedo-space", "bump",          "bump-scale",   "normal",       "encoding",      "directx",
                     "height",       "shade",         "repeat",       "specular-map", "shininess-map", "roughness-map",
-                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency"});
+                    "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency",
+                    "albedo-size",  "relief-size"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -149,6 +152,8 @@ void read_material(const Section& in, SceneEntries& scene) {
         refuse(in, *share, "\"translucency\" has no \"subsurface\"; give the mean free path of the light in the body");
     read_path(in, "albedo", m.albedo);
     read_colour_space(in, "albedo-space", m.albedo_space);
+    read(in, "albedo-size", m.albedo_size, 1, 32768);
+    read(in, "relief-size", m.relief_size, 1, 32768);
     read_maps(in, m);
     read_path(in, "bump", m.bump_table);
     read(in, "bump-scale", m.bump_scale);

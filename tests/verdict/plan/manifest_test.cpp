@@ -96,6 +96,28 @@ TEST_SUITE("unit") {
         CHECK(manifest.bakes[3].after == Words{"ball_surface"});
     }
 
+    TEST_CASE("manifest: baked maps have the bits that were decided for them") {
+        Hall hall;
+        ScenePlan plan;
+        plan.objects = {shown_by("ring one", "normal", {0}), shown_by("ball", "bump", {1}),
+                        shown_by("wheel", "normal", {2})};
+        const auto decide = [&](const std::string& kind, int bits, bool half) {
+            TexturePlan& texture = plan.textures.emplace_back(TexturePlan{.kind = kind, .bits = bits, .half = half});
+            texture.meshes = {int(plan.textures.size()) - 1};
+        };
+        decide("normal", 8, false), decide("bump", 16, false), decide("normal", 16, false);
+        const auto bakes = [&] { return plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes; };
+        REQUIRE(bakes().size() == 3);
+        CHECK(command_of(bakes()[0]) == Words{"normal-map", "torus.obj", "--height=dots.png", "--amplitude=0.125",
+                                              "--depth=8", "--out=ring_one_normal.png"});
+        CHECK(command_of(bakes()[1]) ==
+              Words{"bump-table", "dots.png", "--amplitude=0.125", "--depth=16", "--out=ball_bump.png"});
+        CHECK(bakes()[2].outputs[0].second == "wheel_normal.png");
+        CHECK(bakes()[2].options.back().first != "depth");
+        plan.textures[1].half = true;
+        CHECK(command_of(bakes()[1]) == Words{"bump-table", "dots.png", "--amplitude=0.125", "--out=ball_bump.exr"});
+    }
+
     TEST_CASE("manifest: paths are seen from its own folder") {
         Hall hall;
         fs::create_directory(hall.folder / "out");
@@ -114,6 +136,36 @@ TEST_SUITE("unit") {
         REQUIRE(manifest.notes.size() == 1);
         CHECK(manifest.notes[0].starts_with("ring one: no command bakes its displace:4: its uvs repeat"));
         CHECK(hall.manifest("bump", "plain", "plain").bakes.size() == 1);
+    }
+
+    TEST_CASE("manifest: smaller faces of a sky are a bake, and what no command makes of it is told") {
+        Hall hall;
+        hall.entries.sky.image = hall.folder / "forest_%s.png";
+        const auto manifest = [&](const std::string& model, int face) {
+            ScenePlan plan;
+            plan.sky = SkyPlan{.model = model, .face = face, .source_face = 64};
+            return plan_manifest(hall.entries, plan, hall.folder / "b.toml");
+        };
+        const Manifest smaller = manifest("faces", 16);
+        REQUIRE(smaller.bakes.size() == 1);
+        CHECK(command_of(smaller.bakes[0]) ==
+              Words{"cubemap", "forest_%s.png", "--size=16", "--samples=exact", "--out=sky_16_%s.exr"});
+        CHECK(smaller.bakes[0].use == "faces");
+        CHECK(manifest("faces", 64).bakes.empty());
+        CHECK(manifest("faces", 64).notes.empty());
+        const auto told = [&](const Manifest& none, const std::string& why) {
+            CHECK(none.bakes.empty());
+            REQUIRE(none.notes.size() == 1);
+            CHECK(none.notes[0].starts_with(why));
+        };
+        told(manifest("sh:3", 32), "sky: no command bakes its harmonics: ");
+        told(manifest("constant", 1), "sky: no command bakes its mean: ");
+        hall.entries.sky.image = hall.folder / "{a}.exr";
+        told(manifest("faces", 16), "sky: no command bakes its smaller faces: a manifest keeps the characters");
+        hall.entries.sky.image = "";
+        // The words say other faces than the places in the list.
+        hall.entries.sky.faces = {"nx.png", "px.png", "py.png", "ny.png", "pz.png", "nz.png"};
+        told(manifest("faces", 16), "sky: no command bakes its smaller faces: its files are named like other faces");
     }
 
     TEST_CASE("manifest: TOML and back is the same") {

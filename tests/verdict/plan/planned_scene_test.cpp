@@ -1,9 +1,6 @@
 // A scene file with the models of a plan: what changes, and what stays.
 #include "bake/base/error.h"
-#include "bake/preview/scene_io.h"
-#include "bake/verdict/plan/planned_scene.h"
-#include "cli/command.h"
-#include "verdict/plan/hand_made_plan.h"
+#include "verdict/plan/planned_round.h"
 
 using namespace bake;
 using namespace bake::test;
@@ -35,44 +32,6 @@ material = "studs"
 [[instance]] # another ring
 mesh = "ring"
 )";
-
-/// Writes a scene, plans it by hand, and reads the result.
-struct Round {
-    explicit Round(std::string scene) : text(std::move(scene)) {
-        write_file(folder / "s.toml", text);
-        entries = read_scene(folder / "s.toml");
-    }
-    std::string planned(const std::string& out = "p.toml") {
-        const std::string result = planned_scene(text, entries, plan, folder / out);
-        write_file(folder / out, result);
-        read = read_scene(folder / out);
-        return result;
-    }
-    /// Of each mesh, as the planned scene has it.
-    std::vector<std::string> shades() const {
-        std::vector<std::string> names;
-        for (const MeshEntry& mesh : read.meshes)
-            names.push_back(
-                name(read.materials[std::size_t(mesh.material)].relief.shade.value_or(ShadeMethod{Shade::exact})));
-        return names;
-    }
-
-    Folder folder;
-    std::string text;
-    SceneEntries entries, read;
-    ScenePlan plan;
-};
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-/// The lines of `after` that `before` does not have, in order.
-std::string new_lines(const std::string& before, const std::string& after) {
-    std::istringstream in(after);
-    std::string text;
-    for (std::string line; std::getline(in, line);)
-        if (!has("\n" + before, "\n" + line + "\n")) text += line + "\n";
-    return text;
-}
 
 } // namespace
 

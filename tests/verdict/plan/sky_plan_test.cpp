@@ -1,5 +1,6 @@
 // What the skies of little scenes are reduced to.
 #include "bake/base/parallel.h"
+#include "bake/verdict/plan/scene_twin.h"
 #include "bake/verdict/plan/sky_plan.h"
 #include "bake/verdict/plan/sky_use.h"
 #include "preview/little_scenes.h"
@@ -72,7 +73,7 @@ TEST_SUITE("unit") {
         REQUIRE(plan);
         CHECK(plan->model == "sh:3");
         CHECK(plan->bytes == 9 * 3 * 4);
-        const Cube sky = planned_sky(scene.sky.cube, *plan);
+        const Cube sky = reduced(copied(scene.sky.cube), reduction_of(*plan));
         CHECK(sky.size() == plan->face);
         CHECK(mean_of(sky).x == doctest::Approx(mean_of(scene.sky.cube).x).epsilon(0.002));
     }

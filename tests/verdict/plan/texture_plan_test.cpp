@@ -1,7 +1,7 @@
 // What textures of little scenes are reduced to.
 #include "bake/base/parallel.h"
-#include "bake/verdict/plan/texture_plan.h"
 #include "preview/little_scenes.h"
+#include "verdict/plan/planned_texture.h"
 #include <doctest/doctest.h>
 
 using namespace bake;

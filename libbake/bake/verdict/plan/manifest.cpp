@@ -1,4 +1,6 @@
 #include "bake/verdict/plan/manifest.h"
+#include "bake/base/error.h"
+#include "bake/environment/file/face_files.h"
 #include "bake/picture/image_io.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/surface/analytic/parametric.h"
@@ -21,6 +23,8 @@ template <class T> std::string text_of(T value) {
     return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
 }
 
+constexpr const char* reserved = "a manifest keeps the characters *?{} of its files' names for later; rename the file";
+
 bool is_cube(const std::string& shape) { return shape == "cube" || shape.starts_with("cube:"); }
 
 bool bakes_table(Shade shade) { return shade == Shade::bump || shade == Shade::bump_roughness; }
@@ -28,14 +32,16 @@ bool bakes_map(Shade shade) { return shade == Shade::normal || shade == Shade::d
 
 class Lister {
 public:
-    Lister(const SceneEntries& entries, const std::string& out) : entries_(entries) {
+    Lister(const SceneEntries& entries, const ScenePlan& plan, const std::string& out)
+        : entries_(entries), plan_(plan) {
         // Absolute paths in the entries are the user's own, unless the scene itself was named so.
         const fs::path file(entries.file);
         moves_ = !file.is_absolute();
         folder_ = folder_from(moves_ ? "here" : entries.file, out);
     }
 
-    void add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method);
+    void add(const ObjectPlan& object, int mesh, const ShadeMethod& method);
+    void add(const SkyPlan& sky);
     Manifest take() { return std::move(manifest_); }
 
 private:
@@ -44,6 +50,7 @@ private:
         const MeshEntry& mesh;
         const ReliefEntry& relief;
         ShadeMethod method;
+        const TexturePlan* map; ///< of what is baked; null: not decided
     };
     std::string path(const std::string& file) const;
     std::string shape(const MeshEntry& mesh) const { return shape_beside((folder_ / "manifest").string(), mesh.shape); }
@@ -57,8 +64,10 @@ private:
     std::string displaced(const Job& job);
     void normals(const Job& job, const std::string& displaced);
     std::string shape_file(const Job& job, Bake& bake);
+    const char* obstacle(const SkyPlan& sky) const;
 
     const SceneEntries& entries_;
+    const ScenePlan& plan_;
     fs::path folder_;
     bool moves_ = true;
     Manifest manifest_;
@@ -107,8 +116,7 @@ const char* Lister::obstacle(const Job& job) const {
     const Shade shade = job.method.shade;
     const Vec2f repeat = mesh.repeat * entries_.materials[std::size_t(mesh.material)].repeat;
     for (const std::string& file : {job.relief.file, mesh.file, mesh.shape})
-        if (file.find_first_of(reserved_in_paths) != std::string::npos)
-            return "a manifest keeps the characters *?{} of its files' names for later; rename the file";
+        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
     if (bakes_table(shade)) return nullptr;
     if (repeat != Vec2f(1)) return "its uvs repeat, and bake displace and bake normal-map take each texture once";
     if (is_cube(mesh.shape)) return "its shape, a cube, is one of scenes alone; write it as a file";
@@ -154,7 +162,9 @@ void Lister::mesh_options(const MeshEntry& mesh, Bake& bake) const {
 void Lister::table(const Job& job) {
     Bake bake{.verb = "bump-table", .files = {path(job.relief.file)}, .use = "bump"};
     height_options(job, bake, false);
-    add(std::move(bake), job.object.object, "bump.exr");
+    const bool integers = job.map && !job.map->half;
+    if (integers) bake.options.emplace_back("depth", "16");
+    add(std::move(bake), job.object.object, integers ? "bump.png" : "bump.exr");
 }
 
 /// Returns the name of the bake.
@@ -197,6 +207,7 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     bake.files = {shape_file(job, bake)};
     if (bake.after.empty()) mesh_options(job.mesh, bake);
     height_options(job, bake, true);
+    if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
         bake.inputs.emplace_back("residual-of", output_of(displaced));
         bake.after.push_back(displaced);
@@ -204,8 +215,12 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     add(std::move(bake), job.object.object, displaced.empty() ? "normal.png" : "detail.png");
 }
 
-void Lister::add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMethod& method) {
-    const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method};
+void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method) {
+    const MeshEntry& mesh = entries_.meshes[std::size_t(index)];
+    const TexturePlan* map = nullptr;
+    for (const TexturePlan& texture : plan_.textures)
+        if (std::find(texture.meshes.begin(), texture.meshes.end(), index) != texture.meshes.end()) map = &texture;
+    const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method, map};
     const Shade shade = method.shade;
     if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
     if (const char* why = obstacle(job)) {
@@ -219,16 +234,60 @@ void Lister::add(const ObjectPlan& object, const MeshEntry& mesh, const ShadeMet
     if (bakes_map(shade)) normals(job, mesh_bake);
 }
 
+/// Why no command bakes the faces of this sky; null if one does.
+const char* Lister::obstacle(const SkyPlan& sky) const {
+    const SkyEntry& entry = entries_.sky;
+    if (sky.model == "constant") return "it is one colour; \"sh-bands\" of the scene shows it";
+    if (sky.model != "faces") return "they are no faces; \"sh-bands\" of the scene shows them";
+    if (entry.reduction.sh_bands > 0) return "they are those of a series that \"sh-bands\" of the scene names";
+    std::vector<std::string> files = {entry.image};
+    if (entry.image.empty()) files.assign(entry.faces.begin(), entry.faces.end());
+    for (const std::string& file : files)
+        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
+    if (files.size() == 1) return nullptr;
+    try {
+        if (name_faces(files).files == entry.faces) return nullptr;
+    } catch (const Error&) { // as below
+    }
+    return "its files are named like other faces than they are listed as; rename them";
+}
+
+void Lister::add(const SkyPlan& sky) {
+    if (sky.model == "faces" && sky.face >= sky.source_face) return;
+    if (const char* why = obstacle(sky)) {
+        const std::string what = sky.model == "faces"      ? "smaller faces"
+                                 : sky.model == "constant" ? "mean"
+                                                           : "harmonics";
+        manifest_.notes.push_back("sky: no command bakes its " + what + ": " + why);
+        return;
+    }
+    const SkyEntry& entry = entries_.sky;
+    Bake bake{.verb = "cubemap", .use = "faces"};
+    if (!entry.image.empty()) bake.files = {path(entry.image)};
+    else
+        for (const std::string& file : entry.faces) bake.files.push_back(path(file));
+    bake.options = {{"size", std::to_string(sky.face)}, {"samples", "exact"}};
+    if (entry.space != ColourSpace::automatic)
+        bake.options.emplace_back(entry.space == ColourSpace::linear ? "linear" : "srgb", "");
+    if (entry.bad != BadPolicy::refuse)
+        bake.options.emplace_back("bad", entry.bad == BadPolicy::zero ? "zero" : "clamp");
+    bake.name = "sky_" + std::to_string(sky.face);
+    while (!names_.insert(bake.name).second) bake.name += "_sky"; // an object has the name
+    bake.outputs.emplace_back("out", bake.name + "_%s.exr");
+    manifest_.bakes.push_back(std::move(bake));
+}
+
 } // namespace
 
 Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const std::string& out) {
-    Lister lister(entries, out);
+    Lister lister(entries, plan, out);
     for (const ObjectPlan& object : plan.objects)
         for (const int mesh : object.meshes) {
             const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
             const auto method = planned_method(plan, mesh);
-            if (entry.material >= 0 && method) lister.add(object, entry, *method);
+            if (entry.material >= 0 && method) lister.add(object, mesh, *method);
         }
+    if (plan.sky) lister.add(*plan.sky);
     return lister.take();
 }
 

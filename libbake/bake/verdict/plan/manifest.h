@@ -17,7 +17,7 @@ struct Bake {
     Values options;                 ///< option without dashes and value; an empty value is a flag
     std::vector<std::string> after; ///< names of bakes whose outputs this one reads
     std::vector<std::string> objects;
-    std::string use; ///< key of a material or a mesh that takes the first output; empty: an intermediate file
+    std::string use; ///< key of a material, a mesh or the sky that takes the first output; empty: an intermediate file
 };
 
 struct Manifest {
@@ -25,7 +25,7 @@ struct Manifest {
     std::vector<std::string> notes;
 };
 
-/// The bakes of the models that a plan chose. `out`: the file that the manifest will be; outputs are beside it. What no command
+/// The bakes of the models and of the sky that a plan chose. `out`: the file that the manifest will be; outputs are beside it. What no command
 /// bakes is told in a note. Reads meshes where an amplitude is a part of their size. Throws the errors of the readers.
 Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const std::string& out);
 std::string to_toml(const Manifest& manifest);

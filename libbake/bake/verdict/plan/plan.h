@@ -81,6 +81,8 @@ struct TexturePlan {
     std::int64_t bytes = 0, source_bytes = 0; ///< with smaller levels
     SquareEstimate error;
     std::string why;
+    std::vector<int> materials; ///< of a file: those of SceneEntries::materials that name it
+    std::vector<int> meshes;    ///< of a baked map: those of SceneEntries::meshes that show it
 };
 
 struct SkyPlan {
@@ -140,7 +142,8 @@ std::vector<ShadeMethod> plan_rungs(std::int64_t triangles);
 /// not in the scene.
 ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Progress* progress = nullptr);
 
-/// The entries as planned: each object with its method.
+/// The entries as planned: each object with its method, maps and sky as small as chosen, without the lights and shadows that are left
+/// out. What not_in_scene() (planned_scene.h) lists is not among them.
 SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan);
 
 std::string to_text(const ScenePlan& plan);

@@ -104,15 +104,12 @@ void plan_parts(const SceneEntries& planned, const PlanOptions& options, ScenePl
     if (progress) progress->finish();
 }
 
-void apply_parts(const SceneEntries& planned, const ScenePlan& plan, Scene& scene) {
+void round_textures(const SceneEntries& planned, const ScenePlan& plan, Scene& scene) {
     const std::vector<SceneTexture> textures = scene_textures(scene, &planned);
-    for (std::size_t i = 0; i < std::min(textures.size(), plan.textures.size()); ++i)
-        set_texture(scene, textures[i].materials, textures[i].use, planned_texture(textures[i], plan.textures[i]));
-    if (plan.sky && !scene.sky.cube.empty()) set_sky(scene, planned_sky(scene.sky.cube, *plan.sky));
-    for (const LightPlan& light : plan.lights) {
-        if (std::size_t(light.light) >= scene.lights.size()) continue;
-        if (!light.keep) scene.lights[std::size_t(light.light)].colour = Vec3f(0);
-        scene.settings.shadows = scene.settings.shadows && light.shadows;
+    for (std::size_t i = 0; i < std::min(textures.size(), plan.textures.size()); ++i) {
+        TextureForm form = form_of(plan.textures[i]);
+        form.halvings = 0; // load() has halved it
+        set_texture(scene, textures[i].materials, textures[i].use, stored(*textures[i].picture, textures[i].use, form));
     }
 }
 

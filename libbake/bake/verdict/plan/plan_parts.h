@@ -17,7 +17,8 @@ void plan_parts(const SceneEntries& planned, const PlanOptions& options, ScenePl
 /// The budget of each of these decisions, RMSE.
 double part_budget(const PlanOptions& options, const ScenePlan& plan);
 
-/// Shows the decided textures, sky and lights in a built scene that load() made of `planned`, to render what is planned.
-void apply_parts(const SceneEntries& planned, const ScenePlan& plan, Scene& scene);
+/// Rounds the textures of a scene to the channels and bits that the plan chose, which no scene file says. load() made the scene
+/// of `planned`, planned_entries() with these textures.
+void round_textures(const SceneEntries& planned, const ScenePlan& plan, Scene& scene);
 
 } // namespace bake

@@ -73,13 +73,13 @@ std::vector<ShadeMethod> fitting_references(std::span<const ObjectDecision> deci
 }
 
 std::vector<PlanPicture> plan_pictures(PlanWork& work, std::span<const ObjectDecision> decisions,
-                                       const SceneEntries& planned, Scene* shown) {
+                                       const SceneEntries& modelled, Scene* shown) {
     std::vector<PlanPicture> pictures;
     using Shows = PlanPicture::Shows;
     const bool own_lights = work.options.decide_lights;
     if (decisions.empty()) {
         if (!shown) return pictures;
-        Scene given = load(planned);
+        Scene given = load(modelled);
         add(work, given, own_lights, Shows::reference, pictures);
     } else {
         add(work, work.scenes.assemble(references(work, decisions))->scene, false, Shows::reference, pictures);

@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace bake {
 namespace {
@@ -120,19 +118,19 @@ void plan_objects(PlanWork& work, std::vector<ObjectDecision>& decisions, SceneP
 std::optional<Scene> decided_scene(const PlanWork& work, const SceneEntries& planned, const ScenePlan& plan) {
     if (!decides_parts(work.options)) return {};
     std::optional<Scene> shown = load(planned);
-    apply_parts(planned, plan, *shown);
+    round_textures(planned, plan, *shown);
     return shown;
 }
 
-/// Whole pictures, to compare and to look at.
-void show_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& planned,
-               ScenePlan& plan) {
+/// Whole pictures, to compare and to look at. `modelled`: the entries with the models of the objects alone.
+void show_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const SceneEntries& modelled,
+               const SceneEntries& planned, ScenePlan& plan) {
     std::optional<Scene> shown = decided_scene(work, planned, plan);
     Scene* const scene = shown ? &*shown : nullptr;
     if (work.options.verify) plan.verified = verify(work, decisions, scene);
     plan.over_budget =
         std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
-    if (work.options.pictures) plan.pictures = plan_pictures(work, decisions, planned, scene);
+    if (work.options.pictures) plan.pictures = plan_pictures(work, decisions, modelled, scene);
     take_notes(work, plan);
 }
 
@@ -156,36 +154,14 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
     std::vector<ObjectDecision> decisions;
     if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height: no model is chosen");
     else if (options.decide_objects) plan_objects(work, decisions, plan);
-    const SceneEntries planned = scenes.as_seen(planned_entries(entries, plan));
-    if (!plan.interrupted) plan_parts(planned, options, plan, progress);
-    if (options.verify || options.pictures) until_stopped(plan, [&] { show_plan(work, decisions, planned, plan); });
+    const SceneEntries modelled = scenes.as_seen(planned_entries(entries, plan));
+    if (!plan.interrupted) plan_parts(modelled, options, plan, progress);
+    if (options.verify || options.pictures)
+        until_stopped(
+            plan, [&] { show_plan(work, decisions, modelled, scenes.as_seen(planned_entries(entries, plan)), plan); });
     if (progress) progress->finish();
     plan.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return plan;
-}
-
-SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan) {
-    SceneEntries planned = entries;
-    std::set<std::string> names;
-    for (const MaterialEntry& material : entries.materials) names.insert(material.name);
-    // Objects with the same material and the same method keep one material.
-    std::map<std::pair<int, std::string>, int> made;
-    for (const ObjectPlan& object : plan.objects) {
-        if (object.meshes.empty()) continue;
-        const ShadeMethod method = chosen_method(object);
-        const int material = entries.meshes[std::size_t(object.meshes.front())].material;
-        const auto [at, added] = made.try_emplace({material, name(method)}, int(planned.materials.size()));
-        if (added) {
-            MaterialEntry own = entries.materials[std::size_t(material)];
-            std::string wanted = own.name + " as " + name(method);
-            while (!names.insert(wanted).second) wanted += "'";
-            own.name = wanted;
-            own.relief.shade = method;
-            planned.materials.push_back(std::move(own));
-        }
-        for (const int mesh : object.meshes) planned.meshes[std::size_t(mesh)].material = at->second;
-    }
-    return planned;
 }
 
 } // namespace bake

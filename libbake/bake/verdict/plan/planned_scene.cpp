@@ -2,7 +2,8 @@
 #include "bake/base/error.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/verdict/plan/folder_from.h"
-#include "bake/verdict/plan/text_edits.h"
+#include "bake/verdict/plan/planned_parts.h"
+#include "bake/verdict/plan/scene_text.h"
 #include "bake/verdict/plan/toml_string.h"
 #include <algorithm>
 #include <filesystem>
@@ -21,25 +22,11 @@ constexpr std::initializer_list<const char*> material_files = {
 
 /// A material as some of its meshes show it.
 struct Version {
-    std::string shade; ///< name of the model
-    std::string name;  ///< of the material
-    bool kept = false; ///< the file has this one, and nothing changes
+    std::string shade;        ///< name of the model
+    int size = 0;             ///< "relief-size" of what is baked; 0: as it is
+    std::string name;         ///< of the material
+    bool other_shade = false; ///< than the file has
 };
-
-/// Tables of a [[list]], in the order of the file.
-std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) {
-    std::vector<const toml::table*> list;
-    if (const toml::array* array = root[key].as_array())
-        for (const toml::node& node : *array)
-            if (const toml::table* table = node.as_table()) list.push_back(table);
-    return list;
-}
-
-/// Where the parser saw a value, or the head of a table.
-Span span_of(const TextEdits& edits, const toml::node& node) {
-    const auto place = [](const toml::source_position& at) { return Place{at.line, at.column}; };
-    return {edits.offset(place(node.source().begin)), edits.offset(place(node.source().end))};
-}
 
 class Planner {
 public:
@@ -52,16 +39,17 @@ public:
     }
 
     void move_paths(const fs::path& folder);
+    void reduce_files() { reduce_maps(edits_, root_, plan_); } ///< before set_methods(), which copies materials
     void set_methods();
+    void set_parts();
     std::string text() const { return edits_.apply(); }
 
 private:
     void move_path(const toml::node* node, const fs::path& folder);
     std::vector<Version> versions(int material);
-    void set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const;
-    void add_key(TextEdits& edits, const toml::table& table, const toml::node& behind, const std::string& line) const;
+    void set_version(TextEdits& edits, const toml::table& material, const Version& version) const;
     void add_copy(const toml::table& material, const Version& version, const TextEdits& moved);
-    Span block_of(const toml::table& material) const;
+    Span block_of_material(const toml::table& material) const;
     void refer_to_versions();
     std::string unused_name(const std::string& wanted);
 
@@ -113,11 +101,12 @@ std::vector<Version> Planner::versions(int material) {
     std::vector<Version> list;
     if (entry.relief.file.empty()) return list;
     const std::string was = name(entry.relief.shade.value_or(ShadeMethod{}));
-    const auto add = [&](const std::string& shade) -> Version& {
+    const auto add = [&](const std::string& shade, int size) -> Version& {
         for (Version& one : list)
-            if (one.shade == shade) return one;
-        const std::string own = list.empty() ? entry.name : unused_name(entry.name + " " + shade);
-        return list.emplace_back(Version{shade, own, shade == was});
+            if (one.shade == shade && one.size == size) return one;
+        const std::string wanted = entry.name + " " + shade + (size > 0 ? " " + std::to_string(size) : "");
+        const std::string own = list.empty() ? entry.name : unused_name(wanted);
+        return list.emplace_back(Version{shade, size, own, shade != was});
     };
     const auto shade_of = [&](std::size_t mesh) {
         const auto method = planned_method(plan_, int(mesh));
@@ -126,45 +115,22 @@ std::vector<Version> Planner::versions(int material) {
     // What the plan has not decided stays as it is, under the name that it has.
     bool stays = entries_.ground && entries_.ground->material == material;
     for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
-        stays |= entries_.meshes[i].material == material && shade_of(i) == was;
-    if (stays) add(was);
+        stays |= entries_.meshes[i].material == material && shade_of(i) == was && baked_limit(plan_, int(i)) == 0;
+    if (stays) add(was, 0);
     for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
-        if (entries_.meshes[i].material == material) shown_[i] = add(shade_of(i)).name;
+        if (entries_.meshes[i].material == material) shown_[i] = add(shade_of(i), baked_limit(plan_, int(i))).name;
     return list;
 }
 
-/// Adds a key to a table on the line after the value `behind`, or after it within braces.
-void Planner::add_key(TextEdits& edits, const toml::table& table, const toml::node& behind,
-                      const std::string& line) const {
-    const Span span = span_of(edits, behind);
-    if (table.is_inline()) return edits.insert(span.end, ", " + line);
-    const std::size_t begin = edits.line_begin(span.begin);
-    const std::size_t key = edits.text().find_first_not_of(" \t", begin);
-    const std::string indent(edits.text().substr(begin, key - begin));
-    edits.insert(edits.line_end(span.end), edits.newline(span.end) + indent + line);
+void Planner::set_version(TextEdits& edits, const toml::table& material, const Version& version) const {
+    if (version.other_shade) set_material_key(edits, material, "shade", toml_string(version.shade));
+    if (version.size > 0) set_material_key(edits, material, "relief-size", std::to_string(version.size));
 }
 
-void Planner::set_shade(TextEdits& edits, const toml::table& material, const std::string& shade) const {
-    if (const toml::node* old = material.get("shade")) return edits.replace(span_of(edits, *old), toml_string(shade));
-    // A height in a table of its own is no place for a key of the material.
-    const toml::node* height = material.get("height");
-    const bool one_value = height && (!height->is_table() || height->as_table()->is_inline());
-    add_key(edits, material, one_value ? *height : *material.get("name"), "shade = " + toml_string(shade));
-}
-
-/// From the first line of a table to the last line of its values.
-Span Planner::block_of(const toml::table& material) const {
-    Span span = span_of(edits_, material);
+/// The text of a material; refuses one with other tables within.
+Span Planner::block_of_material(const toml::table& material) const {
+    const Span span = block_of(edits_, material);
     if (material.is_inline()) return span;
-    std::size_t last = span.end;
-    const auto reach = [&](const toml::table& table, const auto& self) -> void {
-        for (auto&& [key, node] : table) {
-            if (node.is_table() && !node.as_table()->is_inline()) self(*node.as_table(), self);
-            else last = std::max(last, span_of(edits_, node).end);
-        }
-    };
-    reach(material, reach);
-    span = {edits_.line_begin(span.begin), edits_.line_end(last)};
     const auto within = [&](const toml::node& node) {
         const std::size_t at = span_of(edits_, node).begin;
         return &node != &material && at > span.begin && at < span.end;
@@ -182,10 +148,10 @@ Span Planner::block_of(const toml::table& material) const {
 
 /// Adds the material once more under another name, behind itself.
 void Planner::add_copy(const toml::table& material, const Version& version, const TextEdits& moved) {
-    const Span block = block_of(material);
+    const Span block = block_of_material(material);
     TextEdits copy = moved;
     copy.replace(span_of(copy, *material.get("name")), toml_string(version.name));
-    set_shade(copy, material, version.shade);
+    set_version(copy, material, version);
     const std::string line = edits_.newline(block.end);
     edits_.insert(block.end, (material.is_inline() ? ", " : line + line) + copy.apply(block));
 }
@@ -216,10 +182,15 @@ void Planner::set_methods() {
         const std::vector<Version> list = versions(int(m));
         for (const Version& version : list) {
             if (&version != list.data()) add_copy(*materials[m], version, moved);
-            else if (!version.kept) set_shade(edits_, *materials[m], version.shade);
+            else set_version(edits_, *materials[m], version);
         }
     }
     refer_to_versions();
+}
+
+void Planner::set_parts() {
+    reduce_sky(edits_, root_, plan_);
+    remove_lights(edits_, root_, entries_, plan_);
 }
 
 } // namespace
@@ -244,7 +215,9 @@ std::string planned_scene(const std::string& text, const SceneEntries& entries, 
         throw Error(Refusal::unreadable, entries.file + ": changed while it was planned; plan it again");
     Planner planner(text, root, entries, plan);
     if (const fs::path folder = folder_from(entries.file, out); folder != ".") planner.move_paths(folder);
+    planner.reduce_files();
     planner.set_methods();
+    planner.set_parts();
     return planner.text();
 }
 

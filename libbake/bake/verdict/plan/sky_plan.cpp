@@ -1,8 +1,6 @@
 #include "bake/verdict/plan/sky_plan.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
-#include "bake/environment/filter/mips.h"
-#include "bake/environment/filter/spherical_harmonics.h"
 #include "bake/verdict/plan/scene_twin.h"
 #include "bake/verdict/plan/sky_use.h"
 #include <algorithm>
@@ -37,8 +35,7 @@ std::vector<SkyPlan> candidates(const Scene& scene, const SkyUse& use) {
     std::vector<SkyPlan> plans = {{.model = "constant", .face = 1, .levels = 1, .bytes = sky_bytes(1, 1) / 6}};
     const int source = scene.sky.cube.size();
     for (const int bands : bands_tried) {
-        // About four texels across the half wave of the highest band.
-        const int face = int(std::bit_ceil(unsigned(8 * bands)));
+        const int face = face_of_bands(bands);
         if (face / 2 > source) continue;
         plans.push_back({.model = "sh:" + std::to_string(bands), .face = face, .levels = 1});
         plans.back().bytes = std::int64_t(bands) * bands * 3 * std::int64_t(sizeof(float));
@@ -82,13 +79,10 @@ std::int64_t sky_bytes(int face, int levels) noexcept {
     return texels * 6;
 }
 
-Cube planned_sky(const Cube& source, const SkyPlan& plan) {
-    if (plan.model == "constant") return evaluate_sh(project_sh(source, 1), 1);
-    if (plan.model == "faces") return plan.face == source.size() ? copied(source) : resize_by_area(source, plan.face);
-    Cube cube = evaluate_sh(project_sh(source, bands_of(plan)), plan.face);
-    for (Image<float>& face : cube.faces)
-        for (std::size_t i = 0; i < face.size(); ++i) face.data()[i] = std::max(0.0f, face.data()[i]);
-    return cube;
+SkyReduction reduction_of(const SkyPlan& plan) {
+    if (plan.model == "constant") return {.sh_bands = 1};
+    if (plan.model == "faces") return {.face_size = plan.face};
+    return {.sh_bands = bands_of(plan)};
 }
 
 std::optional<SkyPlan> plan_sky(const Scene& scene, const PartOptions& options, Progress* progress) {
@@ -110,7 +104,7 @@ std::optional<SkyPlan> plan_sky(const Scene& scene, const PartOptions& options, 
     Scene twin = twin_of(scene);
     std::string smaller;
     for (SkyPlan& plan : plans) {
-        set_sky(twin, planned_sky(scene.sky.cube, plan));
+        set_sky(twin, reduced(copied(scene.sky.cube), reduction_of(plan)));
         const WorstProbe::Result result = probe.judge(twin, options.budget);
         if (progress) progress->add(1);
         const std::string errs = text_of(plan) + " errs by " + error_text(result.error);

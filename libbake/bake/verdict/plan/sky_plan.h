@@ -1,6 +1,6 @@
 // The cheapest sky whose picture stays within a budget: a constant, spherical harmonics, or smaller faces.
 #pragma once
-#include "bake/environment/sky/cube.h"
+#include "bake/environment/filter/sky_reduction.h"
 #include "bake/verdict/plan/plan.h"
 #include "bake/verdict/plan/worst_probe.h"
 
@@ -12,9 +12,8 @@ namespace bake {
 /// (face_for()), if that is within the budget. `scene` is built.
 std::optional<SkyPlan> plan_sky(const Scene& scene, const PartOptions& options, Progress* progress = nullptr);
 
-/// The sky of a plan, as faces. Those of "constant" have one texel; series of spherical harmonics are evaluated on faces of
-/// plan.face texels, and where they ring below zero they are 0.
-Cube planned_sky(const Cube& source, const SkyPlan& plan);
+/// The sky of a plan, among those of the scene file (`[sky]`).
+SkyReduction reduction_of(const SkyPlan& plan);
 
 /// Of faces in memory, three half floats per texel, in `levels` levels.
 std::int64_t sky_bytes(int face, int levels) noexcept;

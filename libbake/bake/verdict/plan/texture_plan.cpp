@@ -28,22 +28,35 @@ std::string file_of(const Scene& scene, const SceneEntries& entries, int materia
     return {};
 }
 
-/// The first object with a material, as far as the entries tell: each stands for one instance.
-std::string object_of(const Scene& scene, const SceneEntries* entries, const Material& material) {
+/// The meshes with a material, as far as the entries tell: each stands for one instance.
+std::vector<int> meshes_with(const Scene& scene, const SceneEntries* entries, const Material& material) {
+    std::vector<int> meshes;
     if (!entries || scene.instances.size() != entries->meshes.size() + std::size_t(entries->ground.has_value()))
-        return material.name;
-    for (std::size_t i = 0; i < entries->meshes.size(); ++i) {
-        if (scene.instances[i].material != &material) continue;
-        const MeshEntry& mesh = entries->meshes[i];
-        return !mesh.name.empty() ? mesh.name : !mesh.file.empty() ? mesh.file : mesh.shape;
-    }
-    return material.name;
+        return meshes;
+    for (std::size_t i = 0; i < entries->meshes.size(); ++i)
+        if (scene.instances[i].material == &material) meshes.push_back(int(i));
+    return meshes;
+}
+
+/// The name of a baked map: that of the first mesh with it.
+std::string object_of(const SceneEntries* entries, const std::vector<int>& meshes, const Material& material) {
+    if (meshes.empty()) return material.name;
+    const MeshEntry& mesh = entries->meshes[std::size_t(meshes.front())];
+    return !mesh.name.empty() ? mesh.name : !mesh.file.empty() ? mesh.file : mesh.shape;
 }
 
 const Texture& texture_of(const Material& material, TextureUse use) noexcept {
     return use == TextureUse::normal ? material.normal_map
            : use == TextureUse::bump ? material.bump_table
                                      : material.albedo;
+}
+
+/// The entries of materials that show a texture which load() read for them.
+std::vector<int> entries_with(const Scene& scene, const SceneEntries& entries, const SceneTexture& texture) {
+    std::vector<int> with;
+    for (std::size_t i = 0; i < entries.materials.size() && i + 1 < scene.materials.size(); ++i)
+        if (texture_of(*scene.materials[i + 1], texture.use) == texture.picture) with.push_back(int(i));
+    return with;
 }
 
 bool share_a_material(const SceneTexture& a, const SceneTexture& b) noexcept {
@@ -85,6 +98,7 @@ TexturePlan start(const SceneTexture& texture, const TextureForm& source) {
     plan.source_width = source.width, plan.source_height = source.height;
     plan.source_channels = source.channels, plan.source_bits = source.bits;
     plan.source_bytes = source.bytes();
+    plan.materials = texture.entries, plan.meshes = texture.meshes;
     return plan;
 }
 
@@ -144,7 +158,12 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
             SceneTexture texture{.use = use, .picture = picture, .materials = {int(i)}};
             if (entries) texture.name = file_of(scene, *entries, int(i), use);
             texture.baked = texture.name.empty();
-            if (texture.baked) texture.name = object_of(scene, entries, material);
+            if (texture.baked) {
+                texture.meshes = meshes_with(scene, entries, material);
+                texture.name = object_of(entries, texture.meshes, material);
+            } else {
+                texture.entries = entries_with(scene, *entries, texture);
+            }
             textures.push_back(std::move(texture));
         }
     }
@@ -181,11 +200,6 @@ TextureForm form_of(const TexturePlan& plan) noexcept {
     for (int w = plan.source_width, h = plan.source_height; w > plan.width || h > plan.height; ++form.halvings)
         w = std::max(1, w / 2), h = std::max(1, h / 2);
     return form;
-}
-
-Image<float> planned_texture(const SceneTexture& texture, const TexturePlan& plan) {
-    const TextureForm form = form_of(plan);
-    return stored(halvings_of(*texture.picture)[form.halvings], texture.use, form);
 }
 
 } // namespace bake

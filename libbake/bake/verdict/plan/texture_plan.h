@@ -14,6 +14,8 @@ struct SceneTexture {
     bool baked = false;
     Texture picture;
     std::vector<int> materials; ///< indices in Scene::materials
+    std::vector<int> entries;   ///< of a file: indices in SceneEntries::materials
+    std::vector<int> meshes;    ///< of a baked map: indices in SceneEntries::meshes
 };
 
 /// Albedos, normal maps and bump tables of the objects in a scene that load() made of `entries`; without entries all count as
@@ -34,7 +36,5 @@ std::vector<TexturePlan> plan_textures(const Scene& scene, const SceneEntries* e
 
 /// The form of a plan.
 TextureForm form_of(const TexturePlan& plan) noexcept;
-/// The texels of a planned texture, as they are read back.
-Image<float> planned_texture(const SceneTexture& texture, const TexturePlan& plan);
 
 } // namespace bake

@@ -1,0 +1,140 @@
+// Maps of the sizes that a plan chose: the scene file with them, and its picture.
+#include "bake/verdict/plan/plan_parts.h"
+#include "bake/verdict/plan/scene_twin.h"
+#include "verdict/plan/planned_round.h"
+#include "verdict/plan/planned_texture.h"
+
+using namespace bake;
+using namespace bake::test;
+
+namespace {
+
+const std::string two_balls = R"([render]
+size = [24, 16]
+spp = 2
+exposure = 0
+
+[[light]]
+type = "directional"
+from = [-1, 1, 1]
+
+[[material]]
+name = "studs"
+albedo = "dots_normal.png"
+height = {file = "dots.png", amplitude = 0.05} # the relief
+shade = "normal"
+
+[[material]]
+name = "paint"
+albedo = "dots_normal.png" # the same
+
+[[mesh]]
+name = "left"
+shape = "sphere:R=1"
+segments = [12, 6]
+material = "studs"
+translate = [-1, 0, 0]
+
+[[mesh]]
+name = "right"
+shape = "torus:R=0.6,r=0.3"
+segments = [12, 6]
+material = "studs"
+translate = [1, 0, 0]
+
+[[mesh]]
+shape = "plane"
+material = "paint"
+translate = [0, -1, 0]
+)";
+
+struct Balls : Round {
+    Balls() : Round(two_balls) {
+        for (const char* file : {"dots.png", "dots_normal.png"}) fs::copy_file(own_meshes() / file, folder / file);
+        const Scene scene = load(entries);
+        textures = scene_textures(scene, &entries);
+        PartOptions options;
+        options.budget = 10; // the smallest form of each
+        plan.textures = plan_textures(scene, &entries, options);
+    }
+    TexturePlan& planned_map(const std::string& file) {
+        for (TexturePlan& texture : plan.textures)
+            if (texture.file.ends_with(file)) return texture;
+        FAIL(file);
+        return plan.textures.front();
+    }
+    void set(const std::string& file, int size) {
+        TexturePlan& texture = planned_map(file);
+        texture.width = texture.height = size;
+        texture.channels = 3, texture.bits = 16, texture.half = false;
+    }
+    std::vector<SceneTexture> textures;
+};
+
+} // namespace
+
+TEST_SUITE("unit") {
+    TEST_CASE("planned maps: a texture knows its materials, or the meshes that it is baked for") {
+        Balls round;
+        REQUIRE(round.plan.textures.size() == 3);
+        CHECK(round.planned_map("dots_normal.png").materials == std::vector<int>{0, 1});
+        CHECK(round.planned_map("dots_normal.png").meshes.empty());
+        CHECK(round.planned_map("left").meshes == std::vector<int>{0});
+        CHECK(round.planned_map("right").meshes == std::vector<int>{1});
+    }
+
+    TEST_CASE("planned maps: files and baked maps get their sizes, and the picture is the one that was judged") {
+        Balls round;
+        round.set("dots_normal.png", 32), round.set("left", 64), round.set("right", 16);
+        const std::string text = round.planned();
+        CHECK(has(text, "albedo = \"dots_normal.png\" # the same\n"));
+        CHECK(round.read.materials.size() == 3);
+        for (const MaterialEntry& material : round.read.materials) CHECK(material.albedo_size == 32);
+        CHECK(round.read.materials[std::size_t(round.read.meshes[0].material)].relief_size == 64);
+        CHECK(round.read.materials[std::size_t(round.read.meshes[1].material)].relief_size == 16);
+        check_same_picture(round);
+
+        Scene judged = load(round.entries);
+        for (std::size_t i = 0; i < round.textures.size(); ++i)
+            set_texture(judged, round.textures[i].materials, round.textures[i].use,
+                        planned_texture(round.textures[i], round.plan.textures[i]));
+        const SceneEntries entries = planned_entries(round.entries, round.plan);
+        Scene rounded = load(entries);
+        round_textures(entries, round.plan, rounded);
+        CHECK(largest_difference(picture_of(judged), picture_of(rounded)) < 1e-5f);
+        CHECK(largest_difference(picture_of(judged), picture_of(load(round.read))) < 1e-3f);
+        CHECK(largest_difference(picture_of(judged), picture_of(load(round.entries))) > 1e-2f);
+    }
+
+    TEST_CASE("planned maps: nothing is written of maps that keep their size") {
+        Balls round;
+        round.set("dots_normal.png", 128), round.set("left", 256), round.set("right", 256);
+        CHECK(round.planned() == round.text);
+        CHECK(not_in_scene(round.entries, round.plan).size() == 1); // of 16 bits instead of 8
+        for (TexturePlan& texture : round.plan.textures) texture.bits = texture.source_bits;
+        CHECK(not_in_scene(round.entries, round.plan).empty());
+    }
+
+    TEST_CASE("planned maps: with other models, and the same size for all") {
+        Balls round;
+        round.set("dots_normal.png", 128), round.set("left", 64), round.set("right", 64);
+        round.plan.objects = {shown_by("left", "normal", {0}), shown_by("right", "normal", {1})};
+        CHECK(new_lines(round.text, round.planned()) == "relief-size = 64\n");
+        round.plan.objects = {shown_by("left", "bump", {0}), shown_by("right", "normal", {1})};
+        round.planned();
+        CHECK(round.shades()[0] == "bump");
+        CHECK(round.shades()[1] == "normal");
+        check_same_picture(round);
+    }
+
+    TEST_CASE("planned maps: a map that is of no mesh of the file keeps its size, with a note") {
+        Balls round;
+        round.set("dots_normal.png", 128), round.set("left", 64), round.set("right", 256);
+        for (TexturePlan& texture : round.plan.textures) texture.bits = texture.source_bits;
+        round.planned_map("left").meshes.clear();
+        CHECK(round.planned() == round.text);
+        const auto notes = not_in_scene(round.entries, round.plan);
+        REQUIRE(notes.size() == 1);
+        CHECK(notes[0].starts_with("keeps the size of the normal map of left"));
+    }
+}
