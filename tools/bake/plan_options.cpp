@@ -77,8 +77,7 @@ void add_plan_options(CLI::App& sub, PlanArgs& args) {
                    "maps), format (their bits), sky (its faces), lights (which of them no camera can tell)")
         ->type_name("object|texture|format|sky|lights,...")
         ->capture_default_str();
-    sub.add_option("-o,--out", args.out, "Scene to write: the same with what was chosen")
-        ->type_name("PLANNED.toml");
+    sub.add_option("-o,--out", args.out, "Scene to write: the same with what was chosen")->type_name("PLANNED.toml");
     sub.add_option("--manifest", args.manifest, "List of the bakes that the models need")->type_name("BAKES.toml");
     sub.add_flag("--verify", args.verify,
                  "Render whole pictures of the planned scene and of the reference too; exit with 1 over the budget");

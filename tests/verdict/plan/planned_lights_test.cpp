@@ -143,6 +143,6 @@ TEST_SUITE("unit") {
         CHECK(round.planned() == round.text);
         const std::vector<std::string> notes = not_in_scene(round.entries, round.plan);
         REQUIRE(notes.size() == 1);
-        CHECK(notes[0] == "keeps light 0, which is of a glTF file");
+        CHECK(notes[0] == "keeps light 1, which is of a glTF file");
     }
 }
