@@ -83,8 +83,7 @@ void add_plan_options(CLI::App& sub, PlanArgs& args) {
                    "maps), format (their bits), sky (its faces), lights (which of them no camera can tell)")
         ->type_name("object|texture|format|sky|lights,...")
         ->capture_default_str();
-    sub.add_option("-o,--out", args.out, "Scene to write: the same with what was chosen")
-        ->type_name("PLANNED.toml");
+    sub.add_option("-o,--out", args.out, "Scene to write: the same with what was chosen")->type_name("PLANNED.toml");
     sub.add_option("--manifest", args.manifest, "List of the bakes that the models need")->type_name("BAKES.toml");
     sub.add_option("--report", args.report,
                    "HTML file to write, which opens without a network: the pictures of the planned scene, of full "

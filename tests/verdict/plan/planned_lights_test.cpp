@@ -1,4 +1,5 @@
 // Lights and shadows that a plan leaves out: the scene file without them, and its picture.
+#include "bake/base/error.h"
 #include "verdict/plan/planned_round.h"
 #include <cmath>
 
@@ -129,12 +130,19 @@ TEST_SUITE("unit") {
         CHECK(round.planned() == "[ground]\n\n" + light + "[[mesh]]\nshape = \"sphere\"");
     }
 
+    TEST_CASE("planned lights: a file that has other lights by now is refused") {
+        Round round(three_lights);
+        round.plan.lights = lights({false, true, true}, true);
+        round.text += "[[light]]\ntype = \"directional\"\nfrom = [0, 1, 0]\n";
+        CHECK_THROWS_WITH_AS(round.planned(), doctest::Contains("changed while it was planned"), Error);
+    }
+
     TEST_CASE("planned lights: those of a glTF file stay, with a note") {
         Round round("[[mesh]]\nshape = \"sphere\"\n");
         round.plan.lights = lights({false}, true);
         CHECK(round.planned() == round.text);
         const std::vector<std::string> notes = not_in_scene(round.entries, round.plan);
         REQUIRE(notes.size() == 1);
-        CHECK(notes[0] == "keeps light 0, which is of a glTF file");
+        CHECK(notes[0] == "keeps light 1, which is of a glTF file");
     }
 }

@@ -8,7 +8,7 @@ std::vector<std::string> not_in_scene(const SceneEntries& entries, const ScenePl
     std::vector<std::string> lines;
     for (const LightPlan& light : plan.lights)
         if (!light.keep && std::size_t(light.light) >= entries.lights.size())
-            lines.push_back("keeps light " + std::to_string(light.light) + ", which is of a glTF file");
+            lines.push_back("keeps light " + std::to_string(light.light + 1) + ", which is of a glTF file");
     std::string stored;
     for (const TexturePlan& texture : plan.textures) {
         const std::string map = "the " + texture.kind + " map of " + texture.file;

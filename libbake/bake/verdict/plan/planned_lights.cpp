@@ -1,4 +1,5 @@
 // Lights that a plan leaves out.
+#include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/scene_text.h"
@@ -6,6 +7,14 @@
 
 namespace bake {
 namespace {
+
+/// The tables that SceneEntries::lights are read from; those of type "ambient" are a part of SceneEntries::ambient.
+std::vector<const toml::table*> own_lights(const toml::table& root) {
+    std::vector<const toml::table*> lights = tables(root, "light");
+    std::erase_if(lights,
+                  [](const toml::table* light) { return (*light)["type"].value_or(std::string()) == "ambient"; });
+    return lights;
+}
 
 /// Whether the plan leaves out each light of the file; a scene has them before those of glTF files.
 std::vector<bool> left_out(const SceneEntries& entries, const ScenePlan& plan) {
@@ -56,13 +65,14 @@ void remove_lights(SceneEntries& entries, const ScenePlan& plan) {
 
 void remove_lights(TextEdits& edits, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan) {
     const std::vector<bool> out = left_out(entries, plan);
-    std::size_t i = 0;
-    for (const toml::table* light : tables(root, "light")) {
-        if (light->get("type")->value_or(std::string()) == "ambient") continue; // a part of SceneEntries::ambient
-        if (!out[i++]) continue;
-        const Vec3f ambient = ambient_part(*light);
-        if (ambient == Vec3f(0)) remove_table(edits, *light);
-        else make_ambient(edits, *light, ambient);
+    const std::vector<const toml::table*> lights = own_lights(root);
+    if (lights.size() != out.size())
+        throw Error(Refusal::unreadable, entries.file + ": changed while it was planned; plan it again");
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (!out[i]) continue;
+        const Vec3f ambient = ambient_part(*lights[i]);
+        if (ambient == Vec3f(0)) remove_table(edits, *lights[i]);
+        else make_ambient(edits, *lights[i], ambient);
     }
     if (without_shadows(plan) && entries.settings.shadows) set_key(edits, root, "render", "shadows", "false");
 }

@@ -10,7 +10,7 @@ namespace bake {
 void remove_lights(SceneEntries& entries, const ScenePlan& plan);
 
 /// The same in the text of the scene file. A light that is left out, and has an ambient part, becomes an ambient light. `root`
-/// and `entries` are of that text.
+/// and `entries` are of that text. Throws Error{Refusal::unreadable} if they have other lights.
 void remove_lights(TextEdits& edits, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan);
 
 /// Most texels along an edge of a texture that is planned smaller than it is; else 0.
