@@ -100,6 +100,19 @@ TEST_SUITE("unit") {
         CHECK(chosen(plan_scene(entries, options).objects.at(0)).cost.total(weights) < chosen(one).cost.total(weights));
     }
 
+    TEST_CASE("plan_scene: the reference is fine where its error counts, and only there") {
+        const SceneEntries entries = relief_scene("sphere:R=1", 1);
+        constexpr double strict = 0.0015, loose = 0.05;
+        const ObjectPlan shown = plan_one(entries, strict);
+        CHECK(shown.chosen < 0); // so that the reference itself is shown
+        CHECK(shown.reference_error <= 0.15 * strict);
+        const ObjectPlan bumped = plan_one(entries, loose);
+        CHECK(chosen(bumped).known == Known::probe);
+        CHECK(chosen(bumped).error.high() + bumped.reference_error <= 1.1 * loose);
+        CHECK(bumped.reference_error > 0.15 * strict);
+        CHECK(bumped.reference.levels < shown.reference.levels);
+    }
+
     TEST_CASE("plan_scene: the same plan for any number of threads") {
         const SceneEntries entries = relief_scene("sphere:R=1", 0.1f);
         const auto plan = [&](int threads) {
