@@ -33,6 +33,25 @@ struct Soup {
     }
 };
 
+/// A square sheet of waves, from a corner on.
+BvhMesh waves(const Vec3f& corner, float size) {
+    constexpr std::uint32_t cells = 30, row = cells + 1;
+    BvhMesh mesh;
+    for (std::uint32_t y = 0; y <= cells; ++y)
+        for (std::uint32_t x = 0; x <= cells; ++x) {
+            const Vec2f at = Vec2f(float(x), float(y)) / float(cells);
+            mesh.positions.push_back(
+                corner + Vec3f(size * at.x, 0.01f * std::sin(40 * at.x) * std::cos(37 * at.y), size * at.y));
+        }
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t i = y * row + x;
+            mesh.triangles.push_back({i, i + 1, i + row + 1});
+            mesh.triangles.push_back({i, i + row + 1, i + row});
+        }
+    return mesh;
+}
+
 std::array<Ray, packet_size> random_rays(std::mt19937& random) {
     std::uniform_real_distribution<float> place(-1.5f, 1.5f), t(0, 3);
     std::array<Ray, packet_size> rays;
@@ -104,6 +123,37 @@ TEST_SUITE("stability") {
             CHECK((bvh.occluded(rays, all) >> 5 & 1) == 0);
             for (std::size_t i = 0; i < packet_size; ++i) {
                 if (i != 5) CHECK(after[i].triangle == before[i].triangle);
+            }
+        }
+    }
+
+    // From some of these trees Embree's packets of coherent rays never returned.
+    TEST_CASE("bvh packet: parallel rays through a quick tree of several meshes are answered, as alone") {
+        for (std::uint32_t seed = 0; seed < 12; ++seed) {
+            std::mt19937 random(seed);
+            std::uniform_real_distribution<float> place(-1, 1);
+            std::vector<BvhMesh> meshes;
+            meshes.push_back(waves({-3, 0, -3}, 6));
+            for (int i = 1; i < 5; ++i) {
+                const float x = 2 * place(random), y = 0.5f + 0.5f * place(random), z = 2 * place(random);
+                meshes.push_back(waves({x, y, z}, 1));
+            }
+            const Bvh bvh(std::move(meshes), BvhTree::quick);
+            for (int round = 0; round < 50; ++round) {
+                std::array<Ray, packet_size> rays;
+                const float x = 3 * place(random), z = 3 * place(random);
+                for (Ray& ray : rays) {
+                    ray.origin = Vec3f(x + 0.01f * place(random), 0.013f, z + 0.01f * place(random));
+                    ray.direction = glm::normalize(Vec3f(-1, 1.1f, 0.7f));
+                }
+                const PacketMask hidden = bvh.occluded(rays, all);
+                std::array<Hit, packet_size> hits;
+                bvh.intersect(rays, all, hits);
+                for (int i = 0; i < packet_size; ++i) {
+                    const bool alone = bvh.occluded(rays[std::size_t(i)]);
+                    CHECK(bool(hidden >> i & 1) == alone);
+                    CHECK(bool(hits[std::size_t(i)]) == alone);
+                }
             }
         }
     }
