@@ -1,7 +1,6 @@
 #include "bake/base/memory.h"
 #include "cli/command.h"
-#include <algorithm>
-#include <sys/resource.h>
+#include "memory_limits.h"
 
 using namespace bake;
 using bake::test::Folder;
@@ -21,20 +20,6 @@ struct FakeRoot {
 
 const std::string unified = "22 1 8:1 / / rw,relatime - ext4 /dev/sda1 rw\n"
                             "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:9 - cgroup2 cgroup2 rw,nsdelegate\n";
-
-#if !defined(__SANITIZE_ADDRESS__)
-/// Whether limits of memory hold: qemu, which runs programs of other processors, takes them and keeps none.
-bool keeps_memory_limits() {
-    rlimit before{}, now{};
-    getrlimit(RLIMIT_AS, &before);
-    rlimit lower = before;
-    lower.rlim_cur = std::min(before.rlim_max, rlim_t(1) << 40);
-    setrlimit(RLIMIT_AS, &lower);
-    getrlimit(RLIMIT_AS, &now);
-    setrlimit(RLIMIT_AS, &before);
-    return now.rlim_cur == lower.rlim_cur;
-}
-#endif
 
 } // namespace
 
@@ -84,9 +69,8 @@ TEST_SUITE("unit") {
         CHECK(!limit.reason.empty());
     }
 
-#if !defined(__SANITIZE_ADDRESS__)
     TEST_CASE("memory_limit: RLIMIT_AS and RLIMIT_DATA, without what is mapped and not resident" *
-              doctest::skip(!keeps_memory_limits())) {
+              doctest::skip(!test::keeps_memory_limits())) {
         for (const int resource : {RLIMIT_AS, RLIMIT_DATA}) {
             rlimit before{};
             REQUIRE(getrlimit(resource, &before) == 0);
@@ -103,7 +87,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("MemoryCap: memory_limit() knows the lowest, and a started process has none" *
-              doctest::skip(!keeps_memory_limits())) {
+              doctest::skip(!test::keeps_memory_limits())) {
         const MemoryLimit before = memory_limit();
         const auto started = started_process_limit();
         const auto same = [&] {
@@ -136,7 +120,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("MemoryCap: allocations beyond it fail, and no longer once it is gone" *
-              doctest::skip(!keeps_memory_limits())) {
+              doctest::skip(!test::keeps_memory_limits())) {
         const std::size_t much = std::size_t(256) << 20;
         {
             const MemoryCap cap({process_memory().resident + (std::size_t(64) << 20), "a test"}, 2);
@@ -145,5 +129,4 @@ TEST_SUITE("unit") {
         }
         CHECK_NOTHROW(std::vector<char>(much, 'a'));
     }
-#endif
 }

@@ -4,6 +4,7 @@
 #include "bake/picture/image_io.h"
 #include "bake/picture/picture_reply.h"
 #include "cli/command.h"
+#include "memory_limits.h"
 #include "picture/openimageio.h"
 #include <cerrno>
 #include <csignal>
@@ -15,12 +16,6 @@ using namespace bake;
 using namespace bake::test;
 
 namespace {
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool limits_memory = false; // the address sanitizer reserves terabytes of address space
-#else
-constexpr bool limits_memory = true;
-#endif
 
 fs::path greedy_decoder() { return fs::path(std::getenv("BAKE")).parent_path() / "greedy/bake_formats"; }
 
@@ -97,7 +92,7 @@ TEST_SUITE("unit") {
         const int descriptors[2] = {dup(2), dup(2)}; // not closed by exec
         CHECK(read_greedily(folder, "inherit", image) == "");
         for (const int descriptor : descriptors) close(descriptor);
-        if (!limits_memory) return;
+        if (!keeps_memory_limits()) return;
         CHECK(read_greedily(folder, "memory", image).find("took too much memory") != std::string::npos);
         CHECK(read_greedily(folder, "careless", image).find("crashed") != std::string::npos);
     }
@@ -166,7 +161,7 @@ TEST_SUITE("cli") {
     }
 
     TEST_CASE("foreign_picture: a picture of 34 bytes does not make its decoder take gigabytes") {
-        if (!limits_memory) return;
+        if (!keeps_memory_limits()) return;
         const Folder folder;
         std::string psd = std::string("8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\5\0\0\0\x09\0\x08\0\3", 26);
         write_file(folder / "a.psd",
