@@ -35,9 +35,11 @@ TEST_SUITE("cli") {
 
     TEST_CASE("limits: processor time that is used up is an interrupt") {
         const Folder folder;
-        const std::string large = large_waves(folder, 4096);
+        const std::string torus = (own_meshes() / "torus.obj").string();
         const RunLimits limits{.resources = {{RLIMIT_CPU, 1}}, .soft = true};
-        check_refused(folder, {"normal-map", large, "--quiet", "-o", "n.png"}, 130, "raise ulimit -t", limits);
+        // Minutes of work on any machine.
+        check_refused(folder, {"render", torus, "--size", "512", "--spp", "16384", "--quiet", "-o", "n.png"}, 130,
+                      "raise ulimit -t", limits);
     }
 
 #if !defined(__SANITIZE_ADDRESS__) // which reserves terabytes, and at the end takes a thread and a descriptor
