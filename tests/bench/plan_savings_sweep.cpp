@@ -15,91 +15,18 @@
 #include "bake/preview/relief_method.h"
 #include "bake/preview/render.h"
 #include "bake/preview/shape_mesh.h"
-#include "bake/relief/map/bump_table.h"
 #include "bake/verdict/plan/sky_plan.h"
 #include "bake/verdict/plan/texture_plan.h"
 #include "bench.h"
+#include "plan_savings_set.h"
 #include <cstring>
 
-using namespace bake;
+using namespace bench;
 
 namespace {
 
-constexpr double rms_slope = 0.3;
 constexpr int window = 256; ///< pixels along an edge of the picture
 constexpr int probed = 1024;
-
-struct Named {
-    const char *name, *file;
-};
-/// The heights of the pairs, and one whose waves are 128 texels long.
-constexpr Named heights[] = {
-    {"waves", ""},
-    {"Rock020", "pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg"},
-    {"Tiles036", "pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg"},
-    {"Metal007", "pairs/ambientcg_Metal007/Metal007_1K_Displacement.jpg"},
-    {"metal_tech", "pairs/cube2_metal_tech_01/metal_tech_01_hm.png"},
-    {"diamond_plate", "pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png"},
-    {"wall_plate", "pairs/cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png"},
-    {"castell_wall", "pairs/cube2_castell_wall_gk_v01/castell_wall_gk_v01_hm.jpg"},
-    {"wooden_planks", "pairs/cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png"},
-    {"rock_formation", "pairs/cube2_rock_formation_gk_v01/rock_formation_gk_v01_hm.png"},
-    {"parallax_cube", "pairs/bevy_parallax_cube/cube_depth.png"},
-};
-constexpr Named meshes[] = {
-    {"plane", ""},
-    {"LeePerrySmith", "leeperrysmith/LeePerrySmith.obj"},
-    {"spot", "spot/spot_triangulated.obj"},
-    {"boombox", "materialx/boombox.obj"},
-    {"armor", "gltf/armor.obj"},
-    {"fuze", "trimesh/fuze.obj"},
-};
-
-HeightTexture waves() {
-    constexpr int size = 1024;
-    HeightTexture height;
-    height.values = Image<float>(size, size, 1);
-    height.levels = 257;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const auto wave = [](int at) { return std::sin(2 * pi * 8 * (at + 0.5) / size); };
-            height.values.at(x, y) = float(0.5 + 0.5 * wave(x) * wave(y));
-        }
-    return height;
-}
-
-/// World length per unit of uv, from areas.
-double length_per_uv(const Shape& shape) {
-    double world = 0, chart = 0;
-    for (const Triangle& triangle : shape.surface.triangles) {
-        Vec3d p[3];
-        Vec2d uv[3];
-        for (int k = 0; k < 3; ++k) {
-            p[k] = Vec3d(shape.mesh.positions[shape.mesh.corner_position[triangle.corner[k]]]);
-            uv[k] = Vec2d(shape.mesh.uvs[shape.mesh.corner_uv[triangle.corner[k]]]);
-        }
-        world += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-        const Vec2d a = uv[1] - uv[0], b = uv[2] - uv[0];
-        chart += 0.5 * std::abs(a.x * b.y - a.y * b.x);
-    }
-    return std::sqrt(world / chart);
-}
-
-/// Height per unit of value that gives the rms slope on a surface of this length per unit of uv.
-double amplitude_for(const HeightTexture& height, double length) {
-    const Image<float> slopes = bump_table(height, BumpTableOptions{});
-    double squares = 0;
-    for (std::size_t i = 0; i < slopes.size(); ++i) squares += double(slopes.data()[i]) * double(slopes.data()[i]);
-    return rms_slope * length / std::sqrt(squares / (double(slopes.size()) / 2));
-}
-
-Material shiny() {
-    Material material;
-    material.reflectance.model = Reflectance::Model::normalised_phong;
-    material.reflectance.diffuse = Vec3f(0.5f), material.reflectance.specular = Vec3f(0.3f);
-    material.reflectance.shininess = 50;
-    return material;
-}
 
 /// An object with a baked map, seen through a window in the middle of it.
 Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::string& data) {
@@ -108,10 +35,12 @@ Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::st
         make_shape(*mesh.file ? read_mesh(data + "/meshes/" + mesh.file) : shape_mesh("plane", 1, 1)));
     Shape& shape = *scene.shapes[0];
     const double length = length_per_uv(shape);
+    Material base;
+    base.reflectance = shiny();
     ReliefOptions options;
     options.method.shade = Shade::normal;
     options.height.amplitude = amplitude_for(height, length);
-    scene.materials.push_back(std::make_unique<Material>(with_relief(shiny(), shape, height, options).material));
+    scene.materials.push_back(std::make_unique<Material>(with_relief(base, shape, height, options).material));
     Placement placement;
     if (!*mesh.file) placement.rotate_deg.x = 60; // from the ground towards the camera
     add_instance(scene, shape, *scene.materials[0], placement);

@@ -35,6 +35,7 @@ private:
     std::unique_ptr<AssembledScene> next_scene();
     void probe(Candidate& c, AssembledScene& scene);
     void choose(Candidate& c, Known known);
+    void choose_displaced(Candidate& c);
     void finish(Candidate& c, const std::string& why);
     void add_flip(Candidate& c, AssembledScene& chosen);
     void measure_dearer(Candidate& c);
@@ -82,7 +83,6 @@ void Decider::begin(Candidate& c) {
     c.cost = {std::int64_t(object.shape->surface.triangles.size()), int(object.instances.size()), height.width(),
               height.height()};
     c.edge = edge_texels(*object.shape, height.width(), height.height());
-    c.dominant = dominant_wave(height);
     const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
     c.shortest = std::min(waves.u, waves.v);
     const HeightOptions& options = object.relief.height;
@@ -93,7 +93,7 @@ void Decider::begin(Candidate& c) {
     c.first_triangles = std::clamp(least_triangles * pixels, candidates_.size() > 1 ? 4e3 : 2e4, 1e5);
     const double together = triangles_together / double(candidates_.size());
     c.most_refined = std::min(5e6, together);
-    c.most_triangles = std::clamp(most_triangles * pixels, std::min(1e5, together), together);
+    c.most_triangles = std::clamp(most_triangles * pixels, std::min(1e6, together), together);
     c.facts.emplace(work_.scenes, work_.plain->scene, c.decision->object, work_.exposure);
     ObjectPlan& plan = c.plan();
     if (plan.rungs.empty()) list_rungs(c);
@@ -120,14 +120,6 @@ bool Decider::is_settled_unseen(Candidate& c) {
     const Budget& budget = work_.options.budget;
     for (; !c.done && c.has_rung(); ++c.next) {
         Rung& rung = c.rung();
-        const double edge = c.edge / std::exp2(rung.method.levels);
-        if (displaces(rung.method.shade) && edge > c.dominant) {
-            rung.known = Known::skipped;
-            rung.note = format("its edges of %.3g texels are longer than the waves of the height, which are %.3g "
-                               "texels long",
-                               edge, c.dominant);
-            continue;
-        }
         std::optional<ErrorBound> bound;
         // Clamped values differ by no more than 1, and neither does FLIP.
         if (std::isinf(budget.value) || (budget.metric != Budget::Metric::degrees && budget.value >= 1))
@@ -145,7 +137,7 @@ bool Decider::is_settled_unseen(Candidate& c) {
     }
     // The reference that is shown is one whose error is known and small.
     if (!c.done && (c.level < 0 || references_.is_too_coarse(c))) return false;
-    if (!c.done) finish(c, nothing_cheaper);
+    if (!c.done) choose_displaced(c);
     return true;
 }
 
@@ -212,6 +204,24 @@ void Decider::choose(Candidate& c, Known known) {
     c.rung().known = known;
     c.plan().chosen = int(c.next);
     finish(c, why_enough(c.rung().method, c.facts->worst()));
+}
+
+/// No rung will do: the reference, or the mesh of half its segments, whose error is known from measuring the reference.
+void Decider::choose_displaced(Candidate& c) {
+    ObjectPlan& plan = c.plan();
+    if (c.level < 1 || judge(c.coarser, work_.options.budget.value, plan.reference_error) != Settled::within)
+        return finish(c, nothing_cheaper);
+    const ShadeMethod method{Shade::displace, c.level - 1};
+    auto rung = std::find_if(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& other) {
+        return other.method.shade == method.shade && other.method.levels == method.levels;
+    });
+    if (rung == plan.rungs.end()) {
+        rung = plan.rungs.emplace(rung);
+        rung->method = method, rung->cost = model_cost(c.cost, method);
+    }
+    rung->error = c.coarser, rung->camera = work_.scenes.cameras()[c.coarser_worst].name, rung->note.clear();
+    c.next = std::size_t(rung - plan.rungs.begin()), c.worst = c.coarser_worst;
+    choose(c, Known::probe);
 }
 
 void Decider::finish(Candidate& c, const std::string& why) {

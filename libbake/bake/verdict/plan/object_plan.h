@@ -3,8 +3,7 @@
 //   1. A rung whose error has an upper bound within the budget needs no picture.
 //   2. Every other rung is probed against a displaced mesh (references.h). None is left out by a search, because a dearer rung
 //      can have the larger error. Every camera must be satisfied.
-//   3. Grids whose edges are longer than the dominant wave of the height are left out: they sample it as noise.
-//   4. Of what the probes do not settle, the cheapest rung that is acceptable() is taken, and marked.
+//   3. Of what the probes do not settle, the cheapest rung that is acceptable() is taken, and marked.
 #pragma once
 #include "bake/verdict/plan/plan_work.h"
 

@@ -90,7 +90,7 @@ void References::measure(std::vector<Candidate>& candidates) {
     for (Candidate& c : candidates) {
         if (c.done || c.level == c.measured) continue;
         c.measured = c.level;
-        c.plan().reference_error = 0;
+        c.plan().reference_error = 0, c.coarser = {};
         if (c.level == 0) continue;
         models[std::size_t(c.decision->object)] = work_.scenes.bake(c.decision->object, {Shade::displace, c.level - 1});
         changed.push_back(&c);
@@ -101,9 +101,10 @@ void References::measure(std::vector<Candidate>& candidates) {
         const bool resolved = c->edge / std::exp2(c->level) * edges_per_wave <= c->shortest;
         for (std::size_t camera = 0; camera < c->meters.size(); ++camera) {
             work_.scenes.light_for(scene_->scene, camera), work_.scenes.light_for(coarse->scene, camera);
-            const double change = c->meters[camera].measure(c->of(*coarse), measured_pixels).rmse();
-            c->plan().reference_error = std::max(c->plan().reference_error, change / (resolved ? 3 : 1));
+            const SquareEstimate change = c->meters[camera].measure(c->of(*coarse), measured_pixels);
+            if (camera == 0 || change.square > c->coarser.square) c->coarser = change, c->coarser_worst = camera;
         }
+        c->plan().reference_error = c->coarser.rmse() / (resolved ? 3 : 1);
     }
 }
 

@@ -19,7 +19,7 @@ struct Candidate {
     std::optional<ObjectFacts> facts;
     CostInput cost;
     double edge = 0;                   ///< of the mesh, texels
-    double dominant = 0, shortest = 0; ///< waves of the height, texels
+    double shortest = 0;               ///< wave of the height, texels
     bool has_relief = true;            ///< some height is not 0
     std::size_t next = 0;              ///< rung
     std::size_t last = 0;              ///< the last one that was probed before
@@ -31,6 +31,8 @@ struct Candidate {
     double most_triangles = 1.2e7;  ///< beyond which it is not refined for the sake of a rung
     int level = -1;                 ///< of the reference
     int measured = -1;              ///< the level whose error is known
+    SquareEstimate coarser;         ///< error of the mesh that is coarser by a level; of the worst camera
+    std::size_t coarser_worst = 0;  ///< that camera
     int most_level = 0;             ///< finer ones do not fit
     bool waits = false;             ///< for a finer reference, to judge the next rung again
     std::vector<ErrorMeter> meters; ///< one per camera

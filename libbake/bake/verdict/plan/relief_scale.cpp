@@ -1,39 +1,7 @@
 #include "bake/verdict/plan/relief_scale.h"
 #include <cmath>
-#include <limits>
 
 namespace bake {
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// The wavelength of a sine whose difference quotients over one texel have the ratio `ratio` to its values: the ratio is
-/// 2 sin(pi / wavelength).
-double wavelength(double ratio) noexcept {
-    if (!(ratio > 0)) return infinite;
-    return ratio >= 2 ? 2 : pi / std::asin(ratio / 2);
-}
-
-} // namespace
-
-double dominant_wave(const Image<float>& height) {
-    const int w = height.width(), h = height.height();
-    double mean = 0;
-    for (std::size_t i = 0; i < height.size(); ++i) mean += height.data()[i];
-    mean /= double(height.size());
-    double values = 0, slopes = 0;
-    for (int y = 0; y < h; ++y) {
-        const float *row = height.row(y), *next = height.row((y + 1) % h);
-        for (int x = 0; x < w; ++x) {
-            const double b = row[x], b_u = row[(x + 1) % w] - b, b_v = next[x] - b;
-            values += (b - mean) * (b - mean);
-            slopes += b_u * b_u + b_v * b_v;
-        }
-    }
-    // Rounding makes a flat height vary a little.
-    if (values <= 1e-12 * mean * mean * double(height.size())) return infinite;
-    return wavelength(std::sqrt(slopes / values));
-}
 
 double edge_texels(const Shape& shape, int width, int height) {
     const Mesh& mesh = shape.mesh;
