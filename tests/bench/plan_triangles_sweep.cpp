@@ -103,8 +103,8 @@ void measure(const Named& mesh, const Relief& relief, const std::string& data) {
     const Verification& verified = plan.verified.front();
     const bool cheaper = object.chosen >= 0;
     const Rung* rung = cheaper ? &object.rungs[std::size_t(object.chosen)] : nullptr;
-    std::printf("%s,%s,%zu,%.0f,%s,%lld,%.4g,%.4g,%.4g,%.4g,%.3g\n", mesh.name, relief.name, scene.base, scene.one_pixel,
-                name(cheaper ? rung->method : object.reference).c_str(),
+    std::printf("%s,%s,%zu,%.0f,%s,%lld,%.4g,%.4g,%.4g,%.4g,%.3g\n", mesh.name, relief.name, scene.base,
+                scene.one_pixel, name(cheaper ? rung->method : object.reference).c_str(),
                 static_cast<long long>((cheaper ? rung->cost : object.reference_cost).triangles),
                 verified.predicted.rmse(), verified.measured.rmse(), verified.measured.low(), verified.measured.high(),
                 seconds);

@@ -3,6 +3,7 @@
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/report/page_assets.h"
 #include "cli/command.h"
+#include "memory_limits.h"
 #include <nlohmann/json.hpp>
 
 using namespace bake;
@@ -117,6 +118,24 @@ TEST_SUITE("cli") {
         for (const MaterialEntry& material : planned.materials) CHECK(material.relief_size == 1);
         CHECK_MESSAGE(has(run.out, "sky: no command bakes its mean"), run.out);
         CHECK(run_bake(folder, {"render", "p.toml", "-o", "p.png", "--spp", "1"}).code == 0);
+    }
+
+    TEST_CASE(
+        "plan: beside a reference that does not fit in memory it plans against the finest that does, and says so") {
+        if (!keeps_memory_limits()) return;
+        const Folder folder;
+        write_scene(folder);
+        const std::vector<std::string> words = line({"--budget", "rmse=0.0002", "--threads", "1", "--json"});
+        const auto levels = [&](const Run& run) {
+            REQUIRE(run.code == 0);
+            return std::stoi(
+                nlohmann::json::parse(run.out)["objects"][0]["reference"]["model"].get<std::string>().substr(9));
+        };
+        const Run all = run_bake(folder, words);
+        const Run less = run_bake(folder, words, {.resources = {{RLIMIT_AS, 300LL << 20}}});
+        CHECK_FALSE(has(all.out, "fits in memory"));
+        CHECK(has(less.out, "the finest that fits in memory"));
+        CHECK(levels(less) < levels(all));
     }
 
     TEST_CASE("plan: refusals name the option or the file, and leave nothing behind") {

@@ -104,13 +104,30 @@ TEST_SUITE("unit") {
         const SceneEntries entries = relief_scene("sphere:R=1", 1);
         constexpr double strict = 0.0015, loose = 0.05;
         const ObjectPlan shown = plan_one(entries, strict);
-        CHECK(shown.chosen < 0); // so that the reference itself is shown
         CHECK(shown.reference_error <= 0.15 * strict);
         const ObjectPlan bumped = plan_one(entries, loose);
         CHECK(chosen(bumped).known == Known::probe);
         CHECK(chosen(bumped).error.high() + bumped.reference_error <= 1.1 * loose);
         CHECK(bumped.reference_error > 0.15 * strict);
         CHECK(bumped.reference.levels < shown.reference.levels);
+    }
+
+    TEST_CASE(
+        "plan_scene: where no rung will do, the mesh of half the reference's segments is shown if that is enough") {
+        const SceneEntries entries = relief_scene("sphere:R=1", 1);
+        PlanOptions options = with_budget(0.0007);
+        options.verify = true;
+        const ScenePlan plan = plan_scene(entries, options);
+        const ObjectPlan& object = plan.objects.at(0);
+        const Rung& rung = chosen(object);
+        CHECK(rung.method.shade == Shade::displace);
+        CHECK(rung.method.levels == object.reference.levels - 1);
+        CHECK(rung.cost.triangles * 4 == object.reference_cost.triangles);
+        CHECK(rung.note.empty());
+        CHECK_FALSE(plan.over_budget);
+        CHECK(plan.verified.at(0).measured.rmse() > 0);
+        CHECK(plan.verified.at(0).measured.rmse() <= 1.1 * options.budget.value);
+        CHECK(plan_one(entries, 0.0001).chosen < 0);
     }
 
     TEST_CASE("plan_scene: the same plan for any number of threads") {

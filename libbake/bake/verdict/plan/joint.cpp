@@ -138,7 +138,9 @@ void check_together(PlanWork& work, std::span<ObjectDecision> decisions) {
     const bool alone =
         decisions.size() == 1 && work.scenes.objects()[std::size_t(decisions[0].object)].instances.size() ==
                                      work.scenes.plain().instances.size();
-    if (decisions.empty() || alone || !(budget < 1e30)) return;
+    const bool in_full = std::all_of(decisions.begin(), decisions.end(), // nothing can be finer
+                                     [](const ObjectDecision& decision) { return decision.plan.chosen < 0; });
+    if (in_full || alone || !(budget < 1e30)) return;
     for (int round = 0; round < most_rounds; ++round) {
         if (work.progress) work.progress->start("check all together", 0);
         if (!refine(work, decisions)) return;

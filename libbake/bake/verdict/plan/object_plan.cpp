@@ -18,8 +18,9 @@ constexpr double triangles_together = 1.2e7; ///< of the references of objects t
 constexpr int neighbour_pixels = 256;        ///< on which the next dearer rung is measured
 constexpr const char* nothing_cheaper = "no cheaper model is within the budget";
 
+/// Four times per edge, or twice where no such grid will do and the reference is as fine as it has to be.
 bool is_coarser_than_reference(const Candidate& c, const Rung& rung) noexcept {
-    return !displaces(rung.method.shade) || rung.method.levels + 2 <= c.level;
+    return !displaces(rung.method.shade) || rung.method.levels + (c.halved ? 1 : 2) <= c.level;
 }
 
 class Decider {
@@ -32,10 +33,10 @@ private:
     void list_rungs(Candidate& c) const;
     double pixels_in_view(const Candidate& c) const;
     bool is_settled_unseen(Candidate& c);
+    bool tries_half(Candidate& c) const;
     std::unique_ptr<AssembledScene> next_scene();
     void probe(Candidate& c, AssembledScene& scene);
     void choose(Candidate& c, Known known);
-    void choose_displaced(Candidate& c);
     void finish(Candidate& c, const std::string& why);
     void add_flip(Candidate& c, AssembledScene& chosen);
     void measure_dearer(Candidate& c);
@@ -137,7 +138,27 @@ bool Decider::is_settled_unseen(Candidate& c) {
     }
     // The reference that is shown is one whose error is known and small.
     if (!c.done && (c.level < 0 || references_.is_too_coarse(c))) return false;
-    if (!c.done) choose_displaced(c);
+    if (!c.done && tries_half(c)) return false;
+    if (!c.done) finish(c, nothing_cheaper);
+    return true;
+}
+
+/// Whether the mesh of half the reference's segments becomes the next rung.
+bool Decider::tries_half(Candidate& c) const {
+    if (c.halved || c.level < 1) return false;
+    c.halved = true;
+    const ShadeMethod method{Shade::displace, c.level - 1};
+    std::vector<Rung>& rungs = c.plan().rungs;
+    auto rung = std::find_if(rungs.begin(), rungs.end(), [&](const Rung& other) {
+        return other.method.shade == method.shade && other.method.levels == method.levels;
+    });
+    if (rung == rungs.end()) {
+        rung = rungs.emplace(rung);
+        rung->method = method, rung->cost = model_cost(c.cost, method);
+    }
+    if (rung->known == Known::probe || rung->known == Known::not_settled) return false;
+    rung->known = Known::not_tried, rung->note.clear();
+    c.next = std::size_t(rung - rungs.begin());
     return true;
 }
 
@@ -206,28 +227,13 @@ void Decider::choose(Candidate& c, Known known) {
     finish(c, why_enough(c.rung().method, c.facts->worst()));
 }
 
-/// No rung will do: the reference, or the mesh of half its segments, whose error is known from measuring the reference.
-void Decider::choose_displaced(Candidate& c) {
-    ObjectPlan& plan = c.plan();
-    if (c.level < 1 || judge(c.coarser, work_.options.budget.value, plan.reference_error) != Settled::within)
-        return finish(c, nothing_cheaper);
-    const ShadeMethod method{Shade::displace, c.level - 1};
-    auto rung = std::find_if(plan.rungs.begin(), plan.rungs.end(), [&](const Rung& other) {
-        return other.method.shade == method.shade && other.method.levels == method.levels;
-    });
-    if (rung == plan.rungs.end()) {
-        rung = plan.rungs.emplace(rung);
-        rung->method = method, rung->cost = model_cost(c.cost, method);
-    }
-    rung->error = c.coarser, rung->camera = work_.scenes.cameras()[c.coarser_worst].name, rung->note.clear();
-    c.next = std::size_t(rung - plan.rungs.begin()), c.worst = c.coarser_worst;
-    choose(c, Known::probe);
-}
-
 void Decider::finish(Candidate& c, const std::string& why) {
     c.done = true;
     c.decision->decided = true;
     c.plan().why = why;
+    if (References::is_limited_by_memory(c))
+        work_.note(format("%s: its reference is %s, the finest that fits in memory", c.plan().object.c_str(),
+                          name(c.plan().reference).c_str()));
     if (!work_.options.told) return;
     const std::string method = name(chosen_method(c.plan()));
     work_.options.told(c.plan().object + ": " + (why.starts_with(method) ? why : method + "; " + why));

@@ -24,7 +24,8 @@ bool raise(Candidate& c, int level, double most) noexcept {
 /// For the next rung.
 int wanted_level(const Candidate& c) noexcept {
     const int first = first_level(c);
-    return c.has_rung() && displaces(c.rung().method.shade) ? std::max(first, c.rung().method.levels + 2) : first;
+    return c.has_rung() && !c.halved && displaces(c.rung().method.shade) ? std::max(first, c.rung().method.levels + 2)
+                                                                         : first;
 }
 
 } // namespace
@@ -52,9 +53,6 @@ void References::bake(Candidate& c) {
             c.most_level = c.level - 1;
         }
     }
-    if (c.level == c.most_level && c.level < most_levels)
-        work_.note(format("%s: its reference is %s, the finest that fits in memory", c.plan().object.c_str(),
-                          name({Shade::displace, c.level}).c_str()));
     c.plan().reference = {Shade::displace, c.level};
     c.plan().reference_cost = model_cost(c.cost, c.plan().reference);
 }
@@ -70,6 +68,33 @@ void References::make_meters(Candidate& c) {
 }
 
 void References::build(std::vector<Candidate>& candidates) {
+    for (;;) {
+        try {
+            return try_build(candidates);
+        } catch (const Error& error) {
+            if (error.refusal != Refusal::unsuitable || !coarsen(candidates)) throw;
+        } catch (const std::bad_alloc&) {
+            if (!coarsen(candidates)) throw;
+        }
+    }
+}
+
+/// Meshes that fit one by one need not fit together with the tree over them. False if the largest cannot be coarser.
+bool References::coarsen(std::vector<Candidate>& candidates) {
+    Candidate* largest = nullptr;
+    for (Candidate& c : candidates) {
+        if (c.done) continue;
+        c.measured = -1;
+        if (c.level > 0 &&
+            (!largest || displaced_triangles(c, c.level) > displaced_triangles(*largest, largest->level)))
+            largest = &c;
+    }
+    if (!largest) return false;
+    largest->most_level = --largest->level;
+    return true;
+}
+
+void References::try_build(std::vector<Candidate>& candidates) {
     for (Candidate& c : candidates) c.meters.clear();
     scene_.reset();
     BakedModels models(work_.scenes.objects().size());
@@ -90,7 +115,7 @@ void References::measure(std::vector<Candidate>& candidates) {
     for (Candidate& c : candidates) {
         if (c.done || c.level == c.measured) continue;
         c.measured = c.level;
-        c.plan().reference_error = 0, c.coarser = {};
+        c.plan().reference_error = 0;
         if (c.level == 0) continue;
         models[std::size_t(c.decision->object)] = work_.scenes.bake(c.decision->object, {Shade::displace, c.level - 1});
         changed.push_back(&c);
@@ -101,10 +126,9 @@ void References::measure(std::vector<Candidate>& candidates) {
         const bool resolved = c->edge / std::exp2(c->level) * edges_per_wave <= c->shortest;
         for (std::size_t camera = 0; camera < c->meters.size(); ++camera) {
             work_.scenes.light_for(scene_->scene, camera), work_.scenes.light_for(coarse->scene, camera);
-            const SquareEstimate change = c->meters[camera].measure(c->of(*coarse), measured_pixels);
-            if (camera == 0 || change.square > c->coarser.square) c->coarser = change, c->coarser_worst = camera;
+            const double change = c->meters[camera].measure(c->of(*coarse), measured_pixels).rmse();
+            c->plan().reference_error = std::max(c->plan().reference_error, change / (resolved ? 3 : 1));
         }
-        c->plan().reference_error = c->coarser.rmse() / (resolved ? 3 : 1);
     }
 }
 
@@ -112,6 +136,10 @@ bool References::is_too_coarse(const Candidate& c) const noexcept {
     const double budget = work_.options.budget.value;
     return budget > 0 && c.plan().reference_error > tolerable * budget && c.level < c.most_level &&
            displaced_triangles(c, c.level + 1) <= c.most_refined;
+}
+
+bool References::is_limited_by_memory(const Candidate& c) noexcept {
+    return c.level >= 0 && c.level == c.most_level && c.level < most_levels;
 }
 
 void References::prepare(std::vector<Candidate>& candidates) {

@@ -31,10 +31,9 @@ struct Candidate {
     double most_triangles = 1.2e7;  ///< beyond which it is not refined for the sake of a rung
     int level = -1;                 ///< of the reference
     int measured = -1;              ///< the level whose error is known
-    SquareEstimate coarser;         ///< error of the mesh that is coarser by a level; of the worst camera
-    std::size_t coarser_worst = 0;  ///< that camera
     int most_level = 0;             ///< finer ones do not fit
     bool waits = false;             ///< for a finer reference, to judge the next rung again
+    bool halved = false;            ///< no rung will do, and grids of half the reference's segments are tried
     std::vector<ErrorMeter> meters; ///< one per camera
 
     ObjectPlan& plan() const noexcept { return decision->plan; }
@@ -57,11 +56,15 @@ public:
     void prepare(std::vector<Candidate>& candidates);
     /// Whether its error is too large for the budget, and a finer reference may have as many triangles as it needs.
     bool is_too_coarse(const Candidate& c) const noexcept;
+    /// Whether it is the finest that fits.
+    static bool is_limited_by_memory(const Candidate& c) noexcept;
     AssembledScene& scene() noexcept { return *scene_; }
 
 private:
     void bake(Candidate& c);
     void build(std::vector<Candidate>& candidates);
+    void try_build(std::vector<Candidate>& candidates);
+    static bool coarsen(std::vector<Candidate>& candidates);
     void make_meters(Candidate& c);
     void measure(std::vector<Candidate>& candidates);
 
