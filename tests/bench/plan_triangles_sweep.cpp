@@ -1,9 +1,9 @@
 // plan_triangles_sweep: what bake plan saves of triangles.
 //
-//   plan_triangles_sweep DATA [HEIGHTS]   one row of csv per height and mesh on stdout; DATA is ../shared/data.
+//   plan_triangles_sweep DATA [HEIGHTS]   one row of csv per height, mesh and slope on stdout; DATA is ../shared/data.
 //                                         HEIGHTS: only those whose names contain it
 //
-// A mesh that fills a picture of 384² pixels, with a height that is on it once, with an rms slope of .3, under one directional
+// A mesh that fills a picture of 256² pixels, with a height that is on it once, of three rms slopes, under one directional
 // light; budget normal. `one_pixel` is the number of triangles of half a square pixel that tile the surface, seen face on: what
 // displacement with edges of one pixel needs at least. `chosen` has `triangles`. The errors are those of whole pictures with
 // their intervals.
@@ -19,13 +19,14 @@ using namespace bench;
 
 namespace {
 
-constexpr int edge = 384; ///< pixels along an edge of the picture
+constexpr int edge = 256; ///< pixels along an edge of the picture
+constexpr double slopes[] = {0.03, 0.1, 0.3};
 constexpr float fov_deg = 40;
 
 struct Relief {
     const char* name;
     std::shared_ptr<LoadedPicture> picture;
-    double amplitude = 0; ///< on a surface whose unit of uv is one long
+    double amplitude = 0; ///< with the rms slope `rms_slope`, on a surface whose unit of uv is one long
     float mean = 0;       ///< of the values, which is the surface without relief
 };
 
@@ -50,7 +51,7 @@ struct Planned {
     std::size_t base = 0; ///< triangles of the mesh
 };
 
-Planned planned_scene(const Named& mesh, const Relief& relief, const std::string& data) {
+Planned planned_scene(const Named& mesh, const Relief& relief, double slope, const std::string& data) {
     Planned made;
     const std::string file = data + "/meshes/" + mesh.file;
     const std::unique_ptr<const Shape> owned = make_shape(read_mesh(file));
@@ -67,7 +68,7 @@ Planned planned_scene(const Named& mesh, const Relief& relief, const std::string
     MaterialEntry material{.name = "shiny"};
     material.reflectance = shiny();
     material.relief.file = "relief.exr";
-    material.relief.amplitude = float(relief.amplitude * length_per_uv(shape));
+    material.relief.amplitude = float(slope / rms_slope * relief.amplitude * length_per_uv(shape));
     material.relief.midlevel = relief.mean;
     entries.materials = {material};
     MeshEntry entry{.file = file, .name = mesh.name};
@@ -91,8 +92,8 @@ Planned planned_scene(const Named& mesh, const Relief& relief, const std::string
     return made;
 }
 
-void measure(const Named& mesh, const Relief& relief, const std::string& data) {
-    const Planned scene = planned_scene(mesh, relief, data);
+void measure(const Named& mesh, const Relief& relief, double slope, const std::string& data) {
+    const Planned scene = planned_scene(mesh, relief, slope, data);
     PlanOptions options;
     options.verify = true;
     ScenePlan plan;
@@ -103,7 +104,7 @@ void measure(const Named& mesh, const Relief& relief, const std::string& data) {
     const Verification& verified = plan.verified.front();
     const bool cheaper = object.chosen >= 0;
     const Rung* rung = cheaper ? &object.rungs[std::size_t(object.chosen)] : nullptr;
-    std::printf("%s,%s,%zu,%.0f,%s,%lld,%.4g,%.4g,%.4g,%.4g,%.3g\n", mesh.name, relief.name, scene.base,
+    std::printf("%s,%s,%g,%zu,%.0f,%s,%lld,%.4g,%.4g,%.4g,%.4g,%.3g\n", mesh.name, relief.name, slope, scene.base,
                 scene.one_pixel, name(cheaper ? rung->method : object.reference).c_str(),
                 static_cast<long long>((cheaper ? rung->cost : object.reference_cost).triangles),
                 verified.predicted.rmse(), verified.measured.rmse(), verified.measured.low(), verified.measured.high(),
@@ -115,12 +116,14 @@ void measure(const Named& mesh, const Relief& relief, const std::string& data) {
 
 int main(int argc, char** argv) try {
     if (argc < 2 || argc > 3) return std::fprintf(stderr, "plan_triangles_sweep DATA [HEIGHTS]\n"), 2;
-    std::printf("mesh,height,base,one_pixel,chosen,triangles,predicted,measured,measured_low,measured_high,seconds\n");
+    std::printf(
+        "mesh,height,slope,base,one_pixel,chosen,triangles,predicted,measured,measured_low,measured_high,seconds\n");
     for (const Named& name : heights) {
         if (argc > 2 && std::string(name.name).find(argv[2]) == std::string::npos) continue;
         const Relief relief = relief_of(name, argv[1]);
         for (const Named& mesh : meshes)
-            if (*mesh.file) measure(mesh, relief, argv[1]);
+            for (const double slope : slopes)
+                if (*mesh.file) measure(mesh, relief, slope, argv[1]);
     }
 } catch (const std::exception& error) {
     return std::fprintf(stderr, "plan_triangles_sweep: %s\n", error.what()), 1;
