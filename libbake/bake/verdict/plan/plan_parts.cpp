@@ -31,17 +31,6 @@ std::vector<PartOptions::View> planned_views(const SceneEntries& entries, const 
     return views;
 }
 
-float exposure_of(const Scene& scene) {
-    if (scene.settings.exposure) return *scene.settings.exposure;
-    RenderSettings settings = scene.settings;
-    const double scale = std::min(1.0, double(exposure_edge) / std::max(settings.width, settings.height));
-    settings.width = std::max(1, int(settings.width * scale)),
-    settings.height = std::max(1, int(settings.height * scale));
-    settings.part.reset();
-    settings.spp = exposure_spp;
-    return automatic_exposure(render(scene, settings));
-}
-
 int kinds_decided(const PlanOptions& options) noexcept {
     return int(options.decide_textures || options.decide_formats) + int(options.decide_sky) +
            int(options.decide_lights);
@@ -78,6 +67,16 @@ void decide(const Scene& scene, const SceneEntries& entries, const PlanOptions& 
 
 } // namespace
 
+float small_picture_exposure(const Scene& scene, RenderSettings settings) {
+    if (settings.exposure) return *settings.exposure;
+    const double scale = std::min(1.0, double(exposure_edge) / std::max(settings.width, settings.height));
+    settings.width = std::max(1, int(settings.width * scale)),
+    settings.height = std::max(1, int(settings.height * scale));
+    settings.part.reset();
+    settings.spp = exposure_spp;
+    return automatic_exposure(render(scene, settings));
+}
+
 double part_budget(const PlanOptions& options, const ScenePlan& plan) {
     const double budget = rmse_of(options.budget);
     double worst = 0;
@@ -90,7 +89,7 @@ void plan_parts(const SceneEntries& planned, const PlanOptions& options, ScenePl
     if (kinds_decided(options) == 0) return;
     try {
         const Scene scene = load(planned);
-        if (plan.objects.empty()) plan.exposure = exposure_of(scene);
+        if (plan.objects.empty()) plan.exposure = small_picture_exposure(scene, scene.settings);
         PartOptions parts;
         parts.views = planned_views(planned, scene, options.cameras);
         parts.exposure = plan.exposure;

@@ -21,4 +21,7 @@ double part_budget(const PlanOptions& options, const ScenePlan& plan);
 /// of `planned`, planned_entries() with these textures.
 void round_textures(const SceneEntries& planned, const ScenePlan& plan, Scene& scene);
 
+/// The exposure of the settings, in stops, or else the one chosen by a small picture of the whole scene.
+float small_picture_exposure(const Scene& scene, RenderSettings settings);
+
 } // namespace bake

@@ -20,9 +20,8 @@ using Clock = std::chrono::steady_clock;
 /// Up to so many objects, each is judged in scenes of its own. More are judged in groups, whose members stand apart in the
 /// file: building as many scenes as there are objects and rungs would take a time that grows with the square of their number.
 constexpr std::size_t most_alone = 8;
-constexpr double group_triangles = 4e6;              ///< of the first references of a group
-constexpr double reference_triangles = 1e5;          ///< of an object, about
-constexpr int exposure_edge = 96, exposure_spp = 16; ///< of the picture that the exposure is chosen by
+constexpr double group_triangles = 4e6;     ///< of the first references of a group
+constexpr double reference_triangles = 1e5; ///< of an object, about
 
 std::vector<std::vector<int>> groups_of(std::size_t objects) {
     std::size_t count = objects;
@@ -46,16 +45,7 @@ float chosen_exposure(PlanScenes& scenes) {
         while (levels < 10 && own * double(object.instances.size()) * std::exp2(2.0 * levels) < most) ++levels;
         models[i] = scenes.bake(int(i), {Shade::displace, levels});
     }
-    const auto scene = scenes.assemble(std::move(models));
-    RenderSettings settings = scenes.settings();
-    const double scale = double(exposure_edge) / std::max(settings.width, settings.height);
-    if (scale < 1) {
-        settings.width = std::max(1, int(settings.width * scale)),
-        settings.height = std::max(1, int(settings.height * scale));
-        settings.part.reset();
-    }
-    settings.spp = exposure_spp;
-    return automatic_exposure(render(scene->scene, settings));
+    return small_picture_exposure(scenes.assemble(std::move(models))->scene, scenes.settings());
 }
 
 /// Decides group by group. What is decided when the user stops it is kept.
