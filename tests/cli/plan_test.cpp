@@ -199,7 +199,7 @@ TEST_SUITE("cli") {
     TEST_CASE("plan: Ctrl-C keeps the decisions that were made, and exits with 130") {
         const Folder folder;
         write_scene(folder);
-        const Run run = run_bake(folder, line({"--size", "1500", "--budget", "rmse=0", "-o", "p.toml"}),
+        const Run run = run_bake(folder, line({"--size", "1500", "--budget", "rmse=0.001", "-o", "p.toml"}),
                                  {.seconds = 100, .interrupt_after = 0.7});
         CHECK(run.code == 130);
         CHECK(has(run.err, "interrupted"));

@@ -8,6 +8,10 @@ namespace {
 
 constexpr std::int64_t pixels_per_task = 4;
 
+/// The largest errors lie along contours, which are a share of an object's pixels that falls with the root of their number. As many
+/// of these are to be seen of a large object as of one of 1000 pixels before it can pass.
+int pass_from_of(std::size_t pixels) noexcept { return int(std::min(8 * std::sqrt(double(pixels)), 1e9)); }
+
 /// Renders pixels of one scene.
 class Prober {
 public:
@@ -118,7 +122,8 @@ SquareEstimate ReferenceProbe::estimate(const Visit& visited) const noexcept {
 }
 
 ReferenceProbe::Result ReferenceProbe::judge(const ProbedScene& candidate, double budget, double reference_error,
-                                             const StoppingRule& rule) {
+                                             StoppingRule rule) {
+    rule.pass_from = std::max(rule.pass_from, std::min(rule.most, pass_from_of(pixels_.size())));
     Visit visited;
     double wanted = std::max(1, rule.first);
     for (;;) {

@@ -64,8 +64,8 @@ public:
         SquareEstimate estimate;
         Settled settled = Settled::open;
     };
-    Result judge(const ProbedScene& candidate, double budget, double reference_error = 0,
-                 const StoppingRule& rule = {});
+    /// An object of n pixels, more than 1000, can pass from 8 sqrt(n) object pixels on, or from rule.most.
+    Result judge(const ProbedScene& candidate, double budget, double reference_error = 0, StoppingRule rule = {});
     /// Without a budget: at least `pixels` object pixels.
     SquareEstimate measure(const ProbedScene& candidate, int pixels = 2048);
     const std::vector<Pixel>& pixels() const noexcept { return pixels_; }
