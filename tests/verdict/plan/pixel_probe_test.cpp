@@ -228,6 +228,14 @@ TEST_SUITE("unit") {
         CHECK(pixels_for(0, Settled::over) < 256);
         const auto enough = pixels_for(3 * error.rmse(), Settled::within);
         CHECK((enough >= 364 && enough < 400)); // the first look at no fewer than 256
+        const ProbeOptions closer = probe_options(pair.candidate, 110);
+        ReferenceProbe large(pair.wanted(), pair.pixels(closer), closer);
+        const double as_many = 8 * std::sqrt(double(large.pixels().size()));
+        REQUIRE(as_many > 420);
+        const auto passed = large.judge(pair.shown(), 3 * error.rmse());
+        CHECK(passed.settled == Settled::within);
+        CHECK(double(passed.estimate.pixels) >= as_many);
+        CHECK(double(passed.estimate.pixels) < 1.7 * as_many); // the next look at the latest
         // Between fail_at and pass_at it is open to the end.
         StoppingRule rule{.fail_at = 0.99, .pass_at = 1.01};
         const auto open = probe.judge(pair.shown(), error.rmse(), 0, rule);
