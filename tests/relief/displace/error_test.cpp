@@ -1,5 +1,6 @@
 #include "bake/relief/displace/error.h"
 #include <doctest/doctest.h>
+#include <random>
 
 using namespace bake;
 
@@ -27,5 +28,26 @@ TEST_SUITE("oracle") {
                     for (const Known& k : known)
                         CHECK(std::abs(distance_to_triangle(at(k.p), a, b, c) - size * k.distance) < 1e-12 * size);
                 }
+    }
+
+    TEST_CASE("distance_to_triangle: that of the plane over the face, else that of the nearest edge, on any triangle") {
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> coordinate(-1, 1);
+        const auto anywhere = [&] { return Vec3d(coordinate(random), coordinate(random), coordinate(random)); };
+        int over = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3d a = anywhere(), b = anywhere(), c = anywhere(), p = anywhere();
+            const Vec3d normal = glm::normalize(glm::cross(b - a, c - a));
+            const auto left_of = [&](const Vec3d& from, const Vec3d& to) {
+                return glm::dot(glm::cross(to - from, p - from), normal) >= 0;
+            };
+            const bool inside = left_of(a, b) && left_of(b, c) && left_of(c, a);
+            const double expected = inside ? std::abs(glm::dot(p - a, normal))
+                                           : std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
+                                                       distance_to_segment(p, c, a)});
+            over += inside;
+            if (std::abs(distance_to_triangle(p, a, b, c) - expected) > 1e-9) FAIL_CHECK(i);
+        }
+        CHECK(over > 1000);
     }
 }
