@@ -1,4 +1,5 @@
 // Environments as files, read back by OpenImageIO.
+#include "bake/base/error.h"
 #include "bake/environment/file/write_environment.h"
 #include "bake/environment/filter/mips.h"
 #include "environment/skies.h"
@@ -33,6 +34,29 @@ TEST_SUITE("unit") {
                     CHECK(three.at(0, y, c) ==
                           doctest::Approx((faces.at(0, 2 * y, c) + faces.at(0, 2 * y + 1, c)) / 2).epsilon(1e-6));
             }
+        }
+    }
+
+    TEST_CASE("write_environment: radiance beyond half floats is refused, or clamped, or its texel is black") {
+        const test::Folder folder;
+        Environment sky;
+        sky.cube = test::even_sky(4, 3, 2);
+        sky.cube[CubeFace::ny].at(1, 2, 1) = 1e6f;
+        const std::string file = folder / "sky.exr";
+        EnvironmentTarget target{.file = file, .to = SkyFormat::strip, .depth = Depth::half};
+        CHECK_THROWS_WITH_AS(write_environment(sky, target), doctest::Contains("half floats cannot hold"), Error);
+        CHECK_FALSE(std::filesystem::exists(file));
+        for (const BadPolicy bad : {BadPolicy::clamp, BadPolicy::zero}) {
+            target.bad = bad;
+            CHECK(write_environment(sky, target).over.over == 1);
+            const Image<float> strip = test::by_openimageio(folder, file);
+            REQUIRE((strip.width() == 4 && strip.height() == 24));
+            for (int y = 0; y < 24; ++y)
+                for (int x = 0; x < 4; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const bool mended = x == 1 && y == 3 * 4 + 2 && (c == 1 || bad == BadPolicy::zero);
+                        CHECK(strip.at(x, y, c) == (!mended ? 2 : bad == BadPolicy::zero ? 0 : 65504));
+                    }
         }
     }
 

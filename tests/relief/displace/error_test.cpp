@@ -1,6 +1,5 @@
 #include "bake/relief/displace/error.h"
-#include <doctest/doctest.h>
-#include <random>
+#include "relief/displace/displace_meshes.h"
 
 using namespace bake;
 
@@ -49,5 +48,25 @@ TEST_SUITE("oracle") {
             if (std::abs(distance_to_triangle(p, a, b, c) - expected) > 1e-9) FAIL_CHECK(i);
         }
         CHECK(over > 1000);
+    }
+}
+
+TEST_SUITE("unit") {
+
+    TEST_CASE("cell_error: a face is compared with the surface in its middle and in the middle of each side") {
+        // A face from texel centre to texel centre, two texels wide, under a height that is 0 but in one of nine texels.
+        const float low = 1.5f / 5, high = 3.5f / 5;
+        const BaseSurface base(test::polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}},
+                                              {{low, low}, {high, low}, {high, high}, {low, high}}));
+        DisplaceOptions options = test::levels(0);
+        options.measure_error = true;
+        for (const auto& [x, y] : {std::pair(2, 2), {1, 2}, {3, 2}, {2, 1}, {2, 3}}) {
+            CAPTURE(x);
+            CAPTURE(y);
+            Image<float> values = test::picture(5, 5, [](double, double) { return 0; });
+            values.at(x, y) = 1;
+            const Displaced out = displace(base, test::relief(std::move(values), 0.1, 0), options);
+            CHECK(out.report.error_max == doctest::Approx(0.1).epsilon(1e-4));
+        }
     }
 }
