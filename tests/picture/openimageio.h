@@ -1,4 +1,4 @@
-// What OpenImageIO makes of a picture, in a program of its own.
+// What OpenImageIO makes of a picture, or of one of its mip levels, in a program of its own.
 #pragma once
 #include "bake/picture/image.h"
 #include "cli/command.h"
@@ -6,10 +6,11 @@
 
 namespace bake::test {
 
-inline Image<float> by_openimageio(const Folder& folder, const std::string& path) {
+inline Image<float> by_openimageio(const Folder& folder, const std::string& path, int level = 0) {
     const fs::path reader = fs::path(std::getenv("BAKE")).parent_path() / "read_mip";
     const std::string out = folder / "by_openimageio";
-    REQUIRE(std::system((reader.string() + " '" + path + "' 0 >'" + out + "'").c_str()) == 0);
+    REQUIRE(std::system((reader.string() + " '" + path + "' " + std::to_string(level) + " >'" + out + "'").c_str()) ==
+            0);
     const std::string bytes = contents(out);
     int size[3];
     REQUIRE(bytes.size() >= sizeof size);

@@ -203,17 +203,22 @@ TEST_SUITE("unit") {
     TEST_CASE("environment_io: a picture of a ball is not taken for an angular map") {
         const Folder folder;
         const int n = 32;
-        const auto disc = [&](float outside) {
+        const auto disc = [&](float outside, float inside = 1) {
             Image<float> image(n, n, 1);
             for (int y = 0; y < n; ++y)
                 for (int x = 0; x < n; ++x)
-                    image.at(x, y) = std::hypot((2 * x + 1.0) / n - 1, (2 * y + 1.0) / n - 1) < 1 ? 1 : outside;
+                    image.at(x, y) = std::hypot((2 * x + 1.0) / n - 1, (2 * y + 1.0) / n - 1) < 1 ? inside : outside;
             write_image(folder / "disc.tif", image, {.depth = Depth::float32});
             return folder / "disc.tif";
         };
         CHECK(read_as(disc(0), SkyFormat::probe) == SkyFormat::probe);
         CHECK_THROWS_AS(read_as(disc(0.3f), SkyFormat::probe), Error);
         CHECK(read_as(disc(0.3f), SkyFormat::ball) == SkyFormat::ball);
+        // At any exposure, and with the noise of a photograph outside.
+        for (const float exposure : {0.01f, 100.0f}) {
+            CHECK(read_as(disc(0.01f * exposure, exposure), SkyFormat::probe) == SkyFormat::probe);
+            CHECK_THROWS_AS(read_as(disc(0.3f * exposure, exposure), SkyFormat::probe), Error);
+        }
     }
 
     TEST_CASE("environment_io: exrenvmap's files, whose tags contradict each other, are cubes by their shape") {

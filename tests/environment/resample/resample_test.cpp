@@ -338,6 +338,27 @@ TEST_SUITE("stability") {
         }
     }
 
+    TEST_CASE("each_band: its bands are the rows of the faces, of turned ones from the last row on") {
+        const Environment source = smooth_picture(Projection::latlong, 64, 32);
+        const FaceGrid grid{200, false};
+        const ResampleOptions options{Samples::grid4};
+        const Cube cube = to_cube(source, grid, options);
+        std::array<TurnedFace, 6> places;
+        std::array<Image<float>, 6> faces;
+        for (int k = 0; k < 6; ++k) {
+            places[k] = {all_cube_faces[5 - k], k % 2 == 0 ? 2 : 0};
+            faces[k] = turned(cube[places[k].face], places[k].turns);
+        }
+        int bands = 0;
+        std::int64_t rows = 0;
+        each_band(source, grid, options, places, [&](int k, int y, Image<float>& band) {
+            CHECK(std::memcmp(band.data(), faces[k].row(y), band.size() * sizeof(float)) == 0);
+            ++bands, rows += band.height();
+        });
+        CHECK(bands > 6); // a face is more than one
+        CHECK(rows == 6 * 200);
+    }
+
     TEST_CASE("resample: texels that faces share are equal in an edge-sampled cube") {
         const Cube cube = to_cube(smooth_picture(Projection::latlong, 128, 64), {17, true}, {Samples::exact});
         int compared = 0;

@@ -1,4 +1,5 @@
 #include "bake/environment/resample/slope.h"
+#include "environment/skies.h"
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
@@ -42,6 +43,21 @@ TEST_SUITE("unit") {
             CHECK(along == 0);
             CHECK(down == 0);
         });
+    }
+
+    TEST_CASE("slope: what is linear in the plane of a face has its own slopes in all texels of the face") {
+        // The texels beyond an edge are seen from the centre at other places of the plane than a row and a column further.
+        const auto linear = [](const Vec3d& d, int c) { return 20 + (1 - 3 * c) * d.x / d.z - (2 + c) * d.y / d.z; };
+        const Cube sky = test::sky_of(size, 2, [&](const Vec3d& d, int c) { return d.z > 0.1 ? linear(d, c) : 0; });
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                Slopes s{};
+                face_slopes(sky, false, CubeFace::pz, x, y, s);
+                for (int c = 0; c < 2; ++c) {
+                    CHECK(s.x[c] == doctest::Approx(2.0 / size * (1 - 3 * c)).epsilon(1e-4));
+                    CHECK(s.y[c] == doctest::Approx(2.0 / size * (2 + c)).epsilon(1e-4)); // rows run down
+                }
+            }
     }
 
     TEST_CASE("slope: on noise the values inside a texel stay within the range of its neighbours") {

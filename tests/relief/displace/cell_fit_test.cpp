@@ -35,4 +35,20 @@ TEST_SUITE("unit") {
         CHECK(upright.density.x == flat.density.y);
         CHECK(upright.density.y == 1);
     }
+
+    TEST_CASE("cell_fit: a height and its transpose have lattices that are each other's transpose") {
+        const Mesh quad =
+            polygons({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+        const auto ridge = [](double x, double at) { return std::exp(-400 * (x - at) * (x - at)); };
+        for (const double at : {0.0, 0.02, 0.05, 0.4, 1.0})
+            for (const double error : {0.05, 0.02, 0.01, 0.004}) {
+                const auto lattice = [&](bool turned) {
+                    return fit(quad, picture(32, 32, [&](double u, double v) { return ridge(turned ? 1 - v : u, at); }),
+                               error);
+                };
+                const CellFitter::Fit one = lattice(false), other = lattice(true);
+                CHECK(one.across == other.up);
+                CHECK(one.up == other.across);
+            }
+    }
 }

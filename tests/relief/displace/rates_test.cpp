@@ -66,16 +66,22 @@ TEST_SUITE("oracle") {
     }
 
     TEST_CASE("displace: the uniform rate reported needs what displace at that rate measures") {
-        const BaseSurface base(sheet());
+        const Mesh halves =
+            polygons(sheet().positions, {{0, 1, 2}, {0, 2, 3}}, {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}});
         const Relief relief_of_bump = relief(picture(256, 256, bump), 0.2, 0, Wrap::clamp);
-        const Displaced out = displace(base, relief_of_bump, by_error(0.002));
-        const double rate = std::sqrt(double(out.report.uniform_triangles) / 2);
-        DisplaceOptions finer;
-        finer.measure_error = true;
-        finer.rates.levels = int(std::ceil(std::log2(rate)));
-        CHECK(displace(base, relief_of_bump, finer).report.error_max <= out.report.error_max * 1.05);
-        finer.rates.levels = int(std::floor(std::log2(rate * 0.8)));
-        CHECK(displace(base, relief_of_bump, finer).report.error_max > out.report.error_max);
+        for (const Mesh& mesh : {sheet(), halves}) {
+            const BaseSurface base(mesh);
+            const Displaced out = displace(base, relief_of_bump, by_error(0.002));
+            // A quad of rate r is 2 r^2 triangles, as are two triangles.
+            const double rate = std::sqrt(double(out.report.uniform_triangles) / 2);
+            CHECK(rate == doctest::Approx(std::round(rate)));
+            DisplaceOptions finer;
+            finer.measure_error = true;
+            finer.rates.levels = int(std::ceil(std::log2(rate)));
+            CHECK(displace(base, relief_of_bump, finer).report.error_max <= out.report.error_max * 1.05);
+            finer.rates.levels = int(std::floor(std::log2(rate * 0.8)));
+            CHECK(displace(base, relief_of_bump, finer).report.error_max > out.report.error_max);
+        }
     }
 
     TEST_CASE("displace: without relief, rates by error follow the curvature of the surface") {
@@ -132,6 +138,27 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
 } // TEST_SUITE
 
 TEST_SUITE("unit") {
+
+    TEST_CASE("rates_by_error: before cells are fitted, a search tells of no more triangles than the result has") {
+        // A roof along one side of the sheet, which falls to nothing at the side across: three triangles.
+        const BaseSurface base(sheet());
+        for (const bool turned : {false, true})
+            for (const bool across : {false, true}) {
+                const auto roof = [&](double u, double v) {
+                    const double along = turned ? v : u, off = turned ? u : v;
+                    return std::min(2 * along, 2 - 2 * along) * (across ? off : 1 - off);
+                };
+                const Relief height = relief(picture(64, 64, roof), 0.17, 0, Wrap::clamp);
+                const SeamedRelief scene = seamed(base, height, Seam::average);
+                std::vector<double> told;
+                const auto note = [&](std::uint32_t, double least, double) { told.push_back(least); };
+                const RatePlan plan = rates_by_error(scene.surface, scene.blend, by_error(0.1).rates, note, nullptr);
+                CHECK(triangles_of(plan) == 3);
+                REQUIRE(told.size() > 2); // of the split alone, then of the edges, then of the cells
+                CHECK(told[1] > 0);
+                CHECK(told[1] <= double(triangles_of(plan)));
+            }
+    }
 
     TEST_CASE("displace: edges are cut short enough under the measure that is given") {
         const BaseSurface base(cube());

@@ -1,5 +1,6 @@
 // What becomes of heights that differ across a UV seam.
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/displace/seam_blend.h"
 #include "folders.h"
 #include "relief/displace/displace_meshes.h"
 
@@ -158,6 +159,34 @@ TEST_SUITE("unit") {
                 before = worst;
             }
         }
+    }
+
+    TEST_CASE("SeamBlend: with the correction both sides of a seam meet under noise, at its samples and between them") {
+        const Mesh sheet =
+            polygons({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 4, 3}, {1, 2, 5, 4}},
+                     {{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}, {0.3, 0}, {0.7, 0.1}, {0.6, 1.1}, {0.2, 1}});
+        const BaseSurface base(sheet);
+        const Relief rough = relief(noise(32), 1);
+        const SeamedRelief scene = seamed(base, rough, Seam::blend);
+        double before = 0, after = 0;
+        const int count = 1000;
+        for (int i = 0; i <= count; ++i) {
+            double own[2], blended[2];
+            for (const std::uint32_t patch : {0u, 1u}) {
+                const Vec2d st(patch == 0 ? 1 : 0, double(i) / count);
+                SurfacePoint point;
+                ReliefValue value;
+                base.evaluate(patch, {&st, 1}, {&point, 1});
+                scene.surface.values(patch, {&st, 1}, {&point, 1}, {&value, 1});
+                own[patch] = value.at.x;
+                scene.blend.add(patch, st, point, value);
+                blended[patch] = value.at.x;
+            }
+            before = std::max(before, std::abs(own[0] - own[1]));
+            after = std::max(after, std::abs(blended[0] - blended[1]));
+        }
+        CHECK(before > 0.5);
+        CHECK(after < 0.05 * before);
     }
 
     TEST_CASE("displace: the report names the largest mismatch and where it lies") {

@@ -240,6 +240,23 @@ TEST_SUITE("unit") {
         CHECK(std::sqrt(squares.y) == doctest::Approx(wide.noise()));
     }
 
+    TEST_CASE("slope_filter: more taps than are added at once have the same meaning in row and at, in wide rows too") {
+        const Stencil six{{0.85, -0.27, 0.08, -0.02, 0.003, -0.0002}, 0, 6};
+        const auto wave = picture(520, 5, [&](int x, int y) { return sin(0.31 * x + 0.7 * y) + 0.2 * cos(1.3 * x); });
+        const SlopeFilter<double> filter(wave, six, Wrap::repeat, Wrap::clamp);
+        SlopeFilter<double>::Scratch scratch;
+        std::vector<Vec2d> row(520);
+        double worst = 0;
+        for (int y = 0; y < 5; ++y) {
+            filter.row(y, 1, 1, &row[0].x, scratch);
+            for (int x = 0; x < 520; ++x) {
+                const auto [along_u, along_v] = filter.at(x, y, 1, 1);
+                worst = std::max(worst, glm::length(row[x] - Vec2d(along_u, along_v)));
+            }
+        }
+        CHECK(worst < 1e-12);
+    }
+
     TEST_CASE("slope_filter: a border degree beyond the largest is lowered alike along u and along v") {
         const Stencil steep{{45.0 / 60, -9.0 / 60, 1.0 / 60}, 0, 11};
         const auto value = [](int x, int y) { return sin(0.9 * x) + 0.3 * cos(1.7 * y + 0.2 * x); };

@@ -64,4 +64,13 @@ TEST_SUITE("unit") {
         CHECK(measure_tiling(picture(9, 1, [](int x, int) { return x; })).y.tiles());
         CHECK(measure_tiling(picture(9, 9, [](int, int) { return 0.5; })).y.ratio() == 0);
     }
+
+    TEST_CASE("BorderStep: the limits of what tiles and of what may tile belong to it") {
+        CHECK(BorderStep{.border = tiles_up_to, .mean = 1, .largest = 1}.tiles());
+        CHECK_FALSE(BorderStep{.border = tiles_up_to, .mean = 1, .largest = 1}.breaks());
+        CHECK_FALSE(BorderStep{.border = 2, .mean = 1, .largest = 1}.tiles());
+        CHECK(BorderStep{.border = 2, .mean = 1, .largest = 1}.breaks());
+        CHECK_FALSE(BorderStep{.border = may_tile_up_to, .mean = 0.5, .largest = 1}.breaks());
+        CHECK(BorderStep{.border = std::nextafter(may_tile_up_to, 2), .mean = 0.5, .largest = 1}.breaks());
+    }
 }

@@ -49,6 +49,21 @@ TEST_SUITE("oracle") {
         CHECK(loss_of(wave(8), Filter::sobel) == doctest::Approx(1 - std::sin(w) / w).epsilon(0.02)); // w_y = 0
     }
 
+    TEST_CASE(
+        "slope_loss: a wider texture of the same pattern loses the same, where one column of the pattern is sampled") {
+        // 128 columns of 1024 have one place of a pattern of 8 texels, as long as they are the same in all rows.
+        const float pattern[] = {0.1f, 0.9f, 0.3f, 0.35f, 0.4f, 0.2f, 0.8f, 0.7f};
+        const auto wide = [&](int width) {
+            HeightTexture height;
+            height.values = Image<float>(width, 128, 1);
+            for (int y = 0; y < 128; ++y)
+                for (int x = 0; x < width; ++x) height.values.at(x, y) = pattern[x % 8];
+            return height;
+        };
+        for (const Filter filter : {Filter::central, Filter::sobel})
+            CHECK(loss_of(wide(1024), filter) == doctest::Approx(loss_of(wide(128), filter)).epsilon(1e-3));
+    }
+
     TEST_CASE("slope_loss: the noise of 8 bits is not taken for slopes, and no slopes lose nothing") {
         CHECK(loss_of(wave(8, 8), Filter::central) == doctest::Approx(1 - 0.9003).epsilon(0.05));
         HeightTexture flat;

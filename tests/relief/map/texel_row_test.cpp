@@ -1,6 +1,7 @@
 #include "bake/relief/map/texel_row.h"
 #include "bake/surface/chart/tangent_space.h"
 #include "relief/map/torus_relief.h"
+#include <algorithm>
 #include <cstring>
 #include <doctest/doctest.h>
 
@@ -142,6 +143,21 @@ TEST_SUITE("unit") {
                 CHECK(rows.map.at(x, y, 1) == 0.5f);
                 CHECK(rows.map.at(x, y, 2) == 1.0f);
             }
+    }
+
+    TEST_CASE("texel_row: where the mesh has no width there is no normal, although the displaced surface has one") {
+        // A rectangle that is squeezed to a line, whose normals open like a fan.
+        Mesh mesh;
+        mesh.face_begin = {0, 4};
+        mesh.positions = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 1, 0}};
+        mesh.normals = {{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}};
+        mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        mesh.corner_position = mesh.corner_normal = mesh.corner_uv = {0, 1, 2, 3};
+        const BakeTarget target = make_bake_target(mesh, "fan", 32, 16);
+        const std::vector<Height<float>> heights(32 * 16, Height<float>{0.5f, 0, 0});
+        const Rows rows = bake_rows(target, {}, heights);
+        CHECK(rows.counts.degenerate == 32 * 16);
+        CHECK(std::count(rows.owned.data(), rows.owned.data() + rows.owned.size(), 0) == 32 * 16);
     }
 
     TEST_CASE("texel_row: meshes of any size and slopes of any steepness have unit normals") {

@@ -409,6 +409,25 @@ TEST_SUITE("stability") {
             }
     }
 
+    TEST_CASE(
+        "tangent_space: a triangle whose slopes along one axis are beyond all floats leaves its neighbour alone") {
+        // Derivatives are 1e18 on the left, and 1e18 / 2e-38 along one axis on the right.
+        const float size = 1e18f, narrow = 2e-38f;
+        for (const bool swapped : {false, true}) {
+            const auto corner = [&](Corners& mesh, const Vec2f& p, const Vec2f& uv) {
+                mesh.add(Vec3f(size * p, 0), swapped ? Vec2f(uv.y, uv.x) : uv);
+            };
+            Corners mesh;
+            corner(mesh, {0, 0}, {0, 0}), corner(mesh, {1, 0}, {1, 0}), corner(mesh, {0, 1}, {0, 1}), mesh.close();
+            const auto alone = mesh.tangents();
+            corner(mesh, {0, 0}, {0, 0}), corner(mesh, {0, 1}, {0, 1}), corner(mesh, {-1, 0.5f}, {-narrow, 0});
+            mesh.close();
+            const auto both = mesh.tangents();
+            for (std::size_t c = 0; c < 3; ++c) CHECK(both[c] == alone[c]);
+            CHECK(all_unit(both));
+        }
+    }
+
     TEST_CASE("tangent_space: an edge shared by three faces joins the first two that fit") {
         Corners mesh;
         const Vec3f a(0), b(0, 1, 0), n(0, 0, 1);

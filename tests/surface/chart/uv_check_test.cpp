@@ -73,6 +73,16 @@ TEST_SUITE("unit") {
         CHECK(c.density.p95 == doctest::Approx(2));
         CHECK(check(charts({{{0, 0}, 0.8f, 0.2f}})).stretch.p95 == doctest::Approx(4));
     }
+
+    TEST_CASE("check_uvs: a sliver in space counts with its stretch, however thin it is") {
+        for (const float thin : {1e-3f, 1e-6f, 1e-9f, 1e-12f}) {
+            Mesh sliver = charts({{{0, 0}}});
+            sliver.positions = {{0, 0, 0}, {1, 0, 0}, {0.75f, thin, 0}, {-0.25f, thin, 0}};
+            // The map (u, v) to (u - v / 4, thin v): the squared singular values have the sum 17 / 16 and the product thin^2.
+            CAPTURE(thin);
+            CHECK(check(sliver).stretch.median * double(thin) == doctest::Approx(17.0 / 16).epsilon(1e-5));
+        }
+    }
 }
 
 TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {

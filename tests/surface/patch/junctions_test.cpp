@@ -47,6 +47,9 @@ TEST_SUITE("unit") {
             CHECK(j.normal_groups == 3);
             CHECK(vertices.sides_of(j).size() == 3);
         }
+        // Every side of the tables belongs to a junction.
+        CHECK(edges.sides.size() == 12 * 2);
+        CHECK(vertices.sides.size() == 8 * 3);
     }
 
     TEST_CASE("junctions: a uv seam splits uvs and not normals, and four groups meet where two seams cross") {

@@ -3,6 +3,7 @@
 #include "bake/mesh/check/mesh_check.h"
 #include "bake/surface/patch/tessellator.h"
 #include "oracle/surfaces.h"
+#include "surface/patch/complexes.h"
 #include "surface/subdivision/cages.h"
 #include <atomic>
 #include <doctest/doctest.h>
@@ -42,6 +43,9 @@ Mesh tessellated(const PatchLayout& layout, Counts& counts) {
                                        for (std::uint32_t j = 0; j < v.count; ++j) {
                                            mesh.positions[v.first_index + j] = Vec3f(v.points[j].jet.p);
                                            ++counts.positions[v.first_index + j];
+                                           for (std::size_t k = 0; k < v.sides.size(); ++k)
+                                               mesh.normals[v.normal_index(v.sides[k].normal_group, j)] =
+                                                   Vec3f(v.points[k * v.count + j].jet.n);
                                            for (std::uint32_t g = 0; g < v.junction.normal_groups; ++g)
                                                ++counts.normals[v.normal_index(g, j)];
                                        }
@@ -80,6 +84,44 @@ TEST_SUITE("unit") {
                 CHECK((topology.boundary_edges == 0) == (base != &cone)); // a cone has no lid
                 CHECK(topology.nonmanifold_edges == 0);
                 CHECK(topology.flipped_faces == 0);
+            }
+    }
+
+    TEST_CASE("tessellate: at an edge of four faces each keeps its normal and its uvs, along all of the edge") {
+        // Pages of a book: page k stands at a quarter turn from the one before, and has the uvs of its own unit square.
+        Mesh book = test::polygons({{0, 0, 0},
+                                    {0, 0, 1},
+                                    {1, 0, 0},
+                                    {1, 0, 1},
+                                    {0, 1, 0},
+                                    {0, 1, 1},
+                                    {-1, 0, 0},
+                                    {-1, 0, 1},
+                                    {0, -1, 0},
+                                    {0, -1, 1}},
+                                   {{0, 2, 3, 1}, {0, 4, 5, 1}, {0, 6, 7, 1}, {0, 8, 9, 1}});
+        const Vec3f normal[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+        for (std::uint32_t page = 0; page < 4; ++page)
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                book.normals.push_back(normal[page]);
+                book.uvs.push_back(Vec2f(float(2 * page) + float(k == 1 || k == 2), float(k >= 2)));
+                book.corner_normal.push_back(4 * page + k), book.corner_uv.push_back(4 * page + k);
+            }
+        const BaseSurface base(book);
+        const PatchCells cells(base, 1);
+        const CellRates rates{.uniform = 4};
+        Counts counts;
+        const Mesh mesh = tessellated(make_layout(cells, rates, true), counts);
+        CHECK(all_one(counts.positions));
+        CHECK(all_one(counts.normals));
+        REQUIRE(mesh.faces() == 4 * 16);
+        for (std::uint32_t f = 0; f < mesh.faces(); ++f)
+            for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+                const std::uint32_t page = f / 16;
+                const Vec3f& p = mesh.positions[mesh.corner_position[c]];
+                CHECK(mesh.normals[mesh.corner_normal[c]] == normal[page]);
+                const Vec2f uv(float(2 * page) + std::abs(p.x) + std::abs(p.y), p.z);
+                CHECK(glm::length(mesh.uvs[mesh.corner_uv[c]] - uv) < 1e-6f);
             }
     }
 

@@ -23,7 +23,7 @@ struct NormalMapOptions {
     int tile = 0;         ///< UDIM number of the tile whose charts are baked; 0: all charts, modulo 1
 };
 
-/// Mean length of p_u and p_v over the charts, weighted by the triangles' areas in uv: what constant_scale works with.
+/// Mean |p_u| and |p_v| over the charts, weighted by areas in uv, for constant_scale; 1 and 1 if either of them is 0.
 ConstantScale<float> mean_scale(const MeshSurface& surface);
 
 /// What a bake needs of its mesh, computed once: jets, tangent space, and the triangle under each texel.

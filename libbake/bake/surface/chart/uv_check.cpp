@@ -31,14 +31,12 @@ bool has_uv(const Mesh& mesh, const Triangle& t) noexcept {
                        [&](std::uint32_t c) { return mesh.corner_uv[c] != no_index; });
 }
 
-/// Larger over smaller singular value of the linear map from the uv triangle to the triangle in space.
+/// Larger over smaller singular value of the linear map from the uv triangle to the triangle in space, which have areas.
 double stretch(Vec2d a, Vec2d b, double uv_cross, Vec3d p, Vec3d q) noexcept {
     const Vec3d p_u = (b.y * p - a.y * q) / uv_cross, p_v = (a.x * q - b.x * p) / uv_cross;
     const double e = glm::dot(p_u, p_u), f = glm::dot(p_u, p_v), g = glm::dot(p_v, p_v);
-    const double mean = 0.5 * (e + g), root = std::hypot(0.5 * (e - g), f), larger = mean + root;
-    const double smaller =
-        (e * g - f * f) / larger; // the product of both eigenvalues over the larger one: no cancellation
-    return smaller > 0 ? std::sqrt(larger / smaller) : 0;
+    const double larger = 0.5 * (e + g) + std::hypot(0.5 * (e - g), f); // squared
+    return larger / glm::length(glm::cross(p_u, p_v)); // the product of both values; e g - f f would cancel
 }
 
 void measure_triangles(const Mesh& mesh, const std::vector<Triangle>& triangles, double zero_area, UvCheck& check) {
@@ -63,7 +61,7 @@ void measure_triangles(const Mesh& mesh, const std::vector<Triangle>& triangles,
         const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
         if (!(area > 0)) continue;
         density.push_back({std::sqrt(0.5 * std::abs(uv_cross) / area), area});
-        if (const double s = stretch(a, b, uv_cross, p[1] - p[0], p[2] - p[0]); s > 0) stretches.push_back({s, area});
+        stretches.push_back({stretch(a, b, uv_cross, p[1] - p[0], p[2] - p[0]), area});
     }
     check.density = spread(density);
     if (check.density.median > 0) {

@@ -115,13 +115,11 @@ int end_in_row(const LimitLeaf& leaf, std::int32_t index, double b, double steps
                const LeafOf& leaf_of) noexcept {
     const double end_a = leaf.scale < 0 ? 0 : Degree == 3 ? leaf.end_a : 1 - b;
     const double line = (end_a - leaf.origin.x) / leaf.scale;
-    int end = std::clamp(int(line * steps), i + 1, last + 1);
+    int end = std::clamp(int(line * steps), i + 1, last + 1); // not beyond the end
     if constexpr (Degree == 3) {
         if (line == 1) return last + 1;
-        while (end > i + 1 && (end - 1) / steps >= line) --end;
         while (end <= last && end / steps < line) ++end;
     } else {
-        while (end > i + 1 && leaf_of(end - 1) != index) --end;
         while (end <= last && leaf_of(end) == index) ++end;
     }
     return end;
