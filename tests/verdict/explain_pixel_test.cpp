@@ -124,6 +124,7 @@ TEST_SUITE("unit") {
         CHECK(find(route, "uv")->values == std::vector<double>{0.5, 0.5});
         for (const char* normal : {"facet", "surface", "shading"}) check_near(colour(route, normal), Vec3d(0, 0, 1));
         check_near(colour(route, "lambert"), Vec3d(0.5, 0.25, 0.125));
+        for (const char* unused : {"occlusion", "translucent"}) CHECK_FALSE(find(route, unused));
         CHECK(find(route, "directional 1: n . l")->values[0] == doctest::Approx(0.8));
         CHECK(find(route, "directional 1: l")->words == "lights 1 of 1 samples");
         CHECK(find(route, "directional 2: l")->words == "behind the shading normal");

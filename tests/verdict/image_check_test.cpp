@@ -84,6 +84,18 @@ TEST_SUITE("unit") {
         CHECK(bits(SampleType::float32, [](int i) { return i * 16 / 65535.0; }) == 16);
     }
 
+    TEST_CASE("check_image: n bits hold at most 2^n values, however near to each other these are") {
+        for (const int levels : {1, 3, 7, 255}) {
+            const Image<float> image = picture(64, 64, 1, [&](int x, int y, int) {
+                const int i = (y * 64 + x) % (levels + 2);
+                return i <= levels ? double(i) / levels : 1 - 0x1p-24;
+            });
+            const ImageCheck c = check_image(image, info_of(SampleType::float32, 32, grey1));
+            CHECK(c.channels[0].levels == levels + 2);
+            if (c.true_bits > 0) CHECK(std::exp2(c.true_bits) >= levels + 2);
+        }
+    }
+
     TEST_CASE("check_image: the depth of a palette's indices is not that of its colours") {
         const auto bits = [](int stored, auto level) {
             const Image<float> image = picture(64, 64, 1, [&](int x, int y, int) { return level(y * 64 + x) / 255.0; });
@@ -92,6 +104,14 @@ TEST_SUITE("unit") {
         CHECK(bits(2, [](int i) { return i % 161 + 40; }) == 8);            // as a palette of TGA
         CHECK(bits(4, [](int i) { return (i % 16) * (i % 16) + 3; }) == 8); // sixteen entries of eight bits
         CHECK(bits(4, [](int i) { return i % 16 * 17; }) == 4);
+    }
+
+    TEST_CASE("check_image: the header's depth holds if its values were spread to the samples by cutting digits off") {
+        const auto image = picture(
+            64, 64, 1, [](int x, int y, int) { return std::floor((y * 64 + x) % 1024 * 65535.0 / 1023) / 65535; });
+        CHECK(check_image(image, info_of(SampleType::u16, 16, grey1)).true_bits == 16);
+        CHECK(check_image(image, info_of(SampleType::u16, 10, grey1)).true_bits == 10);
+        CHECK(check_image(image, info_of(SampleType::u16, 9, grey1)).true_bits == 16);
     }
 
     TEST_CASE("check_image: samples that the reader cut, and signed integers") {

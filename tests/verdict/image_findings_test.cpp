@@ -33,6 +33,21 @@ TEST_SUITE("unit") {
         CHECK_FALSE(warns_of_levels(SampleType::u8, 16)); // a mask
     }
 
+    TEST_CASE("judge: names of channels may have blanks and marks, but no control characters") {
+        const auto warns = [](const std::string& name) {
+            ImageReport report;
+            report.check.info.channels = {name};
+            report.check.channels.push_back({.name = name});
+            const std::vector<std::string> warnings = judge(report).warnings;
+            return std::count(warnings.begin(), warnings.end(),
+                              "a channel has a name that cannot be printed: the file is damaged");
+        };
+        CHECK(warns("Layer 1.R~") == 0);
+        CHECK(warns("Y\n") == 1);
+        CHECK(warns("Y\x7f") == 1);
+        CHECK(warns("\xc3\xa9") == 1);
+    }
+
     TEST_CASE("judge: of a pair, the least correlation that tells the green is enough") {
         PairReport report;
         report.directx = true;

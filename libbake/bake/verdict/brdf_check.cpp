@@ -16,11 +16,11 @@ Vec3f direction(double theta_deg, double phi_deg) {
 
 bool as_its_author_wrote(LobeKind kind) { return kind == LobeKind::phong || kind == LobeKind::blinn; }
 
-/// Van der Corput's sequence: the digits of i mirrored at the point.
+/// Van der Corput's sequence: the digits of i mirrored at the point. Below 1 as a float too, as i < samples has few digits.
 float mirrored_digits(int i, int base) {
     double out = 0, digit = 1;
     for (; i > 0; i /= base) out += (digit /= base) * (i % base);
-    return std::min(float(out), 1 - 0x1p-24f);
+    return float(out);
 }
 
 /// Mean factor of samples at the points of Hammersley's set.

@@ -60,7 +60,7 @@ void judge_normals(const ImageCheck& c, Findings& out) {
 }
 
 void judge_height(const ImageCheck& c, Findings& out) {
-    if (c.colour_channels == 3 && c.kind.tint > 0)
+    if (c.kind.tint > 0)
         out.notes.push_back("grey, but its channels differ by up to " + number(c.kind.tint) +
                             " of 255 levels: the mean of the channels is used");
     if (is_lossy(c.info))

@@ -1,4 +1,7 @@
 #include "bake/verdict/chart/frame.h"
+#include "bake/verdict/chart/svg.h"
+#include "verdict/chart/svg_pieces.h"
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace bake;
@@ -25,5 +28,36 @@ TEST_SUITE("unit") {
             }
         }
         CHECK(notes_top({.height = 480}) > 480);
+    }
+
+    TEST_CASE("frame: numbers stand outside the plot and inside the picture, and the names of the axes beyond them") {
+        const FrameText text{.title = "t", .x_label = "along", .y_label = "up"};
+        const Frame frame = frame_of(text, axis_of({0, 1, 1e3}, true), axis_of({0, 1e-4, 10}, true));
+        REQUIRE((frame.x.strip && frame.y.strip));
+        const std::string svg = draw_frame(text, frame, 0) + "</svg>";
+        double lowest = frame.plot.bottom, x_label = 0, y_label = 0, leftmost = frame.plot.left;
+        int beneath = 0, beside = 0;
+        for (const test::SvgPiece& piece : test::svg_all(svg, "text")) {
+            const double x = piece.number("x"), y = piece.number("y");
+            if (piece.text == "t") continue;
+            if (piece.text == "along") {
+                x_label = y;
+            } else if (piece.text == "up") {
+                y_label = x;
+            } else if (piece.value("text-anchor") == "middle") { // of the x axis
+                CHECK(y > frame.plot.bottom + 8);
+                CHECK((x >= frame.plot.left && x <= frame.plot.right));
+                lowest = std::max(lowest, y), ++beneath;
+            } else {
+                CHECK(x < frame.plot.left);
+                CHECK((y > frame.plot.top && y < frame.plot.bottom + 8));
+                leftmost = std::min(leftmost, x - text_width(piece.text, 11)), ++beside;
+            }
+        }
+        CHECK(beneath > 3);
+        CHECK(beside > 3);
+        CHECK(x_label > lowest + 10);
+        CHECK(x_label < text.height);
+        CHECK((y_label > 8 && y_label <= leftmost));
     }
 }

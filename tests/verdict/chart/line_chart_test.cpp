@@ -105,6 +105,7 @@ TEST_SUITE("unit") {
         c.series = {{"a", {{0, 1}, {1, 2}}}};
         for (int i = 0; i < 12; ++i) c.marks.push_back({0.5 + 0.002 * i, "measured " + std::to_string(i)});
         const std::string svg = line_chart_svg(c);
+        const double plot = svg_all(svg, "rect").at(1).number("y");
         struct Place {
             double left, right, base;
         };
@@ -114,6 +115,7 @@ TEST_SUITE("unit") {
             const double half = text_width(text.text, 11) / 2;
             const Place place{text.number("x") - half, text.number("x") + half, text.number("y")};
             CHECK(place.base > 30); // beneath the title
+            CHECK(place.base < plot);
             for (const Place& other : places)
                 CHECK((place.base != other.base || place.left >= other.right || other.left >= place.right));
             places.push_back(place);

@@ -53,6 +53,26 @@ TEST_SUITE("unit") {
         CHECK(contains(svg, "data-dot=\"3\""));
     }
 
+    TEST_CASE("scatter_svg: a label stands in the middle of its ground") {
+        const std::string svg = scatter_svg(chart({{"plain", 1, 0.1}, {"bump+roughness", 10, 0.01}, {"d", 100, 0.2}}));
+        std::vector<SvgPiece> pieces;
+        for (const SvgPiece& piece : test::svg_pieces(svg))
+            if (piece.is("rect") || piece.is("text")) pieces.push_back(piece);
+        int labels = 0;
+        for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+            const SvgPiece &ground = pieces[i], &label = pieces[i + 1];
+            if (ground.value("fill-opacity").empty()) continue;
+            REQUIRE(label.is("text"));
+            CHECK(label.value("text-anchor") == "middle");
+            CHECK(label.number("x") == doctest::Approx(ground.number("x") + ground.number("width") / 2).epsilon(1e-3));
+            CHECK(label.number("y") > ground.number("y"));
+            CHECK(label.number("y") < ground.number("y") + ground.number("height"));
+            CHECK(ground.number("width") > 0.9 * text_width(label.text, 11));
+            ++labels;
+        }
+        CHECK(labels == 3);
+    }
+
     TEST_CASE("scatter_svg: the line of the front goes from dot to dot in steps, in the order of cost") {
         const std::string svg =
             scatter_svg(chart({{"b", 10, 0.01}, {"c", 100, 0.001}, {"a", 1, 0.1}, {"bad", 50, 0.2}}));

@@ -72,21 +72,6 @@ TEST_SUITE("unit") {
         for (const std::string& note : comparison.notes) CHECK(note.find("worse than no relief") == std::string::npos);
     }
 
-    TEST_CASE("scene_comparison: default displacements suit the number of triangles, and never exceed the memory of a "
-              "start") {
-        for (const std::int64_t triangles : {2, 500, 6000, 100000, 3000000}) {
-            const std::vector<ShadeMethod> methods = default_methods(triangles);
-            CAPTURE(triangles);
-            REQUIRE(methods.size() == 11);
-            const ShadeMethod &coarse = methods[8], &fine = methods[9], &mapped = methods[10];
-            CHECK(coarse.shade == Shade::displace);
-            CHECK(fine.levels > coarse.levels);
-            CHECK(mapped.shade == Shade::displace_normal);
-            CHECK(mapped.levels == coarse.levels);
-            if (coarse.levels > 0) CHECK(double(triangles) * std::exp2(2 * coarse.levels) < 32000);
-        }
-    }
-
     TEST_CASE("comparison_pictures: a picture and an error per method, and a sheet and charts that name them all") {
         SceneCompareOptions options;
         options.methods = {{Shade::plain}, {Shade::bump_roughness}, {Shade::displace, 1}};

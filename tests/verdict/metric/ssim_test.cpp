@@ -57,8 +57,11 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("ssim: luma is that of Rec. 709, grey is itself, alpha is not seen") {
-        const Image<float> colour = picture(1, 1, 4, [](int, int, int c) { return c == 3 ? 0.1 : 0.25 * (c + 1); });
-        CHECK(luma(colour).at(0, 0) == doctest::Approx(0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.75));
+        for (const int channels : {3, 4}) {
+            const Image<float> colour =
+                picture(1, 1, channels, [](int, int, int c) { return c == 3 ? 0.1 : 0.25 * (c + 1); });
+            CHECK(luma(colour).at(0, 0) == doctest::Approx(0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.75));
+        }
         CHECK(luma(picture(1, 1, 2, [](int, int, int c) { return c ? 1 : 0.375; })).at(0, 0) == 0.375f);
     }
 

@@ -141,6 +141,20 @@ TEST_SUITE("unit") {
         CHECK_FALSE(patch_of(Mesh()));
     }
 
+    TEST_CASE("flat_patch: it does not depend on the unit of length") {
+        for (const float unit : {1e-8f, 1.f, 1e6f}) {
+            const Scene scene =
+                placed(test::plane_mesh(7), {.rotate_deg = Vec3f(20, 40, 10), .scale = Vec3f(unit, 2 * unit, unit)});
+            const auto patch = flat_patch(scene, 0);
+            CAPTURE(unit);
+            REQUIRE(patch);
+            CHECK(patch->corners.size() == 4);
+            for (const Vec3d& corner : patch->corners)
+                CHECK(glm::length(corner) == doctest::Approx(std::sqrt(5.0) * double(unit)));
+            CHECK(glm::length(patch->p_v) == doctest::Approx(4 * double(unit)));
+        }
+    }
+
     TEST_CASE("flat_patch: twice over the same place is not once") {
         Mesh twice = test::plane_mesh(1);
         for (int k = 0; k < 4; ++k) {

@@ -71,6 +71,38 @@ TEST_SUITE("unit") {
         check({1, 1}, options);
     }
 
+    TEST_CASE("object_pixels: a wall beside the camera that only the outermost pixels of one side see is found") {
+        // From behind the camera to where it covers .8 of these pixels.
+        constexpr int size = 24;
+        const float front = -1 / (1 - 0.8f * 2 / size), back = 3;
+        Scene scene = one_mesh(plane_mesh(), {});
+        scene.instances.clear();
+        add_instance(scene, *scene.shapes[0], *scene.materials[0],
+                     {.translate = Vec3f(-1, 0, (back + front) / 2),
+                      .rotate_deg = Vec3f(0, 90, 0),
+                      .scale = Vec3f((back - front) / 2, 9, 1)});
+        build(scene);
+        const std::vector<std::uint8_t> wall{1};
+        ProbeOptions options = probe_options(scene, size);
+        options.camera.position = Vec3f(0), options.camera.target = Vec3f(0, 0, -1), options.camera.fov_deg = 90;
+        std::set<int> sides;
+        for (const Vec3f& up : {Vec3f(0, 1, 0), Vec3f(1, 0, 0), Vec3f(0, -1, 0), Vec3f(-1, 0, 0)}) {
+            options.camera.up = up;
+            const Set found = set_of(object_pixels(std::array{ProbedScene{&scene, wall}}, options));
+            const auto probed = probe_pixels({&scene, wall}, all_pixels(size), options);
+            int seen = 0;
+            for (int i = 0; i < size * size; ++i) {
+                if (!(probed[std::size_t(i)].covered[0] | probed[std::size_t(i)].covered[1])) continue;
+                const int x = i % size, y = i / size;
+                REQUIRE((x % (size - 1) == 0 || y % (size - 1) == 0));
+                CHECK(found.count({x, y}) == 1);
+                if (++seen == size / 2) sides.insert(i);
+            }
+            CHECK(seen == size);
+        }
+        CHECK(sides.size() == 4);
+    }
+
     TEST_CASE("object_pixels: they are those of any of the scenes; all without an object") {
         const Scene here = ball_above_floor(0), there = ball_above_floor(0);
         const ProbeOptions options = probe_options(here, 24);

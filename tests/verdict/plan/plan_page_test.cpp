@@ -151,6 +151,9 @@ TEST_SUITE("unit") {
         CHECK(has(rung_chart(plan, object), "displace:64 (reference, chosen): "));
         object.budget = std::numeric_limits<double>::infinity();
         CHECK_FALSE(has(rung_chart(plan, object), "class=\"limit\""));
+        object.reference_cost = {}; // not built
+        CHECK(svg_all(rung_chart(plan, object), "circle").size() == 3);
+        CHECK_FALSE(has(rung_chart(plan, object), "(reference"));
         for (Rung& rung : object.rungs) rung.known = Known::not_tried;
         CHECK(rung_chart(plan, object) == "");
     }

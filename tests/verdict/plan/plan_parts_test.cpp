@@ -63,6 +63,20 @@ TEST_SUITE("unit") {
         CHECK(error > 0);
     }
 
+    TEST_CASE("plan parts: the automatic exposure is that of the picture, of wide and of high ones") {
+        for (const auto& [width, height] : {std::pair(24, 24), {300, 90}, {90, 300}}) {
+            SceneEntries entries = relief_scene("sphere:R=1", 0.01f);
+            entries.settings.exposure.reset();
+            entries.settings.width = width, entries.settings.height = height, entries.settings.spp = 4;
+            ScenePlan plan;
+            PlanOptions options;
+            options.decide_lights = true;
+            plan_parts(entries, options, plan);
+            const Scene scene = load(entries);
+            CHECK(std::abs(plan.exposure - automatic_exposure(render(scene, scene.settings))) < 0.5);
+        }
+    }
+
     TEST_CASE("plan parts: sizes and formats are decided apart") {
         const SceneEntries entries = lit_square(Shade::bump);
         PlanOptions options;

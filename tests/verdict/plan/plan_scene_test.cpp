@@ -77,6 +77,22 @@ TEST_SUITE("unit") {
         CHECK(name(*material.relief.shade) == name(rung.method));
     }
 
+    TEST_CASE("plan_scene: the cheapest method too is verified against what was predicted of it") {
+        PlanOptions options = with_budget(0.5);
+        options.verify = true;
+        const ScenePlan plan = plan_scene(relief_scene("sphere:R=1", 0.1f), options);
+        REQUIRE(plan.objects.at(0).chosen == 0);
+        REQUIRE(plan.verified.size() == 2);
+        const Verification &object = plan.verified[0], &frame = plan.verified[1];
+        CHECK(object.predicted.square == chosen(plan.objects[0]).error.square);
+        CHECK(object.predicted.square > 0);
+        CHECK(std::abs(object.measured.square - object.predicted.square) <
+              4 * (object.measured.error + object.predicted.error) + 1e-6);
+        CHECK(frame.predicted.pixels == 24 * 24);
+        CHECK(frame.predicted.square * 24 * 24 ==
+              doctest::Approx(object.predicted.square * double(object.measured.pixels)));
+    }
+
     TEST_CASE("plan_scene: of cameras that contradict each other the worst counts; a larger budget costs less") {
         SceneEntries entries = relief_scene("sphere:R=1", 0.05f);
         entries.settings.exposure = 0;

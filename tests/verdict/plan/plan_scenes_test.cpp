@@ -96,6 +96,11 @@ TEST_SUITE("unit") {
         CHECK(displaced->scene.instances.back().translate.y == y);
         displaced->scene.instances.pop_back();
         CHECK(y <= bounds(displaced->scene).min.y + 2e-3);
+        for (int levels = 0; levels <= 3; ++levels) { // up to those by which it was placed
+            const auto coarse = scenes.assemble({scenes.bake(0, {Shade::displace, levels})});
+            coarse->scene.instances.pop_back();
+            CHECK(y < bounds(coarse->scene).min.y);
+        }
         CHECK(y < -1);
     }
 }

@@ -123,6 +123,9 @@ TEST_SUITE("unit") {
         CHECK(planned(a + ", # one\n" + b + " # two\n", {true, false}) ==
               "light = [" + a + ", # one\n # two\n]\n" + mesh);
         CHECK(planned(a + ", " + b, {false, false}) == "light = [ ]\n" + mesh);
+        // Comments before the comma stay, the comma does not.
+        CHECK(planned(a + " # one,\n # more\n , " + b, {false, true}) ==
+              "light = [ # one,\n # more\n  " + b + "]\n" + mesh);
 
         const std::string light = "[[light]]\ntype = \"directional\"\nfrom = [0, 1, 0]\n\n";
         Round round("[ground]\n\n" + light + light + light + "[[mesh]]\nshape = \"sphere\"");

@@ -67,6 +67,22 @@ TEST_SUITE("unit") {
         CHECK(open > 256 / 14.8);
     }
 
+    TEST_CASE("relief_waves: both ends of a line are looked at, and a height read backwards has the same waves") {
+        for (const int size : {64, 100, 200, 240}) {
+            const auto found = [&](bool backwards) {
+                return relief_waves(rows(size,
+                                         [&](double u) {
+                                             const double from = backwards ? 1 - u : u;
+                                             return wave(2, from) + (from > 0.75 ? 0.2 * wave(size / 5.0, from) : 0);
+                                         }))
+                    .u;
+            };
+            CAPTURE(size);
+            CHECK(found(false) < 6);
+            CHECK(found(true) == doctest::Approx(found(false)));
+        }
+    }
+
     TEST_CASE("relief_waves: noise reaches down to two texels, for any number of threads") {
         std::uint32_t state = 1;
         const HeightTexture noise = test::height_of(64, [&](double, double) {

@@ -83,6 +83,13 @@ TEST_SUITE("unit") {
         CHECK(tight.halved_errors);
         CHECK(decode_webp(wide.pictures[1].errors).width() == 65);
         CHECK(decode_webp(tight.pictures[1].errors).width() == 33);
+        const auto mean = [](const Image<unsigned char>& levels) {
+            double sum = 0;
+            for (std::size_t i = 0; i < levels.size(); ++i) sum += double(levels.data()[i]);
+            return sum / double(levels.size());
+        };
+        CHECK(mean(decode_webp(tight.pictures[1].errors)) ==
+              doctest::Approx(mean(decode_webp(wide.pictures[1].errors))).epsilon(0.05));
         double squares = 0, n = 0;
         for (std::size_t i = 0; i < all.size(); ++i) {
             const Image<unsigned char> back = decode_webp(tight.pictures[i].shown);

@@ -7,6 +7,7 @@
 #include "bake/preview/passes.h"
 #include "bake/verdict/chart/pareto.h"
 #include "bake/verdict/compare/cause_judge.h"
+#include "bake/verdict/compare/default_methods.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,11 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_levels = 10; ///< of a displacement
 constexpr int rays_per_pixel_edge = 4;
 constexpr int normal_samples = 4;
-/// Triangles with which a reference begins, and beyond which it does not begin.
-constexpr double first_triangles = 2e5, most_first_triangles = 4e6;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -68,8 +66,6 @@ private:
     void render_methods(SceneComparison& result);
     void refine_reference(SceneComparison& result);
     void judge(SceneComparison& result) const;
-    int finest_levels() const;
-    int first_levels() const;
     double smallest_error(const SceneComparison& result) const;
     void add_causes(SceneComparison& result) const;
     void compare(SceneComparison& result);
@@ -113,23 +109,6 @@ Rendered Comparison::render(const ShadeMethod& method) const {
     return result;
 }
 
-int Comparison::finest_levels() const {
-    int finest = -1;
-    for (const ShadeMethod& method : options_.methods)
-        if (displaces(method.shade)) finest = std::max(finest, method.levels < 0 ? most_levels : method.levels);
-    return finest;
-}
-
-/// Four times as fine as the finest displacement that is judged, where that is not too much to begin with.
-int Comparison::first_levels() const {
-    const int finest = finest_levels();
-    const auto triangles = [&](int levels) { return double(scene_.triangles()) * std::exp2(2.0 * levels); };
-    int levels = std::max(0, finest + 1);
-    if (levels < finest + 2 && triangles(levels + 1) <= most_first_triangles) ++levels;
-    while (levels < most_levels && triangles(levels) < first_triangles) ++levels;
-    return std::min(levels, most_levels);
-}
-
 void Comparison::take_reference(SceneComparison& result, Rendered rendered, const ShadeMethod& method) {
     result.reference.method = name(method);
     result.reference.shade = method;
@@ -147,7 +126,7 @@ void Comparison::begin(SceneComparison& result) {
         take_reference(result, render(*options_.reference), *options_.reference);
         result.reference.why = "as asked for";
     } else {
-        for (levels_ = first_levels();; --levels_) {
+        for (levels_ = first_reference_levels(scene_.triangles(), options_.methods);; --levels_) {
             try {
                 const ShadeMethod method{Shade::displace, levels_};
                 take_reference(result, render(method), method);
@@ -205,7 +184,7 @@ double Comparison::smallest_error(const SceneComparison& result) const {
 void Comparison::refine_reference(SceneComparison& result) {
     ReferenceRow& reference = result.reference;
     if (options_.reference || !reference.why.empty()) return;
-    while (levels_ < most_levels) {
+    while (levels_ < most_displacement_levels) {
         Rendered finer;
         try {
             finer = render({Shade::displace, levels_ + 1});
@@ -306,19 +285,6 @@ SceneComparison Comparison::run() {
 }
 
 } // namespace
-
-std::vector<ShadeMethod> default_methods(std::int64_t triangles) {
-    std::vector<ShadeMethod> methods = {{Shade::plain}, {Shade::roughness}, {Shade::constant_scale}, {Shade::blinn},
-                                        {Shade::exact}, {Shade::bump},      {Shade::bump_roughness}, {Shade::normal}};
-    const auto count = [&](int levels) { return double(triangles) * std::exp2(2.0 * levels); };
-    int coarse = 0;
-    while (coarse < most_levels - 3 && count(coarse) < 8000) ++coarse;
-    const int fine = count(coarse + 4) <= most_first_triangles ? coarse + 2 : coarse + 1;
-    methods.push_back({Shade::displace, coarse});
-    methods.push_back({Shade::displace, fine});
-    methods.push_back({Shade::displace_normal, coarse});
-    return methods;
-}
 
 std::vector<Figure> figures(const PictureErrors& errors) {
     std::vector<Figure> all = {{"rmse", errors.object.rmse.value},

@@ -66,10 +66,6 @@ struct SceneComparison {
     bool over_limit = false, interrupted = false;
 };
 
-/// Methods without displacement, a coarse and a fine displacement, the coarse one also with a residual normal map: for an
-/// object of this many triangles.
-std::vector<ShadeMethod> default_methods(std::int64_t triangles);
-
 /// Stopped by Ctrl-C after the reference was rendered, it compares what is there, see accept_interrupt(). Throws the errors
 /// of ComparedScene and of load(), and Error{Refusal::usage} for limits of what is not computed.
 SceneComparison compare_scene(const SceneEntries& entries, const std::string& object,

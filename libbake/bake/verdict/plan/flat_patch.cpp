@@ -125,6 +125,16 @@ bool FlatMesh::is_flat() const noexcept {
 bool FlatMesh::border_is(const std::vector<Vec2d>& hull) const {
     const HalfEdges half_edges = make_half_edges(mesh_, first_equal(mesh_.positions));
     const EdgeTable edges = make_edges(half_edges);
+    const auto on_hull = [&](const Vec2d& a, const Vec2d& b) {
+        for (std::size_t k = 0; k < hull.size(); ++k) {
+            const Vec2d& from = hull[k];
+            const Vec2d along = glm::normalize(hull[(k + 1) % hull.size()] - from);
+            if (std::abs(cross2(along, a - from)) <= tolerance * size_ &&
+                std::abs(cross2(along, b - from)) <= tolerance * size_)
+                return true;
+        }
+        return false;
+    };
     for (std::uint32_t e = 0; e < edges.edges(); ++e) {
         const auto sides = edges.of(e);
         const std::uint32_t h = sides.front();
@@ -133,15 +143,7 @@ bool FlatMesh::border_is(const std::vector<Vec2d>& hull) const {
             if (half_edges.origin[h] == half_edges.origin[sides.back()]) return false;
             continue;
         }
-        const Vec2d a = flat(at(h)), b = flat(at(half_edges.next(h)));
-        bool on_hull = false;
-        for (std::size_t k = 0; k < hull.size() && !on_hull; ++k) {
-            const Vec2d& from = hull[k];
-            const Vec2d along = glm::normalize(hull[(k + 1) % hull.size()] - from);
-            on_hull = std::abs(cross2(along, a - from)) <= tolerance * size_ &&
-                      std::abs(cross2(along, b - from)) <= tolerance * size_;
-        }
-        if (!on_hull) return false;
+        if (!on_hull(flat(at(h)), flat(at(half_edges.next(h))))) return false;
     }
     return true;
 }

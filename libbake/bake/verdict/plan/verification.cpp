@@ -57,19 +57,19 @@ Verification Verifier::compare(std::size_t camera, std::span<const std::uint8_t>
 void Verifier::add(std::size_t camera, std::vector<Verification>& verified) {
     work_.scenes.light_for(reference_->scene, camera);
     if (planned_) work_.scenes.light_for(planned_->scene, camera);
-    double squares = 0, area = 0; ///< of what is predicted
+    double squares = 0; ///< of what is predicted
     for (const std::size_t i : group_) {
         const ObjectPlan& plan = decisions_[i].plan;
         const std::vector<std::uint8_t> instances = work_.scenes.instances_of(decisions_[i].object);
         Verification line = compare(camera, instances, plan.object, plan.budget + plan.reference_error);
         line.predicted = predicted_of(plan);
         if (line.measured.pixels == 0) continue;
-        squares += line.predicted.square * double(line.measured.pixels), area += double(line.measured.pixels);
+        squares += line.predicted.square * double(line.measured.pixels);
         verified.push_back(std::move(line));
     }
     Verification frame = compare(camera, {}, "", work_.options.budget.value);
     const double pixels = double(work_.scenes.settings().width) * work_.scenes.settings().height;
-    frame.predicted.square = area > 0 ? squares / pixels : 0;
+    frame.predicted.square = squares / pixels;
     frame.predicted.pixels = std::int64_t(pixels);
     verified.push_back(std::move(frame));
 }
