@@ -237,11 +237,22 @@ TEST_SUITE("unit") {
         CHECK(double(passed.estimate.pixels) >= as_many);
         CHECK(double(passed.estimate.pixels) < 1.7 * as_many); // the next look at the latest
         // Between fail_at and pass_at it is open to the end.
-        StoppingRule rule{.fail_at = 0.99, .pass_at = 1.01};
+        StoppingRule rule{.rounds = 1, .fail_at = 0.99, .pass_at = 1.01};
         const auto open = probe.judge(pair.shown(), error.rmse(), 0, rule);
         CHECK(open.settled == Settled::open);
         CHECK(open.estimate.pixels == error.pixels);
-        rule.most = 300;
+        // All pixels are seen again with new samples, which lessens what the noise of the samples leaves open.
+        rule = {.most = 1 << 20, .rounds = 1, .fail_at = 1e9, .pass_at = 0};
+        const auto once = probe.judge(pair.shown(), error.rmse(), 0, rule).estimate;
+        CHECK(once.square == error.square);
+        rule.rounds = 4;
+        const auto again = probe.judge(pair.shown(), error.rmse(), 0, rule).estimate;
+        CHECK((again.all && again.pixels == error.pixels));
+        CHECK(again.square != once.square);
+        CHECK(std::abs(again.square - once.square) < 4 * once.error);
+        CHECK(again.error < 0.7 * once.error);
+        CHECK(again.error > 0.3 * once.error);
+        rule = {.most = 300, .fail_at = 0.99, .pass_at = 1.01};
         const auto capped = probe.judge(pair.shown(), error.rmse(), 0, rule).estimate;
         CHECK((capped.pixels >= 300 && capped.pixels < 320));
         CHECK_FALSE(capped.all);

@@ -131,7 +131,7 @@ TEST_SUITE("unit") {
     TEST_CASE(
         "plan_scene: where no rung will do, the mesh of half the reference's segments is shown if that is enough") {
         const SceneEntries entries = relief_scene("sphere:R=1", 1);
-        PlanOptions options = with_budget(0.0007);
+        PlanOptions options = with_budget(0.0004);
         options.verify = true;
         const ScenePlan plan = plan_scene(entries, options);
         const ObjectPlan& object = plan.objects.at(0);

@@ -54,6 +54,7 @@ struct StoppingRule {
     int first = 32;
     double growth = 1.5;
     int most = 2048;
+    int rounds = 8;       ///< that all pixels may be visited in, with new samples each time
     int pass_from = 256;  ///< object pixels from which a candidate can pass, unless all are visited
     double fail_at = 0.9; ///< over when R - 2 se >= (fail_at B)^2
     double pass_at = 1.1; ///< within when R + 2 se <= (pass_at B)^2

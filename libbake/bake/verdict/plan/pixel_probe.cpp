@@ -12,6 +12,10 @@ constexpr std::int64_t pixels_per_task = 4;
 /// of these are to be seen of a large object as of one of 1000 pixels before it can pass.
 int pass_from_of(std::size_t pixels) noexcept { return int(std::min(8 * std::sqrt(double(pixels)), 1e9)); }
 
+std::uint32_t seed_of_round(std::uint32_t seed, std::size_t round) noexcept {
+    return round == 0 ? seed : std::uint32_t(hash(std::uint64_t(round) << 32 | seed));
+}
+
 /// Renders pixels of one scene.
 class Prober {
 public:
@@ -94,30 +98,37 @@ PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference
 ReferenceProbe::ReferenceProbe(const ProbedScene& reference, std::vector<Pixel> pixels, const ProbeOptions& options)
     : reference_(reference), pixels_(std::move(pixels)), options_(options) {}
 
-bool ReferenceProbe::visit(const ProbedScene& candidate, std::int64_t wanted, Visit& visited) {
+bool ReferenceProbe::visit(const ProbedScene& candidate, std::int64_t wanted, int rounds, Visit& visited) {
+    const std::size_t count = pixels_.size(), last = count * std::size_t(rounds);
     SquareEstimate now = visited.tally.estimate();
-    while (now.pixels < wanted && visited.next < pixels_.size()) {
+    while (now.pixels < wanted && visited.next < last) {
         // As many as are missing, so that hardly any are rendered in vain; some more for the sake of the threads.
         const std::size_t step = std::size_t(std::max<std::int64_t>(wanted - now.pixels, 4 * pixels_per_task));
-        const std::size_t end = std::min(visited.next + step, pixels_.size());
-        const auto part = [&](std::size_t from) { return std::span(pixels_).subspan(from, end - from); };
+        const std::size_t round = visited.next / count, end = std::min(visited.next + step, (round + 1) * count);
+        const auto part = [&](std::size_t from) {
+            return std::span(pixels_).subspan(from - round * count, end - from);
+        };
+        ProbeOptions options = options_;
+        options.seed = seed_of_round(options_.seed, round);
         if (rendered_.size() < end) {
-            const auto more = probe_pixels(reference_, part(rendered_.size()), options_);
+            const auto more = probe_pixels(reference_, part(rendered_.size()), options);
             rendered_.insert(rendered_.end(), more.begin(), more.end());
         }
-        const auto shown = probe_pixels(candidate, part(visited.next), options_);
+        const auto shown = probe_pixels(candidate, part(visited.next), options);
         for (std::size_t i = 0; i < shown.size(); ++i)
             visited.tally.add(square_of(shown[i], rendered_[visited.next + i]));
         visited.next = end;
         now = visited.tally.estimate();
+        if (end == count) visited.object_pixels = now.pixels;
     }
-    return visited.next < pixels_.size();
+    return visited.next < last;
 }
 
 SquareEstimate ReferenceProbe::estimate(const Visit& visited) const noexcept {
     const double share = pixels_.empty() ? 1 : double(visited.next) / double(pixels_.size());
-    SquareEstimate out = visited.tally.estimate(share);
-    out.all = visited.next == pixels_.size();
+    SquareEstimate out = visited.tally.estimate(std::min(share, 1.0));
+    out.all = visited.next >= pixels_.size();
+    if (out.all) out.pixels = visited.object_pixels;
     return out;
 }
 
@@ -127,7 +138,7 @@ ReferenceProbe::Result ReferenceProbe::judge(const ProbedScene& candidate, doubl
     Visit visited;
     double wanted = std::max(1, rule.first);
     for (;;) {
-        const bool more = visit(candidate, std::int64_t(std::min(wanted, double(rule.most))), visited);
+        const bool more = visit(candidate, std::int64_t(std::min(wanted, double(rule.most))), rule.rounds, visited);
         Result result{estimate(visited)};
         result.settled = bake::judge(result.estimate, budget, reference_error, rule);
         if (result.settled != Settled::open || !more || wanted >= rule.most) return result;
@@ -138,7 +149,7 @@ ReferenceProbe::Result ReferenceProbe::judge(const ProbedScene& candidate, doubl
 
 SquareEstimate ReferenceProbe::measure(const ProbedScene& candidate, int pixels) {
     Visit visited;
-    visit(candidate, pixels, visited);
+    visit(candidate, pixels, 1, visited);
     return estimate(visited);
 }
 

@@ -73,16 +73,17 @@ public:
 private:
     struct Visit {
         ErrorTally tally;
-        std::size_t next = 0; ///< of pixels_
+        std::size_t next = 0;           ///< of pixels_, counted on from round to round
+        std::int64_t object_pixels = 0; ///< in the first round
     };
-    /// Goes on until `wanted` object pixels are visited; false if no pixels are left.
-    bool visit(const ProbedScene& candidate, std::int64_t wanted, Visit& visited);
+    /// Goes on until `wanted` object pixels are visited; false if no pixels are left in any round.
+    bool visit(const ProbedScene& candidate, std::int64_t wanted, int rounds, Visit& visited);
     SquareEstimate estimate(const Visit& visited) const noexcept;
 
     ProbedScene reference_;
     std::vector<Pixel> pixels_;
     ProbeOptions options_;
-    std::vector<ProbedPixel> rendered_; ///< of the first pixels
+    std::vector<ProbedPixel> rendered_; ///< of the first pixels, round by round
 };
 
 } // namespace bake
