@@ -18,13 +18,13 @@ struct Candidate {
     std::vector<std::uint8_t> instances; ///< a flag for each of the scene
     std::optional<ObjectFacts> facts;
     CostInput cost;
-    double edge = 0;                   ///< of the mesh, texels
-    double shortest = 0;               ///< wave of the height, texels
-    bool has_relief = true;            ///< some height is not 0
-    std::size_t next = 0;              ///< rung
-    std::size_t last = 0;              ///< the last one that was probed before
-    bool probed = false;               ///< whether there is one
-    std::size_t worst = 0;             ///< the camera that refused the last rung
+    double edge = 0;        ///< of the mesh, texels
+    double shortest = 0;    ///< wave of the height, texels
+    bool has_relief = true; ///< some height is not 0
+    std::size_t next = 0;   ///< rung
+    std::size_t last = 0;   ///< the last one that was probed before
+    bool probed = false;    ///< whether there is one
+    std::size_t worst = 0;  ///< the camera that refused the last rung
     bool done = false;
     double first_triangles = 1e5;   ///< of all meshes, with which the reference begins
     double most_refined = 5e6;      ///< beyond which it is not refined for its own error
