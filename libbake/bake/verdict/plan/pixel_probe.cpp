@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::int64_t pixels_per_task = 4;
 
-/// The largest errors lie along contours, which are a share of an object's pixels that falls with the root of their number. As many
-/// of these are to be seen of a large object as of one of 1000 pixels before it can pass.
+/// Object pixels from which an object of `pixels` pixels can pass. Many large errors lie along contours, and of n pixels a share
+/// of about 1 / sqrt(n) lies there. With 8 sqrt(n) pixels as many of them are seen as with 256 pixels of an object of 1000.
 int pass_from_of(std::size_t pixels) noexcept { return int(std::min(8 * std::sqrt(double(pixels)), 1e9)); }
 
 std::uint32_t seed_of_round(std::uint32_t seed, std::size_t round) noexcept {

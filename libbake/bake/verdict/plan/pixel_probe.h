@@ -52,8 +52,8 @@ PixelSquare square_of(const ProbedPixel& candidate, const ProbedPixel& reference
 std::vector<Pixel> object_pixels(std::span<const ProbedScene> scenes, const ProbeOptions& options,
                                  int rays_per_edge = 2);
 
-/// The error of a candidate against a reference, look by look until judge() settles it or all pixels or rule.most object
-/// pixels are visited. What is rendered of the reference is kept for further candidates. Without pixels, as of an object
+/// The error of a candidate against a reference, look by look until judge() settles it, or all pixels were visited
+/// rule.rounds times, each time with new samples, or rule.most object pixels in all. What is rendered of the reference is kept for further candidates. Without pixels, as of an object
 /// that is out of view, estimates have 0 pixels and an error of 0, `all` is set, and every budget holds.
 class ReferenceProbe {
 public:
