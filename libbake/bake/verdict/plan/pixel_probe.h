@@ -53,8 +53,9 @@ std::vector<Pixel> object_pixels(std::span<const ProbedScene> scenes, const Prob
                                  int rays_per_edge = 2);
 
 /// The error of a candidate against a reference, look by look until judge() settles it, or all pixels were visited
-/// rule.rounds times, each time with new samples, or rule.most object pixels in all. What is rendered of the reference is kept for further candidates. Without pixels, as of an object
-/// that is out of view, estimates have 0 pixels and an error of 0, `all` is set, and every budget holds.
+/// rule.rounds times, each time with new samples, or rule.most object pixels in all. What is rendered of the reference is
+/// kept for further candidates. Without pixels, as of an object that is out of view, estimates have 0 pixels and an error of
+/// 0, `all` is set, and every budget holds.
 class ReferenceProbe {
 public:
     /// The scene must outlive the object.
