@@ -13,7 +13,8 @@
 // visited pixels:
 //   se^2 = ((1 - f) (sum q^2 + max |m|^2) + f (sum v + max v)) / (sum a)^2,   v = (|d_a|^2 - |d_b|^2)^2 / 36
 // v is an estimate of the variance of m: of independent d_a and d_b with the same normal distribution, (d_a + d_b) /
-// sqrt(2) and (d_a - d_b) / sqrt(2) are independent as well, and v is the square of 1/3 of their product.
+// sqrt(2) and (d_a - d_b) / sqrt(2) are independent as well, and v is the square of 1/3 of their product. It is too small where a few samples see all of
+// the difference: if one sample of each half does, d_a = d_b and v = 0.
 #pragma once
 #include <cmath>
 #include <cstdint>
