@@ -1,8 +1,18 @@
 #include "high_options.h"
 #include "inputs/choice.h"
 #include "inputs/file_kind.h"
+#include "inputs/name_list.h"
 
 namespace bake {
+namespace {
+
+std::vector<std::string> map_names() {
+    std::vector<std::string> names;
+    for (const DetailMap map : all_detail_maps) names.emplace_back(name(map));
+    return names;
+}
+
+} // namespace
 
 void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_option("--high", args.paths,
@@ -22,16 +32,35 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_choice<CastBy>(
         sub, "--cast", args.cast, {{"blend", CastBy::blend}, {"averaged", CastBy::averaged}, {"face", CastBy::face}},
         "Directions of rays: averaged at hard edges and perpendicular elsewhere, averaged, or of facets");
+    std::string names;
+    for (const std::string& each : map_names()) names += (names.empty() ? "" : ",") + each;
+    sub.add_option_function<std::string>(
+           "--maps",
+           [&args](const std::string& text) {
+               for (const std::size_t i : parse_names("--maps", text, "map", map_names()))
+                   args.maps.push_back(all_detail_maps[i]);
+           },
+           "Further maps of the detail: " + names)
+        ->type_name("LIST");
+    sub.add_option("--maps-out", args.maps_out, "What their names begin with: PREFIX_height.exr and so on")
+        ->type_name("PREFIX");
+    add_integer_option(sub, "--sky-rays", args.sky_rays, 1, 4096, "Rays of ambient-occlusion and bent-normal")
+        ->default_str(std::to_string(args.sky_rays));
+    add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
 }
 
 void complete(const HighArgs& args) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     if (!args.given()) {
-        if (!args.cage.empty() || args.extrude || args.max_distance || args.strict)
-            throw usage("--cage, --extrude, --max-distance and --strict: belong to --high; name the high-poly mesh");
+        if (!args.cage.empty() || args.extrude || args.max_distance || args.strict || !args.maps.empty() ||
+            !args.maps_out.empty())
+            throw usage(
+                "--cage, --extrude, --max-distance, --maps and --strict: belong to --high; name the high-poly mesh");
         return;
     }
+    if (args.maps.empty() != args.maps_out.empty())
+        throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
     if (!args.cage.empty()) expect_mesh(args.cage);
     if (!args.cage.empty() && (args.extrude || args.max_distance))

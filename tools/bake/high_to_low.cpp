@@ -1,19 +1,50 @@
 #include "high_to_low.h"
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/transfer/reach.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
 
 constexpr int default_size = 1024;
 
-TransferOptions options_of(const NormalMapArgs& args) {
+TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
     TransferOptions options;
     std::tie(options.width, options.height) = args.size.value_or(std::pair(default_size, default_size));
     options.space = args.space, options.directx = args.directx;
     options.padding = args.padding, options.tile = args.tile, options.rays = args.high.rays;
+    options.details.maps = args.high.maps, options.details.sky_rays = args.high.sky_rays;
+    if (args.high.sky_distance)
+        options.details.sky_distance = float(args.high.sky_distance->in_units(diagonal(bounds(low))));
     options.try_wider = args.high.cage.empty() && !args.high.extrude;
     return options;
+}
+
+/// PREFIX_height.exr and so on, opened before the work.
+std::vector<std::unique_ptr<ImageWriter>> open_maps(const HighArgs& args, const TransferOptions& options) {
+    std::vector<std::unique_ptr<ImageWriter>> writers;
+    for (const DetailMap map : args.maps) {
+        const std::vector<std::string> names =
+            channels(map) == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+        writers.push_back(std::make_unique<ImageWriter>(args.maps_out + "_" + name(map) + ".exr", options.width,
+                                                        options.height, channels(map),
+                                                        WriteOptions{.depth = Depth::float32, .channels = names}));
+    }
+    return writers;
+}
+
+/// Of all kinds, to choose the tree by.
+double rays_of(const TransferOptions& options) {
+    const auto asks = [&](DetailMap map) {
+        return std::find(options.details.maps.begin(), options.details.maps.end(), map) != options.details.maps.end();
+    };
+    const bool sky = asks(DetailMap::ambient_occlusion) || asks(DetailMap::bent_normal);
+    const double casts = double(options.width) * options.height * options.rays * options.rays;
+    return casts * (sky ? 1 + options.details.sky_rays : 1);
+}
+
+bool needs_both_sides(const HighArgs& args) {
+    return std::find(args.maps.begin(), args.maps.end(), DetailMap::thickness) != args.maps.end();
 }
 
 std::vector<HighMesh> read_high(const NormalMapArgs& args) {
@@ -105,13 +136,14 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     std::vector<std::pair<std::string, std::vector<std::string>>> notes{{args.mesh, low.notes}};
     for (const HighMesh& high : meshes) notes.emplace_back(high.name, high.mesh.notes);
     watch.lap("read");
-    const TransferOptions options = options_of(args);
+    const TransferOptions options = options_of(args, low);
     // Opened before the work, so that a long bake does not fail at its end.
     ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
+    const auto map_writers = open_maps(args.high, options);
     const BakeTarget target = make_bake_target(low, args.mesh, options.width, options.height, options.tile);
     watch.lap("surface, tangents, raster");
-    const HighSurface high(std::move(meshes), low.origin, args.high.normals,
-                           double(options.width) * options.height * options.rays * options.rays);
+    const HighSurface high(std::move(meshes), low.origin, args.high.normals, rays_of(options),
+                           needs_both_sides(args.high));
     watch.lap("tree");
     const Casting casting = make_casting(args, target.surface, high);
     watch.lap("reach");
@@ -121,6 +153,10 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     watch.lap("bake");
     writer.write(result.map.data(), options.height);
     writer.finish();
+    for (std::size_t m = 0; m < map_writers.size(); ++m) {
+        map_writers[m]->write(result.details[m].data(), options.height);
+        map_writers[m]->finish();
+    }
     watch.lap("write");
     print_result(common, to_text(args, options, high, casting, result.report),
                  to_json(args, options, high, casting, result.report), watch);

@@ -8,7 +8,7 @@
 namespace bake {
 namespace {
 
-constexpr std::size_t most_samples = 400000; ///< corners of the high-poly mesh; its neighbours are as far away
+constexpr std::size_t most_samples = 150000; ///< corners of the high-poly mesh; its neighbours are as far away
 constexpr double farthest = 0.1; ///< of the diagonal of the low-poly mesh: what is beyond belongs to something else
 constexpr float wider = 1.2f, least = 1e-4f; ///< of the extremes; of the diagonal
 

@@ -31,17 +31,42 @@ Ray ray_of(const Cast& cast, float front, float back) noexcept {
     return ray;
 }
 
+/// The frame of a texel's normals.
+class MapFrame {
+public:
+    MapFrame(const BakeTarget& target, const TexelHit& at, Space space) noexcept : space_(space) {
+        if (space == Space::object) return;
+        const auto& corner = target.surface.triangles[at.triangle].corner;
+        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
+        for (std::size_t k = 0; k < 3; ++k)
+            tangent_ += b[k] * Vec3f(target.tangents[corner[k]]), n_ += b[k] * target.surface.n[corner[k]];
+        sign_ = target.tangents[corner[0]].w;
+    }
+    /// Zero for a frame without volume.
+    Vec3f in_map(const Vec3f& normal) const noexcept {
+        return space_ == Space::object ? normal : to_tangent_space(normal, tangent_, n_, sign_);
+    }
+
+private:
+    Space space_;
+    Vec3f tangent_{0}, n_{0};
+    float sign_ = 1;
+};
+
 /// Sums over the samples of texels, until they are averaged.
 class Bake {
 public:
     Bake(const BakeTarget& target, const HighSurface& high, const Casting& casting, const TransferOptions& options,
          Transfer& out)
-        : target_(target), high_(high), casting_(casting), options_(options), out_(out),
-          weights_(options.rays > 1 ? Image<float>(options.width, options.height, 1) : Image<float>()) {}
+        : target_(target), high_(high), casting_(casting), options_(options), details_(high, options.details),
+          out_(out), weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
+                                                                       : Image<float>()) {}
 
     /// One ray for each texel of the raster, of those that have none yet if `rest`.
     void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
     void average();
+    /// The row of another map.
+    void average(DetailMap map, int y, float* row) const noexcept;
 
 private:
     struct Counts {
@@ -57,14 +82,16 @@ private:
     const HighSurface& high_;
     const Casting& casting_;
     const TransferOptions& options_;
+    DetailProbe details_;
     Transfer& out_;
     Image<float> weights_; ///< with several rays
     bool cleared_ = false;
+    int pass_ = 0;
 };
 
 void Bake::clear(int y) noexcept {
     std::fill(out_.map.row(y), out_.map.row(y + 1), 0.0f);
-    std::fill(out_.heights.row(y), out_.heights.row(y + 1), 0.0f);
+    for (Image<float>& map : out_.details) std::fill(map.row(y), map.row(y + 1), 0.0f);
     std::fill(out_.states.row(y), out_.states.row(y + 1), TexelState::outside);
     if (!weights_.empty()) std::fill(weights_.row(y), weights_.row(y + 1), 0.0f);
 }
@@ -83,7 +110,7 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
             }
         },
         progress);
-    cleared_ = true;
+    cleared_ = true, ++pass_;
     TransferReport& report = out_.report;
     for (const Counts& c : counts) {
         report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
@@ -140,28 +167,38 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
         state = high_.bvh().occluded(packet.rays[i]) ? TexelState::behind : TexelState::missed;
         return;
     }
-    Vec3f t = high_.normal(hit);
-    if (options_.space == Space::tangent) {
-        const auto& corner = target_.surface.triangles[at.triangle].corner;
-        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
-        Vec3f T(0), N(0);
-        for (std::size_t k = 0; k < 3; ++k)
-            T += b[k] * Vec3f(target_.tangents[corner[k]]), N += b[k] * target_.surface.n[corner[k]];
-        t = to_tangent_space(t, T, N, target_.tangents[corner[0]].w);
-    }
+    const Vec3f normal = high_.normal(hit);
+    const MapFrame frame(target_, at, options_.space);
+    const Vec3f t = frame.in_map(normal);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;
     }
     const Cast& cast = packet.cast[i];
-    const float height = glm::dot(cast.start + cast.reach.front * cast.inward - high_.position(hit), cast.inward);
-    counts.nearest = std::min(counts.nearest, double(height)),
-    counts.farthest = std::max(counts.farthest, double(height));
+    const double height = double(height_of(cast, high_.position(hit)));
+    counts.nearest = std::min(counts.nearest, height), counts.farthest = std::max(counts.farthest, height);
+    const bool first = state != TexelState::hit;
     state = TexelState::hit;
     float* sum = &out_.map.at(packet.x[i], packet.y[i]);
     for (int c = 0; c < 3; ++c) sum[c] += weight * t[c];
-    out_.heights.at(packet.x[i], packet.y[i]) += weight * height;
+    if (out_.details.empty()) return;
     if (!weights_.empty()) weights_.at(packet.x[i], packet.y[i]) += weight;
+    const std::uint64_t seed =
+        std::uint64_t(pass_) << 40 ^ std::uint64_t(packet.y[i]) << 20 ^ std::uint64_t(packet.x[i]);
+    std::array<float, 4 * std::size(all_detail_maps)> values;
+    details_.at({cast, hit, normal, seed}, values);
+    for (std::size_t m = 0; m < out_.details.size(); ++m) {
+        const DetailMap map = options_.details.maps[m];
+        float* to = &out_.details[m].at(packet.x[i], packet.y[i]);
+        const float* from = &values[4 * m];
+        if (map == DetailMap::id) { // colours of several meshes have no mean
+            if (first) std::copy_n(from, 3, to);
+            continue;
+        }
+        Vec3f value(from[0], channels(map) == 3 ? from[1] : 0, channels(map) == 3 ? from[2] : 0);
+        if (map == DetailMap::bent_normal) value = frame.in_map(value);
+        for (int c = 0; c < channels(map); ++c) to[c] += weight * value[c];
+    }
 }
 
 void Bake::average() {
@@ -173,10 +210,25 @@ void Bake::average() {
                 if (n == Vec3f(0) && out_.states.at(x, y) == TexelState::hit) out_.states.at(x, y) = TexelState::missed;
                 const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
                 for (int c = 0; c < 3; ++c) rgb[c] = code[c];
-                if (!weights_.empty() && weights_.at(x, y) > 0) out_.heights.at(x, y) /= weights_.at(x, y);
             }
+            for (std::size_t m = 0; m < out_.details.size(); ++m)
+                average(options_.details.maps[m], y, out_.details[m].row(y));
         }
     });
+}
+
+void Bake::average(DetailMap map, int y, float* row) const noexcept {
+    if (map == DetailMap::id) return;
+    const int count = channels(map);
+    for (int x = 0; x < options_.width; ++x, row += count) {
+        if (map == DetailMap::bent_normal) {
+            const Vec3f n = unit_or_zero(Vec3f(row[0], row[1], row[2]));
+            const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
+            for (int c = 0; c < 3; ++c) row[c] = code[c];
+        } else if (!weights_.empty() && weights_.at(x, y) > 0) {
+            for (int c = 0; c < count; ++c) row[c] /= weights_.at(x, y);
+        }
+    }
 }
 
 void count_states(Transfer& out, bool tangent) {
@@ -196,6 +248,7 @@ void pad(Transfer& out, int padding) {
     Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
     for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
     out.report.padded = pad_texels(out.map, owned, padding);
+    for (Image<float>& map : out.details) pad_texels(map, owned, padding);
     out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
 }
 
@@ -205,7 +258,8 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
                   const TransferOptions& options, const std::string& path, Progress* progress) {
     Transfer out;
     out.map = Image<float>(options.width, options.height, 3);
-    out.heights = Image<float>(options.width, options.height, 1);
+    for (const DetailMap map : options.details.maps)
+        out.details.emplace_back(options.width, options.height, channels(map));
     out.states = Image<TexelState>(options.width, options.height, 1);
     out.report.nearest = INFINITY, out.report.farthest = -INFINITY;
     Bake bake(target, high, casting, options, out);

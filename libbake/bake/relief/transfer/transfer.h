@@ -5,8 +5,7 @@
 // point of the low-poly mesh that the ray goes through, is the texel.
 #pragma once
 #include "bake/relief/map/bake_target.h"
-#include "bake/relief/transfer/casting.h"
-#include "bake/relief/transfer/high_surface.h"
+#include "bake/relief/transfer/detail_maps.h"
 
 namespace bake {
 
@@ -15,10 +14,11 @@ class Progress;
 struct TransferOptions {
     int width = 0, height = 0; ///< of the map in texels
     Space space = Space::tangent;
-    bool directx = false;  ///< green points down
-    int padding = 16;      ///< texels filled beyond the charts' borders
-    int tile = 0;          ///< as NormalMapOptions
-    int rays = 1;          ///< along each side of a texel, from 1 to 16
+    bool directx = false; ///< green points down
+    int padding = 16;     ///< texels filled beyond the charts' borders
+    int tile = 0;         ///< as NormalMapOptions
+    int rays = 1;         ///< along each side of a texel, from 1 to 16
+    DetailOptions details;
     bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
 };
 
@@ -42,8 +42,8 @@ struct TransferReport {
 };
 
 struct Transfer {
-    Image<float> map;     ///< three channels, encoded
-    Image<float> heights; ///< one channel: along the cast from the low-poly mesh outward; 0 where nothing was hit
+    Image<float> map;                  ///< three channels, encoded
+    std::vector<Image<float>> details; ///< options.details.maps, padded like the map; 0 elsewhere
     Image<TexelState> states;
     TransferReport report;
 };
