@@ -118,7 +118,8 @@ std::vector<Reach> measured_reach(const MeshSurface& low, const HighSurface& hig
         const Extremes& own = measure.extremes()[vertex[i]];
         const Extremes& at = own.measured() ? own : all;
         const float margin = 0.1f * (at.out + at.in) + least * extent, skew = 1 / std::max(0.35f, cosine[vertex[i]]);
-        reach[i] = {skew * (wider * at.out + margin), 2 * skew * (wider * at.in + margin)};
+        reach[i] = {skew * (wider * at.out + margin), 2 * skew * (wider * at.in + margin),
+                    blend_width(wider * at.out, wider * at.in)};
     }
     return reach;
 }
