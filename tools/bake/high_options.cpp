@@ -47,6 +47,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_integer_option(sub, "--sky-rays", args.sky_rays, 1, 4096, "Rays of ambient-occlusion and bent-normal")
         ->default_str(std::to_string(args.sky_rays));
     add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
+    sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
+        ->type_name("OUT.glb");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
 }
 

@@ -2,8 +2,8 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/pad_texels.h"
-#include "bake/relief/map/normal_code.h"
 #include "bake/relief/transfer/gauss_legendre.h"
+#include "bake/relief/transfer/map_frame.h"
 #include <algorithm>
 #include <cmath>
 
@@ -31,36 +31,15 @@ Ray ray_of(const Cast& cast, float front, float back) noexcept {
     return ray;
 }
 
-/// The frame of a texel's normals.
-class MapFrame {
-public:
-    MapFrame(const BakeTarget& target, const TexelHit& at, Space space) noexcept : space_(space) {
-        if (space == Space::object) return;
-        const auto& corner = target.surface.triangles[at.triangle].corner;
-        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
-        for (std::size_t k = 0; k < 3; ++k)
-            tangent_ += b[k] * Vec3f(target.tangents[corner[k]]), n_ += b[k] * target.surface.n[corner[k]];
-        sign_ = target.tangents[corner[0]].w;
-    }
-    /// Zero for a frame without volume.
-    Vec3f in_map(const Vec3f& normal) const noexcept {
-        return space_ == Space::object ? normal : to_tangent_space(normal, tangent_, n_, sign_);
-    }
-
-private:
-    Space space_;
-    Vec3f tangent_{0}, n_{0};
-    float sign_ = 1;
-};
-
 /// Sums over the samples of texels, until they are averaged.
 class Bake {
 public:
     Bake(const BakeTarget& target, const HighSurface& high, const Casting& casting, const TransferOptions& options,
          Transfer& out)
         : target_(target), high_(high), casting_(casting), options_(options), details_(high, options.details),
-          out_(out), weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
-                                                                       : Image<float>()) {}
+          facets_(target, options.width, options.height), out_(out),
+          weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
+                                                            : Image<float>()) {}
 
     /// One ray for each texel of the raster, of those that have none yet if `rest`.
     void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
@@ -72,6 +51,11 @@ private:
     struct Counts {
         std::int64_t rays = 0, wider = 0, degenerate = 0;
         double nearest = INFINITY, farthest = -INFINITY;
+        std::array<std::int64_t, std::tuple_size_v<decltype(TransferReport::lengths)>> lengths{};
+        double parallax = 0, most_parallax = 0;
+        std::int64_t landed = 0;
+        FarTexel far;
+        void add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept;
     };
     void clear(int y) noexcept;
     void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts);
@@ -83,11 +67,23 @@ private:
     const Casting& casting_;
     const TransferOptions& options_;
     DetailProbe details_;
+    Facets facets_;
     Transfer& out_;
     Image<float> weights_; ///< with several rays
     bool cleared_ = false;
     int pass_ = 0;
+    double parallax_ = 0;
+    std::int64_t landed_ = 0;
 };
+
+void Bake::Counts::add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept {
+    nearest = std::min(nearest, height), farthest = std::max(farthest, height);
+    const double length = double(cast.reach.front) + double(cast.reach.back);
+    const double at = length > 0 ? (double(cast.reach.front) - height) / length * double(lengths.size()) : 0;
+    ++lengths[std::size_t(std::clamp(at, 0.0, double(lengths.size() - 1)))];
+    parallax += parallax_here, most_parallax = std::max(most_parallax, parallax_here), ++landed;
+    if (std::abs(height) > std::abs(far.height)) far = {height, x, y};
+}
 
 void Bake::clear(int y) noexcept {
     std::fill(out_.map.row(y), out_.map.row(y + 1), 0.0f);
@@ -115,7 +111,12 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
     for (const Counts& c : counts) {
         report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
         report.nearest = std::min(report.nearest, c.nearest), report.farthest = std::max(report.farthest, c.farthest);
+        for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
+        parallax_ += c.parallax, landed_ += c.landed;
+        report.parallax_max = std::max(report.parallax_max, c.most_parallax);
+        if (c.far.height != 0) out_.far.push_back(c.far);
     }
+    report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
 }
 
 void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts) {
@@ -176,7 +177,8 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
     }
     const Cast& cast = packet.cast[i];
     const double height = double(height_of(cast, high_.position(hit)));
-    counts.nearest = std::min(counts.nearest, height), counts.farthest = std::max(counts.farthest, height);
+    counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
+               packet.y[i]);
     const bool first = state != TexelState::hit;
     state = TexelState::hit;
     float* sum = &out_.map.at(packet.x[i], packet.y[i]);
@@ -276,6 +278,8 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
     bake.cast_all(target.raster, 1, options.rays > 1, progress);
     bake.average();
     if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
+    std::stable_sort(out.far.begin(), out.far.end(),
+                     [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
     count_states(out, options.space == Space::tangent);
     out.report.border = target.raster.border;
     pad(out, options.padding);

@@ -38,7 +38,16 @@ struct TransferReport {
     std::int64_t wider = 0;   ///< texels with rays that found something in the second try only
     std::int64_t outward = 0; ///< texels whose normal points into the low-poly mesh: out of range in tangent space
     std::int64_t border = 0, degenerate = 0, padded = 0, empty = 0; ///< as NormalMapReport
+    /// Of the rays that land, by where they do: from the envelope (0) to where they end (the last).
+    std::array<std::int64_t, 16> lengths{};
+    double parallax_mean = 0,
+           parallax_max = 0;          ///< texels by which detail moves sideways, as the cast leans from the facet
     double nearest = 0, farthest = 0; ///< of the heights of hits over the low-poly mesh, object units
+};
+
+struct FarTexel {
+    double height = 0;
+    int x = 0, y = 0;
 };
 
 struct Transfer {
@@ -46,6 +55,7 @@ struct Transfer {
     std::vector<Image<float>> details; ///< options.details.maps, padded like the map; 0 elsewhere
     Image<TexelState> states;
     TransferReport report;
+    std::vector<FarTexel> far; ///< of each four rows the texel with the largest height or depth, ordered by that
 };
 
 /// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat
