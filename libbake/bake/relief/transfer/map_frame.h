@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/relief/map/bake_target.h"
 #include "bake/relief/map/normal_code.h"
+#include <optional>
 
 namespace bake {
 
@@ -36,6 +37,26 @@ private:
     };
     std::vector<Facet> facets_;
 };
+
+/// Of a texel whose centre lies outside of its chart: the point of the triangle as far from the border as the centre is, on the
+/// other side. Nothing for centres in the chart, and if the triangle is too small. `edge`: the nearest point of the triangle.
+inline std::optional<TexelHit> mirrored_at_border(const BakeTarget& target, const TexelHit& edge, int x, int y,
+                                                  int width, int height) noexcept {
+    if (std::min({edge.b1, edge.b2, 1 - edge.b1 - edge.b2}) > 1e-6f) return {}; // inside
+    const Mesh& mesh = *target.surface.mesh;
+    const auto& corner = target.surface.triangles[edge.triangle].corner;
+    const auto uv = [&](std::size_t k) { return Vec2d(mesh.uvs[mesh.corner_uv[corner[k]]]); };
+    const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+    const Vec2d centre((x + 0.5) / width, 1 - (y + 0.5) / height);
+    Vec2d inward = uv(0) + double(edge.b1) * d1 + double(edge.b2) * d2 - centre;
+    inward = {inward.x - std::round(inward.x), inward.y - std::round(inward.y)}; // charts may lie in other tiles
+    const double area = d1.x * d2.y - d2.x * d1.y;
+    if (std::hypot(inward.x * width, inward.y * height) < 1e-3 || area == 0) return {};
+    const double b1 = double(edge.b1) + (inward.x * d2.y - inward.y * d2.x) / area;
+    const double b2 = double(edge.b2) + (d1.x * inward.y - d1.y * inward.x) / area;
+    if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return {};
+    return TexelHit{edge.triangle, float(b1), float(b2)};
+}
 
 /// The frame of a texel's normals.
 class MapFrame {

@@ -2,6 +2,7 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/pad_texels.h"
+#include "bake/relief/transfer/chart_ring.h"
 #include "bake/relief/transfer/gauss_legendre.h"
 #include "bake/relief/transfer/map_frame.h"
 #include <algorithm>
@@ -60,6 +61,7 @@ private:
     void clear(int y) noexcept;
     void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts);
     void trace(Packet& packet, Counts& counts) const noexcept;
+    Vec3f beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept;
     void add(const Packet& packet, int lane, float weight, Counts& counts) noexcept;
 
     const BakeTarget& target_;
@@ -170,11 +172,12 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
     }
     const Vec3f normal = high_.normal(hit);
     const MapFrame frame(target_, at, options_.space);
-    const Vec3f t = frame.in_map(normal);
+    Vec3f t = frame.in_map(normal);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;
     }
+    t = beyond_border(at, packet.x[i], packet.y[i], t, counts);
     const Cast& cast = packet.cast[i];
     const double height = double(height_of(cast, high_.position(hit)));
     counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
@@ -201,6 +204,19 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
         if (map == DetailMap::bent_normal) value = frame.in_map(value);
         for (int c = 0; c < channels(map); ++c) to[c] += weight * value[c];
     }
+}
+
+/// The value for a texel whose centre lies beyond the border of a chart, continued linearly from the nearest point of the chart and
+/// from the point as far inside: what a bilinear filter reads on the border is then what was hit there, on both sides of a seam.
+Vec3f Bake::beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept {
+    constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
+    const auto inside = mirrored_at_border(target_, edge, x, y, options_.width, options_.height);
+    if (!inside) return at_edge;
+    const Hit hit = high_.bvh().intersect(ray_of(casting_.at(*inside), 1, 1));
+    ++counts.rays;
+    if (!hit) return at_edge;
+    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(high_.normal(hit));
+    return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
 }
 
 void Bake::average() {
@@ -249,8 +265,9 @@ void count_states(Transfer& out, bool tangent) {
 void pad(Transfer& out, int padding) {
     Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
     for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
-    out.report.padded = pad_texels(out.map, owned, padding);
     for (Image<float>& map : out.details) pad_texels(map, owned, padding);
+    if (padding > 0) out.report.padded = continue_charts(out.map, owned);
+    out.report.padded += pad_texels(out.map, owned, padding - 1);
     out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
 }
 
