@@ -15,9 +15,10 @@ std::vector<std::string> map_names() {
 } // namespace
 
 void add_high_options(CLI::App& sub, HighArgs& args) {
-    sub.add_option("--high", args.paths,
-                   "Meshes whose detail is cast onto the uvs of the first mesh, instead of the relief of --height")
-        ->type_name("HIGH.ply...");
+    CLI::Option* const high =
+        sub.add_option("--high", args.paths,
+                       "Meshes whose detail is cast onto the uvs of the first mesh, instead of the relief of --height")
+            ->type_name("HIGH.ply");
     sub.add_option("--cage", args.cage,
                    "The first mesh with its faces pushed out: rays start there [automatic, from the meshes' distance]")
         ->type_name("MESH");
@@ -50,17 +51,14 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
         ->type_name("OUT.glb");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
+    for (const char* flag : {"--cage", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
+                             "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--strict"})
+        sub.get_option(flag)->needs(high);
 }
 
 void complete(const HighArgs& args) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
-    if (!args.given()) {
-        if (!args.cage.empty() || args.extrude || args.max_distance || args.strict || !args.maps.empty() ||
-            !args.maps_out.empty())
-            throw usage(
-                "--cage, --extrude, --max-distance, --maps and --strict: belong to --high; name the high-poly mesh");
-        return;
-    }
+    if (!args.given()) return;
     if (args.maps.empty() != args.maps_out.empty())
         throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
