@@ -50,9 +50,10 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
     sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
         ->type_name("OUT.glb");
+    sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
     for (const char* flag : {"--cage", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
-                             "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--strict"})
+                             "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 

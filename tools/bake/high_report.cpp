@@ -112,18 +112,19 @@ nlohmann::json to_json(const HighReport& report) {
               {"empty", r.empty}}}};
 }
 
-void warn(const CommonArgs& common, const HighReport& report) {
+std::vector<std::string> notes_of(const HighReport& report) {
+    std::vector<std::string> out;
     const TransferReport& r = report.result;
     const std::string& low = report.args.mesh;
     const std::string& high = report.args.high.paths[0];
     const auto say = [&](std::int64_t count, const std::string& what) {
-        if (count > 0) note(common, format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
+        if (count > 0) out.push_back(format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
     };
     if (r.hit == 0 && r.behind > 0)
-        note(common,
-             high + ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
+        out.push_back(high +
+                      ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
     else if (r.hit == 0)
-        note(common, high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
+        out.push_back(high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
     else
         say(r.missed, "texels find no detail, and have the normal of the nearest texel that does; give a larger "
                       "--extrude, or close the high-poly mesh there");
@@ -131,12 +132,14 @@ void warn(const CommonArgs& common, const HighReport& report) {
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");
     say(report.target.raster.overlapped, "texels lie in more than one face; the lowest face was baked");
-    say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
+    // One map per tile leaves nothing out.
+    if (!report.all_tiles) say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
     say(report.target.raster.crossing_faces, "faces leave the tile; only their part inside was baked");
     say(report.target.raster.degenerate, "triangles have no area in uv and were not baked");
     if (!report.target.raster.tiles.empty())
-        note(common,
-             low + ": its charts lie in " + report.target.raster.tiles + " of the uvs' tiles and are baked modulo 1");
+        out.push_back(low + ": its charts lie in " + report.target.raster.tiles +
+                      " of the uvs' tiles and are baked modulo 1");
+    return out;
 }
 
 } // namespace bake

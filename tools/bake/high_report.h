@@ -14,12 +14,13 @@ struct HighReport {
     const Casting& casting;
     const TransferReport& result;
     SeamDisagreement seams;
+    bool all_tiles = false;         ///< whether this is the map of one tile of all
     std::vector<Witness> witnesses; ///< misses, then the farthest texels
 };
 
 std::string to_text(const HighReport& report);
 nlohmann::json to_json(const HighReport& report);
-/// Notes on texels that are not what they should be.
-void warn(const CommonArgs& common, const HighReport& report);
+/// One line for each kind of texel that is not what it should be.
+std::vector<std::string> notes_of(const HighReport& report);
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "normal_map_options.h"
 #include "inputs/file_kind.h"
+#include "inputs/tile_names.h"
 
 namespace bake {
 
@@ -30,6 +31,9 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         if (args.extent || !args.displaced.empty())
             throw usage("--extent, --residual-of: belong to a height; leave them out with --high");
         expect_mesh(args.mesh);
+        for (const std::string& name : {args.high.maps_out, args.high.debug_rays})
+            if (!name.empty() && names_tiles(name) != names_tiles(args.out))
+                throw usage("-o, --maps-out, --debug-rays: <UDIM> stands in all of them or in none");
     } else if (args.height.path.empty()) {
         if (args.mesh.empty() || named_like_a_mesh(args.mesh))
             throw usage("--height: is required; name the picture of the relief, as in bake " + verb +
@@ -50,6 +54,9 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         if (args.space == Space::object)
             throw usage("--residual-of: normals in object space are the same on both meshes; leave one of the two out");
     }
+    if (names_tiles(args.out) && args.tile != 0)
+        throw usage("--tile: <UDIM> in the name of the map asks for all tiles; leave one of the two out");
+    if (args.mesh.empty()) expect_one_file("-o", args.out, "there is no mesh; give the map one name");
     if (args.space == Space::object && args.directx)
         throw usage("--directx: turns the green of tangent space; leave it out with --space object");
 }

@@ -266,6 +266,12 @@ void pad(Transfer& out, int padding) {
     Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
     for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
     for (Image<float>& map : out.details) pad_texels(map, owned, padding);
+    if (!out.alpha.empty()) {
+        for (std::size_t i = 0; i < owned.size(); ++i) out.alpha.data()[i] = owned.data()[i];
+        pad_texels(out.alpha, owned, padding);
+        for (std::size_t i = 0; i < owned.size(); ++i)
+            if (is_missed(out.states.data()[i])) out.alpha.data()[i] = 0;
+    }
     if (padding > 0) out.report.padded = continue_charts(out.map, owned);
     out.report.padded += pad_texels(out.map, owned, padding - 1);
     out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
@@ -279,6 +285,7 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
     out.map = Image<float>(options.width, options.height, 3);
     for (const DetailMap map : options.details.maps)
         out.details.emplace_back(options.width, options.height, channels(map));
+    if (options.alpha) out.alpha = Image<float>(options.width, options.height, 1);
     out.states = Image<TexelState>(options.width, options.height, 1);
     out.report.nearest = INFINITY, out.report.farthest = -INFINITY;
     Bake bake(target, high, casting, options, out);

@@ -18,6 +18,7 @@ struct TransferOptions {
     int padding = 16;     ///< texels filled beyond the charts' borders
     int tile = 0;         ///< as NormalMapOptions
     int rays = 1;         ///< along each side of a texel, from 1 to 16
+    bool alpha = false;   ///< whether Transfer::alpha is wanted
     DetailOptions details;
     bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
 };
@@ -28,6 +29,8 @@ enum class TexelState : unsigned char {
     missed,  ///< its rays find nothing
     behind,  ///< its rays find nothing but the back of triangles
 };
+
+inline bool is_missed(TexelState state) noexcept { return state == TexelState::missed || state == TexelState::behind; }
 
 /// What became of texels and rays.
 struct TransferReport {
@@ -53,6 +56,7 @@ struct FarTexel {
 struct Transfer {
     Image<float> map;                  ///< three channels, encoded
     std::vector<Image<float>> details; ///< options.details.maps, padded like the map; 0 elsewhere
+    Image<float> alpha; ///< 1 where the map was filled, padding included; 0 for misses, and beyond the padding
     Image<TexelState> states;
     TransferReport report;
     std::vector<FarTexel> far; ///< of each four rows the texel with the largest height or depth, ordered by that

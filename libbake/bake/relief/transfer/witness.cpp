@@ -36,7 +36,7 @@ std::vector<Witness> missed_texels(const BakeTarget& target, const HighSurface& 
     for (int y = 0; y < result.states.height() && result.report.missed > 0; ++y)
         for (int x = 0; x < result.states.width() && out.size() < most; ++x) {
             const TexelState state = result.states.at(x, y);
-            if (state != TexelState::missed && state != TexelState::behind) continue;
+            if (!is_missed(state)) continue;
             if (target.raster.hits.at(x, y).triangle == no_index) continue; // a sample beside the centre was in a chart
             out.push_back(witness_at(target, casting, x, y));
             out.back().state = state;
