@@ -1,4 +1,5 @@
 #include "normal_map_options.h"
+#include "bake/picture/texture_file.h"
 #include "inputs/file_kind.h"
 
 namespace bake {
@@ -17,6 +18,60 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
                       "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
     add_tile_option(sub, args.tile);
+}
+
+void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
+    add_choice<MapDepth>(sub, "--depth", args.depth,
+                         {{"auto", MapDepth::automatic},
+                          {"8", MapDepth::u8},
+                          {"16", MapDepth::u16},
+                          {"half", MapDepth::half},
+                          {"float", MapDepth::float32},
+                          {"bc5", MapDepth::bc5}},
+                         "auto: 16 for .png, half for .exr, float for .tif, bc5 for .dds and .ktx2");
+    CLI::Option* const map =
+        sub.add_option("--roughness-map", args.roughness_map,
+                       "Roughness to write beside it (.dds, .ktx2): what each level of mips loses of the relief");
+    add_number_option(sub, "--roughness", args.roughness, 0, 1, "Roughness of the material, for --roughness-map")
+        ->default_str("0.5")
+        ->needs(map);
+}
+
+namespace {
+
+Depth texture_depth(const NormalMapArgs& args) {
+    const auto usage = [&](const char* why) { return Error(Refusal::usage, args.out + ": " + why); };
+    if (args.depth == MapDepth::u8) return Depth::u8;
+    if (args.depth == MapDepth::u16) return Depth::u16;
+    if (args.depth != MapDepth::automatic && args.depth != MapDepth::bc5)
+        throw usage("textures hold 8 or 16 bits or bc5; write .exr or .tif for half and float");
+    if (args.space == Space::object)
+        throw usage("bc5 holds x and y alone, and object space needs the sign of z; use --depth 8 or 16");
+    return Depth::float32;
+}
+
+} // namespace
+
+Depth resolve_map_depth(const NormalMapArgs& args) {
+    const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
+    if (!args.roughness_map.empty()) {
+        if (!texture_container(args.roughness_map))
+            throw usage(args.roughness_map + ": a roughness map has mips; write .dds or .ktx2");
+        if (args.space == Space::object)
+            throw usage("--roughness-map: slopes are those of tangent space; leave out --space object");
+    }
+    if (texture_container(args.out)) return texture_depth(args);
+    if (picture_format(args.out) == PictureFormat::unknown)
+        throw usage(args.out + ": unknown ending; write .png, .exr, .tif, .dds or .ktx2");
+    switch (args.depth) {
+    case MapDepth::automatic: return resolve_depth(args.out, Depth::automatic);
+    case MapDepth::u8: return resolve_depth(args.out, Depth::u8);
+    case MapDepth::u16: return resolve_depth(args.out, Depth::u16);
+    case MapDepth::half: return resolve_depth(args.out, Depth::half);
+    case MapDepth::float32: return resolve_depth(args.out, Depth::float32);
+    case MapDepth::bc5: break;
+    }
+    throw usage(args.out + ": pictures are not stored in blocks; write .dds or .ktx2 for bc5");
 }
 
 void complete(NormalMapArgs& args, const std::string& verb) {

@@ -34,7 +34,7 @@ void bake_mesh(const HeightTexture& height, const HeightField& field, const Bake
 }
 
 int run(NormalMapArgs& args, const CommonArgs& common) {
-    const Depth depth = resolve_depth(args.out, args.depth);
+    const Depth depth = resolve_map_depth(args);
     complete(args, "normal-map");
     Stopwatch watch;
     Progress progress(common.quiet);
@@ -51,7 +51,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     result.notes = note_doubts(common, args.height, height);
     result.filter = resolve_filter(options.filter, height);
     // Opened before the work, so that a long bake does not fail at its end.
-    ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
+    NormalMapFile file(args, options.width, options.height, depth);
     std::optional<BakeTarget> target, displaced;
     if (!args.mesh.empty()) {
         target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
@@ -65,8 +65,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     else bake_plane(args, height, field, depth, progress, result);
     progress.finish();
     watch.lap("bake");
-    writer.write(result.map.data(), result.map.height());
-    writer.finish();
+    set_stored(result, file.write(result.map));
     watch.lap("write");
     print_result(common, to_text(args, height, result), to_json(args, height, result), watch);
     note_all(common, args.mesh, result.mesh_notes);
@@ -86,7 +85,8 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "input", args->mesh,
         "UV-mapped mesh (.obj, .ply, .gltf, .glb) for the relief of --height, or the height picture of a flat "
         "rectangle");
-    add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
+    add_output_option(sub, args->out,
+                      "Normal map to write (.png, .exr, .tif; with mips .dds, .ktx2): rgb = (n + 1) / 2");
     add_normal_options(sub, *args);
     sub.add_option("--residual-of", args->displaced,
                    "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
@@ -94,7 +94,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
         ->default_str(std::to_string(args->padding));
-    add_depth_option(sub, args->depth, "auto: 16 for .png, half for .exr, float for .tif");
+    add_texture_options(sub, *args);
     add_examples(
         sub,
         "  bake normal-map meshes/bricks.png -o bricks.png\n"

@@ -1,0 +1,61 @@
+#include "normal_map_file.h"
+#include "bake/picture/texture_file.h"
+#include "bake/relief/map/normal_mips.h"
+
+namespace bake {
+namespace {
+
+/// (n + 1) / 2
+Image<float> as_colours(const Image<float>& normals) {
+    Image<float> colours(normals.width(), normals.height(), 3);
+    for (std::size_t i = 0; i < colours.size(); ++i) colours.data()[i] = 0.5f * normals.data()[i] + 0.5f;
+    return colours;
+}
+
+StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
+                             Depth depth) {
+    const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
+                               : depth == Depth::u16 ? TexelFormat::rgba16
+                                                     : TexelFormat::bc5;
+    const bool blocks = format == TexelFormat::bc5;
+    std::vector<TextureLevel> levels;
+    for (const NormalLevel& mip : mips)
+        levels.push_back(blocks ? pack_level(mip.normal, format) : pack_level(as_colours(mip.normal), format));
+    const TextureContainer container = *texture_container(path);
+    write_texture(out, container, format, levels);
+    const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
+    out.commit();
+    return {int(levels.size()), blocks, error};
+}
+
+void write_roughness(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
+                     double roughness) {
+    std::vector<TextureLevel> levels;
+    for (const NormalLevel& mip : mips)
+        levels.push_back(pack_level(roughness_map(mip, float(roughness)), TexelFormat::r8));
+    write_texture(out, *texture_container(path), TexelFormat::r8, levels);
+    out.commit();
+}
+
+} // namespace
+
+NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
+    : args_(args), depth_(depth) {
+    if (texture_container(args.out)) texture_.emplace(args.out);
+    else picture_.emplace(args.out, width, height, 3, WriteOptions{.depth = depth, .channels = {"R", "G", "B"}});
+    if (!args.roughness_map.empty()) roughness_.emplace(args.roughness_map);
+}
+
+std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map) {
+    if (picture_) {
+        picture_->write(map.data(), map.height());
+        picture_->finish();
+    }
+    if (!texture_ && !roughness_) return {};
+    const std::vector<NormalLevel> mips = normal_mips(map, args_.directx);
+    if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
+    if (!texture_) return {};
+    return write_levels(*texture_, args_.out, mips, depth_);
+}
+
+} // namespace bake
