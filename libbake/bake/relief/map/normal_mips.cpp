@@ -28,6 +28,21 @@ float share(const Cover& cover, int i) noexcept {
     return i == 0 ? cover.first_share : i == cover.count - 1 ? cover.last_share : 1.0f;
 }
 
+/// Means of 2 x 2 texels.
+Image<float> halve(const Image<float>& fine) {
+    Image<float> coarse(fine.width() / 2, fine.height() / 2, channels);
+    for_rows(coarse.height(), 8, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = int(begin); y < int(end); ++y) {
+            const float *above = fine.row(2 * y), *below = fine.row(2 * y + 1);
+            float* to = coarse.row(y);
+            for (int x = 0; x < coarse.width(); ++x, above += 2 * channels, below += 2 * channels, to += channels)
+                for (int c = 0; c < channels; ++c)
+                    to[c] = 0.25f * ((above[c] + above[channels + c]) + (below[c] + below[channels + c]));
+        }
+    });
+    return coarse;
+}
+
 /// Means over the rectangles of width x height texels.
 Image<float> box_filter(const Image<float>& fine, int width, int height) {
     Image<float> coarse(width, height, channels);
@@ -99,7 +114,8 @@ std::vector<NormalLevel> normal_mips(const Image<float>& map, bool directx) {
         const int width = std::max(1, finer->width() / 2), height = std::max(1, finer->height() / 2);
         // Means of means are exact only where texels are covered whole.
         const bool whole = finer->width() % width == 0 && finer->height() % height == 0;
-        last = box_filter(whole ? *finer : level0, width, height);
+        const bool halved = finer->width() == 2 * width && finer->height() == 2 * height;
+        last = halved ? halve(*finer) : box_filter(whole ? *finer : level0, width, height);
         finer = &last;
         levels.push_back(split(last));
     }
