@@ -172,6 +172,7 @@ TEST_SUITE("unit") {
         CHECK(changed(12, 4).find("of the format 4") != std::string::npos);
         CHECK(changed(20, 0).find("no pixels") != std::string::npos);
         CHECK(changed(21, 4).find("a level that is smaller") != std::string::npos);
+        CHECK(changed(22, 100).find("more pixels") != std::string::npos);
         CHECK(changed(28, 1).find("volume") != std::string::npos);
         CHECK(changed(36, 6).find("cube map") != std::string::npos);
         CHECK(changed(44, 2).find("supercompressed") != std::string::npos);

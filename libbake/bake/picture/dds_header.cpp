@@ -164,14 +164,14 @@ void read_parts(const PictureFile& file, DdsHeader& header) {
     }
 }
 
+} // namespace
+
 std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept {
     const std::int64_t width = std::max<std::int64_t>(1, header.width >> level),
                        height = std::max<std::int64_t>(1, header.height >> level);
     return header.block_bytes > 0 ? (width + 3) / 4 * ((height + 3) / 4) * header.block_bytes
                                   : width * height * header.texel_bytes;
 }
-
-} // namespace
 
 bool set_dxgi_texels(const PictureFile& file, std::uint32_t number, DdsHeader& header) {
     constexpr const char* names[] = {"R", "G", "B", "A"};

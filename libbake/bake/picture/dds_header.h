@@ -28,6 +28,9 @@ struct DdsHeader {
 /// map without all six faces.
 DdsHeader read_dds_header(const PictureFile& file);
 
+/// Bytes of a level of one face.
+std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept;
+
 /// Sets what the header says of texels of this DXGI_FORMAT. False for a format that is not read.
 bool set_dxgi_texels(const PictureFile& file, std::uint32_t number, DdsHeader& header);
 

@@ -52,6 +52,8 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
     DdsHeader header;
     header.width = word(file, 20), header.height = std::max(1u, word(file, 24));
     if (header.width == 0) throw unreadable(file.path(), "has no pixels");
+    if (std::max(header.width, header.height) > (1 << 20))
+        throw unreadable(file.path(), "claims more pixels than a texture has room for");
     check_kind(file);
     const std::uint32_t vulkan = word(file, 12), dxgi = dxgi_of(vulkan);
     if (dxgi == 0 || !set_dxgi_texels(file, dxgi, header))
@@ -59,8 +61,7 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
                          mend);
     header.arrays = std::max(1u, word(file, 32));
     header.offset = place(file, std::size_t(index_at));
-    header.face_bytes = header.bc5 ? (header.width + 3) / 4 * ((header.height + 3) / 4) * header.block_bytes
-                                   : header.width * header.height * header.texel_bytes;
+    header.face_bytes = level_bytes(header, 0);
     if (place(file, std::size_t(index_at) + 8) < header.face_bytes)
         throw unreadable(file.path(), "has a level that is smaller than its size says");
     constexpr std::int64_t most_levels = 32;
