@@ -4,6 +4,7 @@
 #include "bake/relief/transfer/reach.h"
 #include "high_report.h"
 #include "inputs/tile_names.h"
+#include "normal_map_file.h"
 #include <algorithm>
 
 namespace bake {
@@ -67,24 +68,6 @@ Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const Hi
     return Casting(low, args.high.cast, constant_reach(low, {out, in, blend_width(out, in)}));
 }
 
-/// The map, with a fourth channel of the texels that are filled under --alpha.
-void write_map(ImageWriter& writer, const Transfer& result) {
-    const int width = result.map.width();
-    if (result.alpha.empty()) {
-        writer.write(result.map.data(), result.map.height());
-    } else {
-        std::vector<float> row(4 * std::size_t(width));
-        for (int y = 0; y < result.map.height(); ++y) {
-            for (int x = 0; x < width; ++x) {
-                std::copy_n(&result.map.at(x, y), 3, &row[4 * std::size_t(x)]);
-                row[4 * std::size_t(x) + 3] = result.alpha.at(x, y);
-            }
-            writer.write(row.data(), 1);
-        }
-    }
-    writer.finish();
-}
-
 /// The meshes and what is computed once for all tiles.
 class HighBake {
 public:
@@ -122,10 +105,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     TransferOptions options = options_;
     options.tile = args.tile;
     // Opened before the work, so that a long bake does not fail at its end.
-    std::vector<std::string> channels = {"R", "G", "B"};
-    if (options.alpha) channels.emplace_back("A");
-    ImageWriter writer(args.out, options.width, options.height, int(channels.size()),
-                       {.depth = depth_, .channels = channels});
+    NormalMapFile file(args, options.width, options.height, depth_);
     const auto map_writers = open_maps(args.high, options);
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
@@ -133,7 +113,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     const Transfer result = transfer(target, high_, casting_, options, args.mesh, &progress_);
     progress_.finish();
     watch_.lap("bake");
-    write_map(writer, result);
+    const auto stored = file.write(result.map, result.alpha);
     for (std::size_t m = 0; m < map_writers.size(); ++m) {
         map_writers[m]->write(result.details[m].data(), options.height);
         map_writers[m]->finish();
@@ -146,23 +126,17 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     if (!args.high.debug_rays.empty())
         write_mesh(args.high.debug_rays, debug_rays(target, high_, casting_, result, report.witnesses));
     watch_.lap("report");
-    return {to_text(report), to_json(report), notes_of(report), result.report.missed};
+    Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed};
+    if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
+    return out;
 }
 
 /// Bakes one map, or one for each tile.
 std::vector<HighBake::Baked> bake_tiles(const NormalMapArgs& args, const Mesh& low, HighBake& bake) {
     std::vector<HighBake::Baked> out;
-    if (!names_tiles(args.out)) {
-        out.push_back(bake.bake(args));
-        return out;
-    }
-    for (const int tile : udim_tiles(low, args.mesh)) {
-        NormalMapArgs one = args;
-        one.tile = tile;
-        for (std::string* name : {&one.out, &one.high.maps_out, &one.high.debug_rays})
-            *name = file_of_tile(*name, tile);
+    for (const NormalMapArgs& one : args_of_tiles(args, low)) {
         out.push_back(bake.bake(one));
-        out.back().object["tile"] = tile;
+        if (names_tiles(args.out)) out.back().object["tile"] = one.tile;
     }
     return out;
 }
