@@ -59,9 +59,11 @@ std::vector<HighMesh> read_high(const NormalMapArgs& args) {
     return out;
 }
 
-Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const HighSurface& high) {
+/// `faces`: those of the low-poly mesh that take their detail from `high`; empty: all.
+Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const HighSurface& high,
+                     std::span<const std::uint8_t> faces) {
     if (!args.high.cage.empty()) return Casting(low, read_mesh(args.high.cage, args.read), args.high.cage);
-    if (!args.high.extrude) return Casting(low, args.high.cast, measured_reach(low, high));
+    if (!args.high.extrude) return Casting(low, args.high.cast, measured_reach(low, high, faces));
     const double whole = diagonal(bounds(*low.mesh)), front = args.high.extrude->in_units(whole);
     const double length = args.high.max_distance ? args.high.max_distance->in_units(whole) : 2 * front;
     const auto out = float(front), in = float(std::max(0.0, length - front));
@@ -74,9 +76,18 @@ public:
     HighBake(const NormalMapArgs& args, Depth depth, const Mesh& low, std::vector<HighMesh> meshes, Progress& progress,
              Stopwatch& watch)
         : args_(args), depth_(depth), low_(low), options_(options_of(args, low)), progress_(progress), watch_(watch),
-          surface_(make_mesh_surface(low, {.derivatives = false})),
-          high_(std::move(meshes), low.origin, args.high.normals, rays_of(options_), needs_both_sides(args.high)),
-          casting_(make_casting(args, surface_, high_)) {
+          surface_(make_mesh_surface(low, {.derivatives = false})) {
+        if (!args.high.match_names) {
+            add_source(std::move(meshes));
+        } else {
+            match_ = match_names(low, args.mesh, std::move(meshes));
+            for (std::uint32_t part = 0; part < match_->high.size(); ++part) {
+                std::vector<std::uint8_t> faces(low.faces());
+                for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = match_->of_face[f] == part;
+                add_source(std::move(match_->high[part]), faces);
+            }
+            sources_.of_face = match_->of_face;
+        }
         watch_.lap("trees and reach");
     }
 
@@ -90,6 +101,13 @@ public:
     Baked bake(const NormalMapArgs& args);
 
 private:
+    void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
+        highs_.push_back(std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals,
+                                                       rays_of(options_), needs_both_sides(args_.high)));
+        castings_.push_back(std::make_unique<Casting>(make_casting(args_, surface_, *highs_.back(), faces)));
+        sources_.sources.push_back({highs_.back().get(), castings_.back().get()});
+    }
+
     const NormalMapArgs& args_;
     Depth depth_;
     const Mesh& low_;
@@ -97,8 +115,10 @@ private:
     Progress& progress_;
     Stopwatch& watch_;
     MeshSurface surface_;
-    HighSurface high_;
-    Casting casting_;
+    std::vector<std::unique_ptr<HighSurface>> highs_;
+    std::vector<std::unique_ptr<Casting>> castings_;
+    TransferSources sources_;
+    std::optional<NameMatch> match_; ///< its meshes are moved to the sources
 };
 
 HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
@@ -110,7 +130,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
     progress_.start("bake", (options.height + 3) / 4 * (options.rays == 1 ? 1 : 1 + options.rays * options.rays));
-    const Transfer result = transfer(target, high_, casting_, options, args.mesh, &progress_);
+    const Transfer result = transfer(target, sources_, options, args.mesh, &progress_);
     progress_.finish();
     watch_.lap("bake");
     const auto stored = file.write(result.map, result.alpha);
@@ -119,12 +139,18 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
         map_writers[m]->finish();
     }
     watch_.lap("write");
-    HighReport report{args, options, target, high_, casting_, result.report, {}, names_tiles(args_.out), {}};
+    HighReport report{.args = args,
+                      .options = options,
+                      .target = target,
+                      .sources = sources_,
+                      .result = result.report,
+                      .match = match_ ? &*match_ : nullptr,
+                      .all_tiles = names_tiles(args_.out)};
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
-    report.witnesses = missed_texels(target, high_, casting_, result, most_witnesses);
-    for (Witness& far : farthest_texels(target, casting_, result, most_witnesses)) report.witnesses.push_back(far);
+    report.witnesses = missed_texels(target, sources_, result, most_witnesses);
+    for (Witness& far : farthest_texels(target, sources_, result, most_witnesses)) report.witnesses.push_back(far);
     if (!args.high.debug_rays.empty())
-        write_mesh(args.high.debug_rays, debug_rays(target, high_, casting_, result, report.witnesses));
+        write_mesh(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
     watch_.lap("report");
     Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);

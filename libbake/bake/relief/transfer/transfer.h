@@ -62,10 +62,30 @@ struct Transfer {
     std::vector<FarTexel> far; ///< of each four rows the texel with the largest height or depth, ordered by that
 };
 
+/// What a part of the low-poly mesh is baked from.
+struct TransferSource {
+    const HighSurface* high;
+    const Casting* casting;
+};
+struct TransferSources {
+    std::vector<TransferSource> sources;
+    std::vector<std::uint32_t>
+        of_face; ///< faces of the low-poly mesh: the source, no_index for none; empty: the first for all
+
+    /// Null for a face without a source.
+    const TransferSource* of(std::uint32_t face) const noexcept {
+        const std::uint32_t i = of_face.empty() ? 0 : of_face[face];
+        return i == no_index ? nullptr : &sources[i];
+    }
+};
+
 /// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat
 /// normal. The average of several rays is over the part of the texel that lies in
 /// charts, by Gauss and Legendre's rule in each direction: an average over a smooth surface is exact to the degree 2 rays - 1.
 /// `target` has the size and the tile of the options. The result does not depend on the number of threads.
+Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
+                  const std::string& path, Progress* progress = nullptr);
+/// From one source.
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
                   const TransferOptions& options, const std::string& path, Progress* progress = nullptr);
 
