@@ -15,6 +15,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 using namespace bake;
 using oracle::TorusRelief;
@@ -50,12 +52,20 @@ bool parse(int argc, char** argv, Arguments& args) {
     return args.write.empty() != args.judge.empty();
 }
 
+/// Blender takes faces of an OBJ file that has no smoothing groups as flat, and then uses no normal of LOW's corners.
+void make_smooth(const std::string& obj) {
+    std::stringstream faces;
+    faces << std::ifstream(obj, std::ios::binary).rdbuf();
+    std::ofstream(obj, std::ios::binary) << "s 1\n" << faces.rdbuf();
+}
+
 void write_meshes(const Arguments& args) {
     const std::filesystem::path folder = args.write;
     std::filesystem::create_directories(folder);
     write_mesh((folder / "low.obj").string(), oracle::LowTorus().mesh());
     const Mesh high = oracle::relief_mesh(args.relief, args.columns, args.columns / 2);
     for (const char* name : {"high.ply", "high.obj"}) write_mesh((folder / name).string(), high);
+    for (const char* name : {"low.obj", "high.obj"}) make_smooth((folder / name).string());
 }
 
 Image<float> read_map(const std::string& file) {
@@ -72,7 +82,7 @@ struct Angles {
 std::vector<Angles> angles_of(const std::vector<Image<float>>& maps, const TorusRelief& relief) {
     const int width = maps[0].width(), height = maps[0].height();
     const oracle::LowTorus low;
-    // Twenty texels and more to a wave are integrated to a millionth of a degree by four nodes.
+    // So many nodes give the mean to a thousandth of a degree, also where a triangle of LOW ends inside the texel.
     const oracle::GaussRule rule(width >= 20 * relief.k && height >= 20 * relief.m ? 4 : 8);
     std::vector<Angles> angles(maps.size());
     const std::size_t texels = std::size_t(width) * height;
