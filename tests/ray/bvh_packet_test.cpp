@@ -67,6 +67,38 @@ std::array<Ray, packet_size> random_rays(std::mt19937& random) {
 
 TEST_SUITE("unit") {
 
+    TEST_CASE("bvh_packet: rays with a component that is all but 0 hit what the others of the packet hit") {
+        // Rays in the planes of meridians of the unit sphere, with what rounding leaves of x = 0.
+        const auto at = [](double east, double north) {
+            return Vec3f(Vec3d(std::cos(east) * std::cos(north), std::sin(east) * std::cos(north), std::sin(north)));
+        };
+        constexpr std::uint32_t cells = 200, row = cells + 1;
+        std::vector<BvhMesh> meshes(1);
+        for (std::uint32_t y = 0; y <= cells; ++y)
+            for (std::uint32_t x = 0; x <= cells; ++x)
+                meshes[0].positions.push_back(at(1 + 1.2 * x / cells, 0.2 + 1.2 * y / cells));
+        for (std::uint32_t y = 0; y < cells; ++y)
+            for (std::uint32_t x = 0; x < cells; ++x) {
+                const std::uint32_t i = y * row + x;
+                meshes[0].triangles.push_back({i, i + 1, i + row + 1});
+                meshes[0].triangles.push_back({i, i + row + 1, i + row});
+            }
+        const Bvh bvh(std::move(meshes));
+        int missed = 0;
+        for (int k = 0; k < 200; ++k) {
+            std::array<Ray, packet_size> rays;
+            std::array<Hit, packet_size> hits;
+            for (int i = 0; i < packet_size; ++i) {
+                const double east = pi / 2 - 0.002 * (3 - i % 4), north = 0.3 + 0.005 * k + 0.002 * (i / 4);
+                rays[std::size_t(i)] = {1.02f * at(east, north), -at(pi / 2, north), 0, 0.05f};
+                rays[std::size_t(i)].direction.x = (k % 2 ? 0.5e-18f : -0.5e-18f) * float(1 + i % 4);
+            }
+            bvh.intersect(rays, all, hits);
+            for (const Hit& hit : hits) missed += !hit;
+        }
+        CHECK(missed == 0);
+    }
+
     TEST_CASE("bvh packet: rays hit what they hit alone, and only those that take part") {
         const Soup soup(1500);
         const Bvh bvh = soup.bvh();

@@ -21,13 +21,22 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
 
 void complete(NormalMapArgs& args, const std::string& verb) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
-    if (args.height.path.empty()) {
+    complete(args.high);
+    if (args.high.given()) {
+        if (args.mesh.empty())
+            throw usage("--high: needs the low-poly mesh; name it first, as in bake " + verb + " LOW --high HIGH");
+        if (!args.height.path.empty())
+            throw usage("--high, --height: the detail comes from one of them; leave the other out");
+        if (args.extent || !args.displaced.empty())
+            throw usage("--extent, --residual-of: belong to a height; leave them out with --high");
+        expect_mesh(args.mesh);
+    } else if (args.height.path.empty()) {
         if (args.mesh.empty() || named_like_a_mesh(args.mesh))
             throw usage("--height: is required; name the picture of the relief, as in bake " + verb +
                         (args.mesh.empty() ? "" : " " + args.mesh) + " --height bricks.png");
         std::swap(args.height.path, args.mesh);
     }
-    expect_picture(args.height.path);
+    if (!args.high.given()) expect_picture(args.height.path);
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");

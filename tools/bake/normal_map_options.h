@@ -1,6 +1,7 @@
 // Options of normal-map, which explain has too.
 #pragma once
 #include "bake/relief/map/normal_map.h"
+#include "high_options.h"
 #include "options.h"
 
 namespace bake {
@@ -12,6 +13,7 @@ struct NormalMapArgs {
     std::optional<std::pair<int, int>> size;
     MeshOptions read;
     HeightInput height;
+    HighArgs high; ///< instead of a height
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;

@@ -1,5 +1,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/map/residual_map.h"
+#include "high_to_low.h"
 #include "normal_map_output.h"
 
 namespace bake {
@@ -36,6 +37,7 @@ void bake_mesh(const HeightTexture& height, const HeightField& field, const Bake
 int run(NormalMapArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_depth(args.out, args.depth);
     complete(args, "normal-map");
+    if (args.high.given()) return bake_high(args, depth, common);
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
@@ -88,6 +90,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "rectangle");
     add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
     add_normal_options(sub, *args);
+    add_high_options(sub, args->high);
     sub.add_option("--residual-of", args->displaced,
                    "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
         ->type_name("DISPLACED.glb");

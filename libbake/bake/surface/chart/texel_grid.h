@@ -18,6 +18,8 @@ struct TexelGrid {
     int width, height;
     int bits;          ///< a texel is 2^bits steps wide; at least 2, so that centres and half texels are grid points
     std::int64_t step; ///< 2^bits
+    std::int64_t moved_x = 0,
+                 moved_y = 0; ///< steps by which charts are moved, so that another place comes to the centres
 
     TexelGrid(int w, int h) : width(w), height(h) {
         bits = std::max(2, 30 - int(std::bit_width(unsigned(std::max(w, h) - 1))));
@@ -39,8 +41,8 @@ inline GridTriangle corners_of(const Mesh& mesh, const Triangle& triangle, const
     GridTriangle out;
     for (int k = 0; k < 3; ++k) {
         const Vec2f uv = mesh.uvs[mesh.corner_uv[triangle.corner[k]]];
-        out[k].x = snapped(double(uv.x) * grid.width, double(grid.step));
-        out[k].y = snapped((1 - double(uv.y)) * grid.height, double(grid.step));
+        out[k].x = snapped(double(uv.x) * grid.width, double(grid.step)) + grid.moved_x;
+        out[k].y = snapped((1 - double(uv.y)) * grid.height, double(grid.step)) + grid.moved_y;
     }
     return out;
 }

@@ -149,7 +149,7 @@ std::int64_t ones(const std::vector<std::uint64_t>& bits) noexcept {
 }
 
 BandTotals raster_band(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const std::uint32_t> mine,
-                       const TexelGrid& grid, int begin_row, Image<TexelHit>& hits) {
+                       const TexelGrid& grid, int begin_row, bool border, Image<TexelHit>& hits) {
     RasterBand band(grid, begin_row, hits);
     for (int y = band.begin; y < band.end; ++y) std::fill_n(hits.row(y), grid.width, TexelHit{no_index, 0, 0});
     const auto for_shapes = [&](auto&& work) {
@@ -160,7 +160,7 @@ BandTotals raster_band(const Mesh& mesh, const std::vector<Triangle>& triangles,
         }
     };
     for_shapes([&](const auto& shape, std::uint32_t t) { fill_centres(band, shape, t, triangles[t].face); });
-    for_shapes([&](const auto& shape, std::uint32_t t) { fill_border(band, shape, t); });
+    if (border) for_shapes([&](const auto& shape, std::uint32_t t) { fill_border(band, shape, t); });
     return {ones(band.covered), ones(band.bordered), ones(band.shared)};
 }
 
@@ -240,10 +240,13 @@ BandTriangles band_triangles(const std::vector<TriangleExtent>& extents, int ban
 
 } // namespace
 
-UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height) {
+UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
+                   const UvRasterOptions& options) {
     UvRaster out;
     if (width < 1 || height < 1) return out;
-    const TexelGrid grid(width, height);
+    TexelGrid grid(width, height);
+    grid.moved_x = std::llround((0.5 - options.place.x) * double(grid.step));
+    grid.moved_y = std::llround((0.5 - options.place.y) * double(grid.step));
     out.hits = Image<TexelHit>(width, height, 1);
     const std::vector<TriangleExtent> extents = extents_of(mesh, triangles, grid);
     count_faces(triangles, extents, out);
@@ -254,7 +257,7 @@ UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int
         for (std::int64_t b = begin; b < end; ++b) {
             const std::span<const std::uint32_t> own(of_band.triangle.data() + of_band.begin[b],
                                                      of_band.begin[b + 1] - of_band.begin[b]);
-            totals[b] = raster_band(mesh, triangles, own, grid, int(b) * band_rows, out.hits);
+            totals[b] = raster_band(mesh, triangles, own, grid, int(b) * band_rows, options.border, out.hits);
         }
     });
     for (const BandTotals& total : totals) {

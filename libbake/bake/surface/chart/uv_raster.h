@@ -23,6 +23,11 @@ struct UvRaster {
     std::string tiles; ///< of chart_raster(): the tiles whose charts lie in it, if not the unit square alone
 };
 
+struct UvRasterOptions {
+    Vec2d place{0.5, 0.5}; ///< in each texel, right and down from its upper left corner: what stands for the centre
+    bool border = true;    ///< false: texels whose centre lies in no triangle stay empty
+};
+
 /// Rasterises the unit square [0,1]^2 of the UV chart to width x height texels; the image is empty if either is below
 /// 1. A texel whose centre lies in or on a triangle gets that triangle and its exact barycentrics. If several faces
 /// contain the centre, the lowest face is used, so that the result does not depend on the number of threads. A texel
@@ -30,6 +35,7 @@ struct UvRaster {
 /// (of the lowest face on ties): rasterisation is conservative at chart borders. A centre on a shared edge counts as
 /// inside only one of the faces, so that adjacent faces do not overlap. Faces with a corner without uv are skipped.
 /// `triangles` are in the order of faces. Corners are snapped to 2^30 steps per unit; uvs are clamped to +-10^8.
-UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height);
+UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
+                   const UvRasterOptions& options = {});
 
 } // namespace bake

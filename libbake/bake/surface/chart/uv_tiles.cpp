@@ -134,13 +134,13 @@ double clash_of(const Mesh& mesh, const std::vector<Triangle>& triangles, int sa
 
 /// The raster of one tile: uvs are moved so that the tile becomes the unit square.
 UvRaster raster_tile(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
-                     const UvTile& tile) {
-    if (tile == UvTile{}) return uv_raster(mesh, triangles, width, height);
+                     const UvTile& tile, const UvRasterOptions& options) {
+    if (tile == UvTile{}) return uv_raster(mesh, triangles, width, height, options);
     Mesh charts;
     charts.face_begin = mesh.face_begin;
     charts.corner_uv = mesh.corner_uv;
     for (const Vec2f& uv : mesh.uvs) charts.uvs.push_back(Vec2f(Vec2d(uv) - Vec2d(tile.u, tile.v)));
-    return uv_raster(charts, triangles, width, height);
+    return uv_raster(charts, triangles, width, height, options);
 }
 
 /// Counts the faces of the tile, which it returns, and the others; those that end at the border of the tile are outside.
@@ -158,9 +158,10 @@ std::int64_t count_faces(const Mesh& mesh, const UvTile& tile, UvRaster& out) {
     return inside_faces;
 }
 
-UvRaster raster_modulo_1(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height) {
+UvRaster raster_modulo_1(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
+                         const UvRasterOptions& options) {
     const FoldedCharts folded = fold_faces(mesh, triangles);
-    UvRaster out = uv_raster(folded.mesh, folded.triangles, width, height);
+    UvRaster out = uv_raster(folded.mesh, folded.triangles, width, height, options);
     for (std::size_t i = 0; i < out.hits.size(); ++i)
         if (TexelHit& hit = out.hits.data()[i]; hit.triangle != no_index) hit.triangle = folded.source[hit.triangle];
     out.outside_faces = out.crossing_faces = 0; // the part of a face that one copy leaves out is in another
@@ -228,11 +229,11 @@ UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int s
 }
 
 UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height, int tile,
-                      const std::string& path) {
+                      const std::string& path, const UvRasterOptions& options) {
     UvRaster out;
     if (tile != 0) {
         const UvTile wanted{(tile - 1001) % 10, (tile - 1001) / 10};
-        out = raster_tile(mesh, triangles, width, height, wanted);
+        out = raster_tile(mesh, triangles, width, height, wanted, options);
         if (count_faces(mesh, wanted, out) == 0)
             throw Error(Refusal::unsuitable, path + ": no face has area in tile " + std::to_string(tile) +
                                                  " of its uvs; name another one (`tile`)");
@@ -240,16 +241,16 @@ UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, 
     }
     const UvTiles tiles = uv_tiles(mesh, triangles, std::max(width, height));
     switch (tiles.placement) {
-    case ChartPlacement::as_they_are: out = uv_raster(mesh, triangles, width, height); break;
-    case ChartPlacement::one_tile: out = raster_tile(mesh, triangles, width, height, tiles.tiles[0]); break;
-    case ChartPlacement::modulo_1: out = raster_modulo_1(mesh, triangles, width, height); break;
+    case ChartPlacement::as_they_are: out = uv_raster(mesh, triangles, width, height, options); break;
+    case ChartPlacement::one_tile: out = raster_tile(mesh, triangles, width, height, tiles.tiles[0], options); break;
+    case ChartPlacement::modulo_1: out = raster_modulo_1(mesh, triangles, width, height, options); break;
     case ChartPlacement::several:
         throw Error(Refusal::unsuitable, path + ": its charts lie in several tiles of the uvs (" + names(tiles.tiles) +
                                              ") and overlap modulo 1; name the tile to bake (`tile`), or move the "
                                              "charts into one tile");
     }
     if (tiles.placement != ChartPlacement::as_they_are) out.tiles = names(tiles.tiles);
-    if (out.covered + out.border == 0)
+    if (options.border && out.covered + out.border == 0)
         throw Error(Refusal::unsuitable, path + ": no face has area in its uvs; unwrap the mesh");
     return out;
 }

@@ -49,6 +49,6 @@ UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int s
 /// Throws Error{Refusal::unsuitable}, which names the tiles, for charts whose placement is `several` if no tile is given, and
 /// for a mesh of which nothing lies in the tile.
 UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height, int tile,
-                      const std::string& path);
+                      const std::string& path, const UvRasterOptions& options = {});
 
 } // namespace bake

@@ -1,0 +1,109 @@
+#include "bake/relief/transfer/casting.h"
+#include "bake/base/error.h"
+#include "bake/mesh/weld.h"
+#include "bake/relief/transfer/hard_edges.h"
+#include <algorithm>
+
+namespace bake {
+namespace {
+
+/// Width of the blend of directions beside a hard edge, in units of the reach there. Directions turn by up to 55 degrees over that
+/// width, and rays as long as the reach must not cross.
+constexpr float blend_width = 4;
+
+std::vector<Vec3f> facet_normals(const MeshSurface& low) {
+    std::vector<Vec3f> out(low.mesh->corners(), Vec3f(0));
+    for (const Triangle& t : low.triangles) {
+        const auto at = [&](std::size_t k) {
+            return Vec3d(low.mesh->positions[low.mesh->corner_position[t.corner[k]]]);
+        };
+        const Vec3f n(unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0))));
+        for (const std::uint32_t corner : t.corner) out[corner] = n;
+    }
+    return out;
+}
+
+template <class T> T mixed(const T& a, const T& b, const T& c, const TexelHit& at) noexcept {
+    return (1 - at.b1 - at.b2) * a + at.b1 * b + at.b2 * c;
+}
+
+} // namespace
+
+Casting::Casting(const MeshSurface& low, CastBy by, std::vector<Reach> reach) : low_(low), reach_(std::move(reach)) {
+    if (by == CastBy::face) {
+        averaged_ = facet_normals(low);
+    } else {
+        HardEdges hard = bake::hard_edges(*low.mesh, low.triangles, low.n);
+        averaged_ = std::move(hard.averaged);
+        hard_edges_ = hard.ends.size();
+        if (by == CastBy::blend && !hard.ends.empty()) own_ = std::move(hard.own), set_hard_edges(hard.ends);
+    }
+    for (const Reach& r : reach_)
+        most_front_ = std::max(most_front_, r.front), most_back_ = std::max(most_back_, r.back);
+}
+
+Casting::Casting(const MeshSurface& low, const Mesh& cage, const std::string& path) : low_(low), cage_(true) {
+    const Mesh& mesh = *low.mesh;
+    if (cage.face_begin != mesh.face_begin)
+        throw Error(Refusal::unsuitable,
+                    path + ": has other faces than the low-poly mesh; a cage is that mesh with its faces pushed out");
+    averaged_.resize(mesh.corners());
+    const Vec3f between(cage.origin - mesh.origin);
+    for (std::size_t c = 0; c < mesh.corners(); ++c) {
+        averaged_[c] = cage.positions[cage.corner_position[c]] + between - mesh.positions[mesh.corner_position[c]];
+        most_front_ = std::max(most_front_, glm::length(averaged_[c]));
+    }
+    most_back_ = most_front_;
+}
+
+void Casting::set_hard_edges(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+    Mesh lines;
+    std::vector<Triangle> flat;
+    lines.positions = low_.mesh->positions;
+    for (const auto& [a, b] : edges) {
+        const auto first = std::uint32_t(lines.corner_position.size());
+        lines.corner_position.insert(lines.corner_position.end(), {a, b, b});
+        flat.push_back({{first, first + 1, first + 2}, std::uint32_t(flat.size())});
+        lines.face_begin.push_back(first + 3);
+    }
+    edges_ = std::make_unique<TriangleTree>(lines, flat);
+}
+
+/// 1 on a hard edge, 0 from `blend_width` reaches on.
+float Casting::blend_at(const Vec3f& p, float reach) const noexcept {
+    const auto distance = float(std::sqrt(edges_->nearest(Vec3d(p)).distance2));
+    const float x = reach > 0 ? std::min(1.0f, distance / (blend_width * reach)) : 1.0f;
+    return 1 - x * x * (3 - 2 * x);
+}
+
+Cast Casting::at(const TexelHit& at) const noexcept {
+    const auto& corner = low_.triangles[at.triangle].corner;
+    const Mesh& mesh = *low_.mesh;
+    const auto position = [&](std::size_t k) { return mesh.corner_position[corner[k]]; };
+    const Vec3f p = mixed(mesh.positions[position(0)], mesh.positions[position(1)], mesh.positions[position(2)], at);
+    Vec3f d = mixed(averaged_[corner[0]], averaged_[corner[1]], averaged_[corner[2]], at);
+    if (cage_) {
+        const float front = glm::length(d);
+        return {p + d, -unit_or_zero(d), {front, front}};
+    }
+    const auto& r0 = reach_[position(0)];
+    const auto &r1 = reach_[position(1)], &r2 = reach_[position(2)];
+    const Reach reach{mixed(r0.front, r1.front, r2.front, at), mixed(r0.back, r1.back, r2.back, at)};
+    if (!own_.empty()) {
+        const Vec3f own = mixed(own_[corner[0]], own_[corner[1]], own_[corner[2]], at);
+        if (own != d) {
+            const float share = blend_at(p, reach.front + reach.back);
+            d = share * unit_or_zero(d) + (1 - share) * unit_or_zero(own);
+        }
+    }
+    d = unit_or_zero(d);
+    return {p + reach.front * d, -d, reach};
+}
+
+Vec3f Casting::envelope(std::uint32_t corner) const noexcept {
+    const std::uint32_t position = low_.mesh->corner_position[corner];
+    const Vec3f p = low_.mesh->positions[position];
+    return p + (cage_ ? 1.0f : reach_[position].front) * averaged_[corner];
+}
+
+} // namespace bake

@@ -1,0 +1,62 @@
+// Where the rays of a bake start, and where they go: from an envelope around the low-poly mesh through its surface.
+//
+// Directions are averaged over hard edges, so that both sides of an edge look the same way and no detail beyond it is missed.
+// In the middle of a flat face such a direction is skewed, and detail that stands out of the face would move sideways. So each
+// corner has two directions, and a texel's is a blend of both by its distance from the nearest hard edge.
+#pragma once
+#include "bake/mesh/triangle_tree.h"
+#include "bake/surface/chart/mesh_surface.h"
+#include "bake/surface/chart/uv_raster.h"
+#include <memory>
+
+namespace bake {
+
+/// How far from the low-poly mesh detail is searched, in object units.
+struct Reach {
+    float front = 0; ///< outside, along the direction of the cast
+    float back = 0;  ///< inside
+};
+
+enum class CastBy {
+    blend,    ///< averaged near hard edges, the side's own elsewhere
+    averaged, ///< over hard edges, everywhere
+    face,     ///< normals of the facets
+};
+
+/// A ray that goes inward; it meets the low-poly mesh at t = reach.front.
+struct Cast {
+    Vec3f start{0}, inward{0}; ///< the direction has unit length; zero where there is none
+    Reach reach;
+};
+
+class Casting {
+public:
+    /// `reach`: per position of the mesh. The surface must outlive the object.
+    Casting(const MeshSurface& low, CastBy by, std::vector<Reach> reach);
+    /// Rays from a cage through the mesh, as far behind it as the cage is before it: the same faces with other positions. Throws
+    /// Error{Refusal::unsuitable}, which names `path`, for a mesh with other faces.
+    Casting(const MeshSurface& low, const Mesh& cage, const std::string& path);
+
+    Cast at(const TexelHit& at) const noexcept;
+    /// The corner of the envelope: the start of a ray there.
+    Vec3f envelope(std::uint32_t corner) const noexcept;
+    float most_front() const noexcept { return most_front_; }
+    float most_back() const noexcept { return most_back_; }
+    /// Edges whose two sides have normals of their own, or between facets that are more than 50 degrees apart.
+    std::size_t hard_edges() const noexcept { return hard_edges_; }
+
+private:
+    void set_hard_edges(const std::vector<std::array<std::uint32_t, 2>>& edges);
+    float blend_at(const Vec3f& p, float reach) const noexcept;
+
+    const MeshSurface& low_;
+    bool cage_ = false;
+    std::vector<Vec3f> averaged_; ///< corners; of a cage: to its position
+    std::vector<Vec3f> own_;      ///< corners; empty: as averaged_
+    std::vector<Reach> reach_;    ///< positions
+    std::unique_ptr<TriangleTree> edges_;
+    std::size_t hard_edges_ = 0;
+    float most_front_ = 0, most_back_ = 0;
+};
+
+} // namespace bake

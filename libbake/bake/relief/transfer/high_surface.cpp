@@ -1,0 +1,85 @@
+#include "bake/relief/transfer/high_surface.h"
+#include "bake/base/error.h"
+#include "bake/mesh/origin.h"
+#include "bake/surface/chart/mesh_surface.h"
+#include <algorithm>
+#include <glm/common.hpp>
+
+namespace bake {
+namespace {
+
+/// A fast tree takes about two microseconds per triangle more to build, and saves a third of a microsecond per ray.
+constexpr double rays_per_triangle = 6;
+
+BvhMesh bvh_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+    BvhMesh out;
+    out.positions.reserve(mesh.positions.size() + 1);
+    out.positions = mesh.positions;
+    out.triangles.resize(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) out.triangles[t][k] = mesh.corner_position[triangles[t].corner[k]];
+    out.passes_seen = [](const Crossing& at) { return at.behind; };
+    return out;
+}
+
+} // namespace
+
+std::vector<HighSurface::Part> HighSurface::parts_of(std::vector<HighMesh> meshes, const Vec3d& origin,
+                                                     HighNormals normals) {
+    std::vector<Part> parts;
+    for (HighMesh& high : meshes) {
+        if (high.mesh.faces() == 0)
+            throw Error(Refusal::unsuitable, high.name + ": has no faces; a high-poly mesh needs some");
+        move_origin(high.mesh, origin);
+        Part part;
+        part.triangles = triangulate(high.mesh);
+        if (normals == HighNormals::smooth) part.normals = corner_normals(high.mesh, part.triangles);
+        part.high = std::move(high);
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+Bvh HighSurface::tree_of(const std::vector<Part>& parts, double rays) {
+    std::vector<BvhMesh> meshes;
+    double triangles = 0;
+    for (const Part& part : parts) {
+        meshes.push_back(bvh_mesh(part.high.mesh, part.triangles));
+        triangles += double(part.triangles.size());
+    }
+    return Bvh(std::move(meshes), rays > rays_per_triangle * triangles ? BvhTree::fast : BvhTree::quick);
+}
+
+HighSurface::HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays)
+    : parts_(parts_of(std::move(meshes), origin, normals)), bvh_(tree_of(parts_, rays)) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const Bounds own = bake::bounds(parts_[i].high.mesh);
+        bounds_ = i == 0 ? own : Bounds{glm::min(bounds_.min, own.min), glm::max(bounds_.max, own.max)};
+    }
+}
+
+Vec3f HighSurface::position(const Hit& hit) const noexcept {
+    const Mesh& mesh = parts_[hit.mesh].high.mesh;
+    const auto& corner = parts_[hit.mesh].triangles[hit.triangle].corner;
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.corner_position[corner[k]]]; };
+    return (1 - hit.b1 - hit.b2) * at(0) + hit.b1 * at(1) + hit.b2 * at(2);
+}
+
+Vec3f HighSurface::facet_normal(std::size_t i, std::uint32_t triangle) const noexcept {
+    const Mesh& mesh = parts_[i].high.mesh;
+    const auto& corner = parts_[i].triangles[triangle].corner;
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.corner_position[corner[k]]]; };
+    const Vec3f p0 = at(0);
+    return Vec3f(unit_or_zero(glm::cross(Vec3d(at(1)) - Vec3d(p0), Vec3d(at(2)) - Vec3d(p0))));
+}
+
+Vec3f HighSurface::normal(const Hit& hit) const noexcept {
+    const Part& part = parts_[hit.mesh];
+    if (part.normals.empty()) return facet_normal(hit.mesh, hit.triangle);
+    const auto& corner = part.triangles[hit.triangle].corner;
+    const Vec3f n = unit_or_zero((1 - hit.b1 - hit.b2) * part.normals[corner[0]] + hit.b1 * part.normals[corner[1]] +
+                                 hit.b2 * part.normals[corner[2]]);
+    return n == Vec3f(0) ? facet_normal(hit.mesh, hit.triangle) : n;
+}
+
+} // namespace bake

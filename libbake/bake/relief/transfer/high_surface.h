@@ -1,0 +1,56 @@
+// One or more meshes with detail, on which rays from a low-poly mesh land.
+#pragma once
+#include "bake/mesh/triangulate.h"
+#include "bake/ray/bvh.h"
+#include <string>
+
+namespace bake {
+
+enum class HighNormals {
+    smooth, ///< interpolated from the corners, as the mesh is shaded
+    facet,  ///< of the triangle that was hit
+};
+
+/// A high-poly mesh, and the name by which messages call it.
+struct HighMesh {
+    Mesh mesh;
+    std::string name;
+};
+
+/// Triangles of several meshes in one tree. Rays land on the front of triangles alone, the side from which their corners are
+/// counter-clockwise, and pass through the back; occluded() counts both.
+class HighSurface {
+public:
+    /// Positions become relative to `origin`, that of the low-poly mesh. `rays`: how many will be cast, by which the tree is
+    /// chosen. Throws Error{Refusal::unsuitable}, which names the mesh, if one has no faces.
+    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays);
+
+    const Bvh& bvh() const noexcept { return bvh_; }
+    std::size_t count() const noexcept { return parts_.size(); }
+    const Mesh& mesh(std::size_t i) const noexcept { return parts_[i].high.mesh; }
+    const std::string& name(std::size_t i) const noexcept { return parts_[i].high.name; }
+    const std::vector<Triangle>& triangles(std::size_t i) const noexcept { return parts_[i].triangles; }
+    std::size_t triangle_count() const noexcept { return bvh_.triangle_count(); }
+    /// Of all meshes.
+    const Bounds& bounds() const noexcept { return bounds_; }
+
+    Vec3f position(const Hit& hit) const noexcept;
+    /// Unit normal at a hit; that of the facet where the corners' normals cancel out, zero if the facet has no area.
+    Vec3f normal(const Hit& hit) const noexcept;
+    Vec3f facet_normal(std::size_t mesh, std::uint32_t triangle) const noexcept;
+
+private:
+    struct Part {
+        HighMesh high;
+        std::vector<Triangle> triangles;
+        std::vector<Vec3f> normals; ///< corners; empty for facet normals
+    };
+    static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals);
+    static Bvh tree_of(const std::vector<Part>& parts, double rays);
+
+    std::vector<Part> parts_;
+    Bvh bvh_;
+    Bounds bounds_;
+};
+
+} // namespace bake

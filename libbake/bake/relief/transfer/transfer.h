@@ -1,0 +1,58 @@
+// The detail of high-poly meshes on the uvs of a low-poly mesh: a normal map, and the height of the detail.
+//
+// A ray starts on an envelope around the low-poly mesh and goes inward. It lands where it first meets the front of a high-poly
+// triangle, so that a bolt that floats above a surface is seen before the surface. The normal there, in the tangent space of the
+// point of the low-poly mesh that the ray goes through, is the texel.
+#pragma once
+#include "bake/relief/map/bake_target.h"
+#include "bake/relief/transfer/casting.h"
+#include "bake/relief/transfer/high_surface.h"
+
+namespace bake {
+
+class Progress;
+
+struct TransferOptions {
+    int width = 0, height = 0; ///< of the map in texels
+    Space space = Space::tangent;
+    bool directx = false;  ///< green points down
+    int padding = 16;      ///< texels filled beyond the charts' borders
+    int tile = 0;          ///< as NormalMapOptions
+    int rays = 1;          ///< along each side of a texel, from 1 to 16
+    bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
+};
+
+enum class TexelState : unsigned char {
+    outside, ///< of the charts, or without a tangent space
+    hit,     ///< a normal of its own
+    missed,  ///< its rays find nothing
+    behind,  ///< its rays find nothing but the back of triangles
+};
+
+/// What became of texels and rays.
+struct TransferReport {
+    std::int64_t rays = 0;    ///< cast, with those of the second try
+    std::int64_t hit = 0;     ///< texels in charts with a normal of their own
+    std::int64_t missed = 0;  ///< texels whose rays find nothing, or nothing but backs
+    std::int64_t behind = 0;  ///< of these, texels whose rays find the back of triangles
+    std::int64_t wider = 0;   ///< texels with rays that found something in the second try only
+    std::int64_t outward = 0; ///< texels whose normal points into the low-poly mesh: out of range in tangent space
+    std::int64_t border = 0, degenerate = 0, padded = 0, empty = 0; ///< as NormalMapReport
+    double nearest = 0, farthest = 0; ///< of the heights of hits over the low-poly mesh, object units
+};
+
+struct Transfer {
+    Image<float> map;     ///< three channels, encoded
+    Image<float> heights; ///< one channel: along the cast from the low-poly mesh outward; 0 where nothing was hit
+    Image<TexelState> states;
+    TransferReport report;
+};
+
+/// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat
+/// normal. The average of several rays is over the part of the texel that lies in
+/// charts, by Gauss and Legendre's rule in each direction: an average over a smooth surface is exact to the degree 2 rays - 1.
+/// `target` has the size and the tile of the options. The result does not depend on the number of threads.
+Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
+                  const TransferOptions& options, const std::string& path, Progress* progress = nullptr);
+
+} // namespace bake

@@ -1,0 +1,24 @@
+// Options of normal-map for the detail of high-poly meshes.
+#pragma once
+#include "bake/relief/transfer/transfer.h"
+#include "inputs/number_option.h"
+
+namespace bake {
+
+struct HighArgs {
+    std::vector<std::string> paths;
+    std::string cage;
+    std::optional<Length> extrude, max_distance;
+    int rays = 1; ///< along each side of a texel
+    HighNormals normals = HighNormals::smooth;
+    CastBy cast = CastBy::blend;
+    bool strict = false;
+
+    bool given() const noexcept { return !paths.empty(); }
+};
+
+void add_high_options(CLI::App& sub, HighArgs& args);
+/// Throws Error{Refusal::usage} for options that contradict each other.
+void complete(const HighArgs& args);
+
+} // namespace bake
