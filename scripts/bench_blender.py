@@ -3,7 +3,7 @@
 import MESH.obj                          prints SECONDS of the operator alone: no start, no textures read
 bump MESH.obj HEIGHT.exr AMPLITUDE SIZE OUT.exr     the same of the bake operator
 displace CAGE.obj HEIGHT LEVELS AMPLITUDE OUT.obj   prints SECONDS from import to export, of the modifiers alone, quads
-transfer HIGH.obj LOW.obj SIZE SAMPLES EXTRUSION OUT.exr    the same of a bake of HIGH's normals to LOW's uvs
+transfer HIGH.obj LOW.obj SIZE SAMPLES EXTRUSION OUT.exr   the same of a bake of HIGH to the uvs of LOW, and peak MiB
 render MESH.obj SIZE                     SECONDS of one sample per pixel in Cycles, without import, export and BVH
 cage cube|suzanne OUT.obj                writes one of Blender's own primitives, with uvs
 """
