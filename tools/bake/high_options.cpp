@@ -1,13 +1,24 @@
 #include "high_options.h"
 #include "inputs/choice.h"
 #include "inputs/file_kind.h"
+#include "inputs/name_list.h"
 
 namespace bake {
+namespace {
+
+std::vector<std::string> map_names() {
+    std::vector<std::string> names;
+    for (const DetailMap map : all_detail_maps) names.emplace_back(name(map));
+    return names;
+}
+
+} // namespace
 
 void add_high_options(CLI::App& sub, HighArgs& args) {
-    sub.add_option("--high", args.paths,
-                   "Meshes whose detail is cast onto the uvs of the first mesh, instead of the relief of --height")
-        ->type_name("HIGH.ply...");
+    CLI::Option* const high =
+        sub.add_option("--high", args.paths,
+                       "Meshes whose detail is cast onto the uvs of the first mesh, instead of the relief of --height")
+            ->type_name("HIGH.ply");
     sub.add_option("--cage", args.cage,
                    "The first mesh with its faces pushed out: rays start there [automatic, from the meshes' distance]")
         ->type_name("MESH");
@@ -22,16 +33,34 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_choice<CastBy>(
         sub, "--cast", args.cast, {{"blend", CastBy::blend}, {"averaged", CastBy::averaged}, {"face", CastBy::face}},
         "Directions of rays: averaged at hard edges and perpendicular elsewhere, averaged, or of facets");
+    std::string names;
+    for (const std::string& each : map_names()) names += (names.empty() ? "" : ",") + each;
+    sub.add_option_function<std::string>(
+           "--maps",
+           [&args](const std::string& text) {
+               for (const std::size_t i : parse_names("--maps", text, "map", map_names()))
+                   args.maps.push_back(all_detail_maps[i]);
+           },
+           "Further maps of the detail: " + names)
+        ->type_name("LIST");
+    sub.add_option("--maps-out", args.maps_out, "What their names begin with: PREFIX_height.exr and so on")
+        ->type_name("PREFIX");
+    add_integer_option(sub, "--sky-rays", args.sky_rays, 1, 4096, "Rays of ambient-occlusion and bent-normal")
+        ->default_str(std::to_string(args.sky_rays));
+    add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
+    sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
+        ->type_name("OUT.glb");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
+    for (const char* flag : {"--cage", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
+                             "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--strict"})
+        sub.get_option(flag)->needs(high);
 }
 
 void complete(const HighArgs& args) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
-    if (!args.given()) {
-        if (!args.cage.empty() || args.extrude || args.max_distance || args.strict)
-            throw usage("--cage, --extrude, --max-distance and --strict: belong to --high; name the high-poly mesh");
-        return;
-    }
+    if (!args.given()) return;
+    if (args.maps.empty() != args.maps_out.empty())
+        throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
     if (!args.cage.empty()) expect_mesh(args.cage);
     if (!args.cage.empty() && (args.extrude || args.max_distance))

@@ -13,6 +13,11 @@ struct HighArgs {
     HighNormals normals = HighNormals::smooth;
     CastBy cast = CastBy::blend;
     bool strict = false;
+    std::string debug_rays;
+    std::vector<DetailMap> maps;
+    std::string maps_out;
+    int sky_rays = DetailOptions{}.sky_rays;
+    std::optional<Length> sky_distance;
 
     bool given() const noexcept { return !paths.empty(); }
 };

@@ -5,7 +5,7 @@ namespace bake {
 
 void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
     add_height_path(sub, "--height", args.height);
-    add_size_option(sub, args.size, "Texels of the map [those of the height]");
+    add_size_option(sub, args.size, "Texels of the map [those of the height; with --high 1024]");
     std::vector<std::pair<std::string, NormalMethod>> methods;
     for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
     methods.emplace_back("lecture", NormalMethod::constant_scale); // its earlier name

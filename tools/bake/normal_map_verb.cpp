@@ -84,10 +84,10 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
 
 std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
-    sub.add_option(
-        "input", args->mesh,
-        "UV-mapped mesh (.obj, .ply, .gltf, .glb) for the relief of --height, or the height picture of a flat "
-        "rectangle");
+    sub.add_option("input", args->mesh,
+                   "UV-mapped mesh (.obj, .ply, .gltf, .glb) for the relief of --height or --high, or the height "
+                   "picture of a flat "
+                   "rectangle");
     add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);

@@ -1,7 +1,6 @@
 #include "surface_map_files.h"
-#include "bake/base/error.h"
 #include "bake/base/parallel.h"
-#include <algorithm>
+#include "inputs/name_list.h"
 
 namespace bake {
 namespace {
@@ -12,26 +11,13 @@ std::vector<std::string> channel_names(MapQuantity quantity) {
     return {"R", "G", "B", "sign"};
 }
 
-Error usage(const std::string& message) { return Error(Refusal::usage, message); }
-
 } // namespace
 
 std::vector<MapQuantity> parse_maps(const std::string& text) {
+    std::vector<std::string> known;
+    for (const MapQuantity q : all_map_quantities) known.emplace_back(name(q));
     std::vector<MapQuantity> out;
-    std::string known;
-    for (const MapQuantity q : all_map_quantities) known += (known.empty() ? "" : ",") + std::string(name(q));
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t to = std::min(text.find(',', from), text.size());
-        const std::string word = text.substr(from, to - from);
-        from = to + 1;
-        const auto found = std::find_if(std::begin(all_map_quantities), std::end(all_map_quantities),
-                                        [&](MapQuantity q) { return word == name(q); });
-        if (found == std::end(all_map_quantities))
-            throw usage("--maps " + text + ": '" + word + "' is no map; choose from " + known);
-        if (std::find(out.begin(), out.end(), *found) != out.end())
-            throw usage("--maps " + text + ": '" + word + "' twice; name each map once");
-        out.push_back(*found);
-    }
+    for (const std::size_t i : parse_names("--maps", text, "map", known)) out.push_back(all_map_quantities[i]);
     return out;
 }
 

@@ -7,10 +7,6 @@
 namespace bake {
 namespace {
 
-/// Width of the blend of directions beside a hard edge, in units of the reach there. Directions turn by up to 55 degrees over that
-/// width, and rays as long as the reach must not cross.
-constexpr float blend_width = 4;
-
 std::vector<Vec3f> facet_normals(const MeshSurface& low) {
     std::vector<Vec3f> out(low.mesh->corners(), Vec3f(0));
     for (const Triangle& t : low.triangles) {
@@ -69,10 +65,10 @@ void Casting::set_hard_edges(const std::vector<std::array<std::uint32_t, 2>>& ed
     edges_ = std::make_unique<TriangleTree>(lines, flat);
 }
 
-/// 1 on a hard edge, 0 from `blend_width` reaches on.
-float Casting::blend_at(const Vec3f& p, float reach) const noexcept {
+/// 1 on a hard edge, 0 from `width` on.
+float Casting::averaged_share(const Vec3f& p, float width) const noexcept {
     const auto distance = float(std::sqrt(edges_->nearest(Vec3d(p)).distance2));
-    const float x = reach > 0 ? std::min(1.0f, distance / (blend_width * reach)) : 1.0f;
+    const float x = distance < width ? distance / width : 1;
     return 1 - x * x * (3 - 2 * x);
 }
 
@@ -84,15 +80,16 @@ Cast Casting::at(const TexelHit& at) const noexcept {
     Vec3f d = mixed(averaged_[corner[0]], averaged_[corner[1]], averaged_[corner[2]], at);
     if (cage_) {
         const float front = glm::length(d);
-        return {p + d, -unit_or_zero(d), {front, front}};
+        return {p + d, -unit_or_zero(d), {front, front, 0}};
     }
     const auto& r0 = reach_[position(0)];
     const auto &r1 = reach_[position(1)], &r2 = reach_[position(2)];
-    const Reach reach{mixed(r0.front, r1.front, r2.front, at), mixed(r0.back, r1.back, r2.back, at)};
+    const Reach reach{mixed(r0.front, r1.front, r2.front, at), mixed(r0.back, r1.back, r2.back, at),
+                      mixed(r0.blend, r1.blend, r2.blend, at)};
     if (!own_.empty()) {
         const Vec3f own = mixed(own_[corner[0]], own_[corner[1]], own_[corner[2]], at);
         if (own != d) {
-            const float share = blend_at(p, reach.front + reach.back);
+            const float share = averaged_share(p, reach.blend);
             d = share * unit_or_zero(d) + (1 - share) * unit_or_zero(own);
         }
     }

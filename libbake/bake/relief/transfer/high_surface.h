@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/mesh/triangulate.h"
 #include "bake/ray/bvh.h"
+#include <optional>
 #include <string>
 
 namespace bake {
@@ -23,9 +24,12 @@ class HighSurface {
 public:
     /// Positions become relative to `origin`, that of the low-poly mesh. `rays`: how many will be cast, by which the tree is
     /// chosen. Throws Error{Refusal::unsuitable}, which names the mesh, if one has no faces.
-    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays);
+    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays,
+                bool both_sides = false);
 
     const Bvh& bvh() const noexcept { return bvh_; }
+    /// A tree in which rays land on the back of triangles as well; only if the constructor was told so.
+    const Bvh& both_sides() const noexcept { return *both_sides_; }
     std::size_t count() const noexcept { return parts_.size(); }
     const Mesh& mesh(std::size_t i) const noexcept { return parts_[i].high.mesh; }
     const std::string& name(std::size_t i) const noexcept { return parts_[i].high.name; }
@@ -38,18 +42,25 @@ public:
     /// Unit normal at a hit; that of the facet where the corners' normals cancel out, zero if the facet has no area.
     Vec3f normal(const Hit& hit) const noexcept;
     Vec3f facet_normal(std::size_t mesh, std::uint32_t triangle) const noexcept;
+    Vec3f corner_position(std::size_t mesh, std::uint32_t triangle, std::uint32_t k) const noexcept;
+    /// As normal(), at a corner.
+    Vec3f corner_normal(std::size_t mesh, std::uint32_t triangle, std::uint32_t k) const noexcept;
+    /// Counts meshes, and within each the materials of its faces, from 1 on.
+    std::uint32_t part_number(const Hit& hit) const noexcept;
 
 private:
     struct Part {
         HighMesh high;
         std::vector<Triangle> triangles;
-        std::vector<Vec3f> normals; ///< corners; empty for facet normals
+        std::vector<Vec3f> normals;     ///< corners; empty for facet normals
+        std::uint32_t first_number = 1; ///< of its faces without a material
     };
     static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals);
-    static Bvh tree_of(const std::vector<Part>& parts, double rays);
+    static Bvh tree_of(const std::vector<Part>& parts, double rays, bool both_sides);
 
     std::vector<Part> parts_;
     Bvh bvh_;
+    std::optional<Bvh> both_sides_;
     Bounds bounds_;
 };
 

@@ -8,7 +8,7 @@
 namespace bake {
 namespace {
 
-constexpr std::size_t most_samples = 400000; ///< corners of the high-poly mesh; its neighbours are as far away
+constexpr std::size_t most_samples = 150000; ///< corners of the high-poly mesh; its neighbours are as far away
 constexpr double farthest = 0.1; ///< of the diagonal of the low-poly mesh: what is beyond belongs to something else
 constexpr float wider = 1.2f, least = 1e-4f; ///< of the extremes; of the diagonal
 
@@ -118,7 +118,8 @@ std::vector<Reach> measured_reach(const MeshSurface& low, const HighSurface& hig
         const Extremes& own = measure.extremes()[vertex[i]];
         const Extremes& at = own.measured() ? own : all;
         const float margin = 0.1f * (at.out + at.in) + least * extent, skew = 1 / std::max(0.35f, cosine[vertex[i]]);
-        reach[i] = {skew * (wider * at.out + margin), 2 * skew * (wider * at.in + margin)};
+        reach[i] = {skew * (wider * at.out + margin), 2 * skew * (wider * at.in + margin),
+                    blend_width(wider * at.out, wider * at.in)};
     }
     return reach;
 }

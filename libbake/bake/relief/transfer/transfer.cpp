@@ -2,8 +2,9 @@
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
 #include "bake/picture/pad_texels.h"
-#include "bake/relief/map/normal_code.h"
+#include "bake/relief/transfer/chart_ring.h"
 #include "bake/relief/transfer/gauss_legendre.h"
+#include "bake/relief/transfer/map_frame.h"
 #include <algorithm>
 #include <cmath>
 
@@ -36,35 +37,59 @@ class Bake {
 public:
     Bake(const BakeTarget& target, const HighSurface& high, const Casting& casting, const TransferOptions& options,
          Transfer& out)
-        : target_(target), high_(high), casting_(casting), options_(options), out_(out),
-          weights_(options.rays > 1 ? Image<float>(options.width, options.height, 1) : Image<float>()) {}
+        : target_(target), high_(high), casting_(casting), options_(options), details_(high, options.details),
+          facets_(target, options.width, options.height), out_(out),
+          weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
+                                                            : Image<float>()) {}
 
     /// One ray for each texel of the raster, of those that have none yet if `rest`.
     void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
     void average();
+    /// The row of another map.
+    void average(DetailMap map, int y, float* row) const noexcept;
 
 private:
     struct Counts {
         std::int64_t rays = 0, wider = 0, degenerate = 0;
         double nearest = INFINITY, farthest = -INFINITY;
+        std::array<std::int64_t, std::tuple_size_v<decltype(TransferReport::lengths)>> lengths{};
+        double parallax = 0, most_parallax = 0;
+        std::int64_t landed = 0;
+        FarTexel far;
+        void add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept;
     };
     void clear(int y) noexcept;
     void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts);
     void trace(Packet& packet, Counts& counts) const noexcept;
+    Vec3f beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept;
     void add(const Packet& packet, int lane, float weight, Counts& counts) noexcept;
 
     const BakeTarget& target_;
     const HighSurface& high_;
     const Casting& casting_;
     const TransferOptions& options_;
+    DetailProbe details_;
+    Facets facets_;
     Transfer& out_;
     Image<float> weights_; ///< with several rays
     bool cleared_ = false;
+    int pass_ = 0;
+    double parallax_ = 0;
+    std::int64_t landed_ = 0;
 };
+
+void Bake::Counts::add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept {
+    nearest = std::min(nearest, height), farthest = std::max(farthest, height);
+    const double length = double(cast.reach.front) + double(cast.reach.back);
+    const double at = length > 0 ? (double(cast.reach.front) - height) / length * double(lengths.size()) : 0;
+    ++lengths[std::size_t(std::clamp(at, 0.0, double(lengths.size() - 1)))];
+    parallax += parallax_here, most_parallax = std::max(most_parallax, parallax_here), ++landed;
+    if (std::abs(height) > std::abs(far.height)) far = {height, x, y};
+}
 
 void Bake::clear(int y) noexcept {
     std::fill(out_.map.row(y), out_.map.row(y + 1), 0.0f);
-    std::fill(out_.heights.row(y), out_.heights.row(y + 1), 0.0f);
+    for (Image<float>& map : out_.details) std::fill(map.row(y), map.row(y + 1), 0.0f);
     std::fill(out_.states.row(y), out_.states.row(y + 1), TexelState::outside);
     if (!weights_.empty()) std::fill(weights_.row(y), weights_.row(y + 1), 0.0f);
 }
@@ -83,12 +108,17 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
             }
         },
         progress);
-    cleared_ = true;
+    cleared_ = true, ++pass_;
     TransferReport& report = out_.report;
     for (const Counts& c : counts) {
         report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
         report.nearest = std::min(report.nearest, c.nearest), report.farthest = std::max(report.farthest, c.farthest);
+        for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
+        parallax_ += c.parallax, landed_ += c.landed;
+        report.parallax_max = std::max(report.parallax_max, c.most_parallax);
+        if (c.far.height != 0) out_.far.push_back(c.far);
     }
+    report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
 }
 
 void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts) {
@@ -140,28 +170,53 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
         state = high_.bvh().occluded(packet.rays[i]) ? TexelState::behind : TexelState::missed;
         return;
     }
-    Vec3f t = high_.normal(hit);
-    if (options_.space == Space::tangent) {
-        const auto& corner = target_.surface.triangles[at.triangle].corner;
-        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
-        Vec3f T(0), N(0);
-        for (std::size_t k = 0; k < 3; ++k)
-            T += b[k] * Vec3f(target_.tangents[corner[k]]), N += b[k] * target_.surface.n[corner[k]];
-        t = to_tangent_space(t, T, N, target_.tangents[corner[0]].w);
-    }
+    const Vec3f normal = high_.normal(hit);
+    const MapFrame frame(target_, at, options_.space);
+    Vec3f t = frame.in_map(normal);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;
     }
+    t = beyond_border(at, packet.x[i], packet.y[i], t, counts);
     const Cast& cast = packet.cast[i];
-    const float height = glm::dot(cast.start + cast.reach.front * cast.inward - high_.position(hit), cast.inward);
-    counts.nearest = std::min(counts.nearest, double(height)),
-    counts.farthest = std::max(counts.farthest, double(height));
+    const double height = double(height_of(cast, high_.position(hit)));
+    counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
+               packet.y[i]);
+    const bool first = state != TexelState::hit;
     state = TexelState::hit;
     float* sum = &out_.map.at(packet.x[i], packet.y[i]);
     for (int c = 0; c < 3; ++c) sum[c] += weight * t[c];
-    out_.heights.at(packet.x[i], packet.y[i]) += weight * height;
+    if (out_.details.empty()) return;
     if (!weights_.empty()) weights_.at(packet.x[i], packet.y[i]) += weight;
+    const std::uint64_t seed =
+        std::uint64_t(pass_) << 40 ^ std::uint64_t(packet.y[i]) << 20 ^ std::uint64_t(packet.x[i]);
+    std::array<float, 4 * std::size(all_detail_maps)> values;
+    details_.at({cast, hit, normal, seed}, values);
+    for (std::size_t m = 0; m < out_.details.size(); ++m) {
+        const DetailMap map = options_.details.maps[m];
+        float* to = &out_.details[m].at(packet.x[i], packet.y[i]);
+        const float* from = &values[4 * m];
+        if (map == DetailMap::id) { // colours of several meshes have no mean
+            if (first) std::copy_n(from, 3, to);
+            continue;
+        }
+        Vec3f value(from[0], channels(map) == 3 ? from[1] : 0, channels(map) == 3 ? from[2] : 0);
+        if (map == DetailMap::bent_normal) value = frame.in_map(value);
+        for (int c = 0; c < channels(map); ++c) to[c] += weight * value[c];
+    }
+}
+
+/// The value for a texel whose centre lies beyond the border of a chart, continued linearly from the nearest point of the chart and
+/// from the point as far inside: what a bilinear filter reads on the border is then what was hit there, on both sides of a seam.
+Vec3f Bake::beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept {
+    constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
+    const auto inside = mirrored_at_border(target_, edge, x, y, options_.width, options_.height);
+    if (!inside) return at_edge;
+    const Hit hit = high_.bvh().intersect(ray_of(casting_.at(*inside), 1, 1));
+    ++counts.rays;
+    if (!hit) return at_edge;
+    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(high_.normal(hit));
+    return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
 }
 
 void Bake::average() {
@@ -173,10 +228,25 @@ void Bake::average() {
                 if (n == Vec3f(0) && out_.states.at(x, y) == TexelState::hit) out_.states.at(x, y) = TexelState::missed;
                 const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
                 for (int c = 0; c < 3; ++c) rgb[c] = code[c];
-                if (!weights_.empty() && weights_.at(x, y) > 0) out_.heights.at(x, y) /= weights_.at(x, y);
             }
+            for (std::size_t m = 0; m < out_.details.size(); ++m)
+                average(options_.details.maps[m], y, out_.details[m].row(y));
         }
     });
+}
+
+void Bake::average(DetailMap map, int y, float* row) const noexcept {
+    if (map == DetailMap::id) return;
+    const int count = channels(map);
+    for (int x = 0; x < options_.width; ++x, row += count) {
+        if (map == DetailMap::bent_normal) {
+            const Vec3f n = unit_or_zero(Vec3f(row[0], row[1], row[2]));
+            const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
+            for (int c = 0; c < 3; ++c) row[c] = code[c];
+        } else if (!weights_.empty() && weights_.at(x, y) > 0) {
+            for (int c = 0; c < count; ++c) row[c] /= weights_.at(x, y);
+        }
+    }
 }
 
 void count_states(Transfer& out, bool tangent) {
@@ -195,7 +265,9 @@ void count_states(Transfer& out, bool tangent) {
 void pad(Transfer& out, int padding) {
     Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
     for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
-    out.report.padded = pad_texels(out.map, owned, padding);
+    for (Image<float>& map : out.details) pad_texels(map, owned, padding);
+    if (padding > 0) out.report.padded = continue_charts(out.map, owned);
+    out.report.padded += pad_texels(out.map, owned, padding - 1);
     out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
 }
 
@@ -205,7 +277,8 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
                   const TransferOptions& options, const std::string& path, Progress* progress) {
     Transfer out;
     out.map = Image<float>(options.width, options.height, 3);
-    out.heights = Image<float>(options.width, options.height, 1);
+    for (const DetailMap map : options.details.maps)
+        out.details.emplace_back(options.width, options.height, channels(map));
     out.states = Image<TexelState>(options.width, options.height, 1);
     out.report.nearest = INFINITY, out.report.farthest = -INFINITY;
     Bake bake(target, high, casting, options, out);
@@ -222,6 +295,8 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
     bake.cast_all(target.raster, 1, options.rays > 1, progress);
     bake.average();
     if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
+    std::stable_sort(out.far.begin(), out.far.end(),
+                     [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
     count_states(out, options.space == Space::tangent);
     out.report.border = target.raster.border;
     pad(out, options.padding);

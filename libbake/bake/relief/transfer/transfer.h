@@ -5,8 +5,7 @@
 // point of the low-poly mesh that the ray goes through, is the texel.
 #pragma once
 #include "bake/relief/map/bake_target.h"
-#include "bake/relief/transfer/casting.h"
-#include "bake/relief/transfer/high_surface.h"
+#include "bake/relief/transfer/detail_maps.h"
 
 namespace bake {
 
@@ -15,10 +14,11 @@ class Progress;
 struct TransferOptions {
     int width = 0, height = 0; ///< of the map in texels
     Space space = Space::tangent;
-    bool directx = false;  ///< green points down
-    int padding = 16;      ///< texels filled beyond the charts' borders
-    int tile = 0;          ///< as NormalMapOptions
-    int rays = 1;          ///< along each side of a texel, from 1 to 16
+    bool directx = false; ///< green points down
+    int padding = 16;     ///< texels filled beyond the charts' borders
+    int tile = 0;         ///< as NormalMapOptions
+    int rays = 1;         ///< along each side of a texel, from 1 to 16
+    DetailOptions details;
     bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
 };
 
@@ -38,14 +38,24 @@ struct TransferReport {
     std::int64_t wider = 0;   ///< texels with rays that found something in the second try only
     std::int64_t outward = 0; ///< texels whose normal points into the low-poly mesh: out of range in tangent space
     std::int64_t border = 0, degenerate = 0, padded = 0, empty = 0; ///< as NormalMapReport
+    /// Of the rays that land, by where they do: from the envelope (0) to where they end (the last).
+    std::array<std::int64_t, 16> lengths{};
+    double parallax_mean = 0,
+           parallax_max = 0;          ///< texels by which detail moves sideways, as the cast leans from the facet
     double nearest = 0, farthest = 0; ///< of the heights of hits over the low-poly mesh, object units
 };
 
+struct FarTexel {
+    double height = 0;
+    int x = 0, y = 0;
+};
+
 struct Transfer {
-    Image<float> map;     ///< three channels, encoded
-    Image<float> heights; ///< one channel: along the cast from the low-poly mesh outward; 0 where nothing was hit
+    Image<float> map;                  ///< three channels, encoded
+    std::vector<Image<float>> details; ///< options.details.maps, padded like the map; 0 elsewhere
     Image<TexelState> states;
     TransferReport report;
+    std::vector<FarTexel> far; ///< of each four rows the texel with the largest height or depth, ordered by that
 };
 
 /// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat

@@ -1,0 +1,83 @@
+// What a texel of a normal map stands on: the frame of its normals, and the facet of the low-poly mesh.
+#pragma once
+#include "bake/relief/map/bake_target.h"
+#include "bake/relief/map/normal_code.h"
+#include <optional>
+
+namespace bake {
+
+/// Facets of the low-poly mesh, and texels on them.
+class Facets {
+public:
+    Facets(const BakeTarget& target, int width, int height) {
+        const Mesh& mesh = *target.surface.mesh;
+        for (const Triangle& t : target.surface.triangles) {
+            const auto p = [&](std::size_t k) { return Vec3d(mesh.positions[mesh.corner_position[t.corner[k]]]); };
+            const auto uv = [&](std::size_t k) {
+                const std::uint32_t at = mesh.corner_uv[t.corner[k]];
+                return at == no_index ? Vec2d(0) : Vec2d(mesh.uvs[at]);
+            };
+            const Vec3d area = glm::cross(p(1) - p(0), p(2) - p(0));
+            const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+            const double texels = std::abs(d1.x * d2.y - d2.x * d1.y) * width * height, size = glm::length(area);
+            facets_.push_back({Vec3f(unit_or_zero(area)), float(size > 0 ? std::sqrt(texels / size) : 0)});
+        }
+    }
+    /// How many texels a point moves sideways per unit of height, if rays lean from the facet. At most as at 84 degrees.
+    double texels_per_height(std::uint32_t triangle, const Vec3f& inward) const noexcept {
+        const Facet& facet = facets_[triangle];
+        const double cosine = std::clamp(double(-glm::dot(facet.n, inward)), 0.1, 1.0);
+        return double(facet.density) * std::sqrt(1 - cosine * cosine) / cosine;
+    }
+
+private:
+    struct Facet {
+        Vec3f n;
+        float density; ///< texels per length
+    };
+    std::vector<Facet> facets_;
+};
+
+/// Of a texel whose centre lies outside of its chart: the point of the triangle as far from the border as the centre is, on the
+/// other side. Nothing for centres in the chart, and if the triangle is too small. `edge`: the nearest point of the triangle.
+inline std::optional<TexelHit> mirrored_at_border(const BakeTarget& target, const TexelHit& edge, int x, int y,
+                                                  int width, int height) noexcept {
+    if (std::min({edge.b1, edge.b2, 1 - edge.b1 - edge.b2}) > 1e-6f) return {}; // inside
+    const Mesh& mesh = *target.surface.mesh;
+    const auto& corner = target.surface.triangles[edge.triangle].corner;
+    const auto uv = [&](std::size_t k) { return Vec2d(mesh.uvs[mesh.corner_uv[corner[k]]]); };
+    const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+    const Vec2d centre((x + 0.5) / width, 1 - (y + 0.5) / height);
+    Vec2d inward = uv(0) + double(edge.b1) * d1 + double(edge.b2) * d2 - centre;
+    inward = {inward.x - std::round(inward.x), inward.y - std::round(inward.y)}; // charts may lie in other tiles
+    const double area = d1.x * d2.y - d2.x * d1.y;
+    if (std::hypot(inward.x * width, inward.y * height) < 1e-3 || area == 0) return {};
+    const double b1 = double(edge.b1) + (inward.x * d2.y - inward.y * d2.x) / area;
+    const double b2 = double(edge.b2) + (d1.x * inward.y - d1.y * inward.x) / area;
+    if (b1 < 0 || b2 < 0 || b1 + b2 > 1) return {};
+    return TexelHit{edge.triangle, float(b1), float(b2)};
+}
+
+/// The frame of a texel's normals.
+class MapFrame {
+public:
+    MapFrame(const BakeTarget& target, const TexelHit& at, Space space) noexcept : space_(space) {
+        if (space == Space::object) return;
+        const auto& corner = target.surface.triangles[at.triangle].corner;
+        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
+        for (std::size_t k = 0; k < 3; ++k)
+            tangent_ += b[k] * Vec3f(target.tangents[corner[k]]), n_ += b[k] * target.surface.n[corner[k]];
+        sign_ = target.tangents[corner[0]].w;
+    }
+    /// Zero for a frame without volume.
+    Vec3f in_map(const Vec3f& normal) const noexcept {
+        return space_ == Space::object ? normal : to_tangent_space(normal, tangent_, n_, sign_);
+    }
+
+private:
+    Space space_;
+    Vec3f tangent_{0}, n_{0};
+    float sign_ = 1;
+};
+
+} // namespace bake

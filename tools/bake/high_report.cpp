@@ -1,0 +1,142 @@
+#include "high_report.h"
+
+namespace bake {
+namespace {
+
+double share(std::int64_t part, std::int64_t whole) { return whole > 0 ? 100 * double(part) / double(whole) : 0; }
+
+const char* source_of_reach(const HighArgs& args) {
+    return !args.cage.empty() ? "cage" : args.extrude ? "extruded" : "automatic reach";
+}
+
+const char* name(TexelState state) {
+    switch (state) {
+    case TexelState::hit: return "hit";
+    case TexelState::behind: return "behind";
+    case TexelState::missed: return "missed";
+    case TexelState::outside: break;
+    }
+    return "outside";
+}
+
+std::string to_text(const Witness& w) {
+    const Vec3f at = w.cast.start + w.cast.reach.front * w.cast.inward;
+    std::string text = format("  texel (%d, %d), face %u, uv (%.5g, %.5g), at (%.4g, %.4g, %.4g): ", w.x, w.y, w.face,
+                              w.uv.x, w.uv.y, double(at.x), double(at.y), double(at.z));
+    if (w.state == TexelState::hit) return text + format("detail %.4g above the surface", w.height);
+    return text + format("%s; the nearest corner of %s is (%.4g, %.4g, %.4g), %.4g away",
+                         w.state == TexelState::behind ? "only the back of triangles" : "nothing",
+                         printable(w.mesh).c_str(), double(w.nearest.x), double(w.nearest.y), double(w.nearest.z),
+                         w.distance);
+}
+
+nlohmann::json vector(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+nlohmann::json to_json(const Witness& w) {
+    nlohmann::json out = {{"texel", {w.x, w.y}},
+                          {"face", w.face},
+                          {"uv", {w.uv.x, w.uv.y}},
+                          {"state", name(w.state)},
+                          {"ray",
+                           {{"start", vector(w.cast.start)},
+                            {"direction", vector(w.cast.inward)},
+                            {"length", w.cast.reach.front + w.cast.reach.back}}}};
+    if (w.state == TexelState::hit) out["height"] = w.height;
+    else out["nearest"] = {{"mesh", w.mesh}, {"position", vector(w.nearest)}, {"distance", w.distance}};
+    return out;
+}
+
+} // namespace
+
+std::string to_text(const HighReport& report) {
+    const TransferOptions& options = report.options;
+    const TransferReport& r = report.result;
+    const std::int64_t texels = std::int64_t(options.width) * options.height;
+    std::string text = format(
+        "%s: %d x %d, %s space, green %s\n%zu triangles, %lld rays; %s: at most %.3g outward and %.3g inward",
+        printable(report.args.out).c_str(), options.width, options.height,
+        options.space == Space::tangent ? "tangent" : "object", options.directx ? "down (DirectX)" : "up (OpenGL)",
+        report.high.triangle_count(), static_cast<long long>(r.rays), source_of_reach(report.args.high),
+        double(report.casting.most_front()), double(report.casting.most_back()));
+    text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
+                   "left flat",
+                   share(r.hit + r.missed, texels), share(r.missed, r.hit + r.missed), share(r.padded, texels),
+                   share(r.empty, texels));
+    if (r.hit > 0)
+        text += format("\ndetail lies %.3g to %.3g above the surface; leaning rays move it by %.2g texels in the mean, "
+                       "%.2g at most",
+                       r.nearest, r.farthest, r.parallax_mean, r.parallax_max);
+    if (report.seams.samples > 0)
+        text += format("\nthe two sides of %lld seams differ by %.3g deg in the mean, 95 %% below %.3g, at most %.3g",
+                       static_cast<long long>(report.seams.seams), report.seams.mean, report.seams.percentile_95,
+                       report.seams.max);
+    for (const Witness& w : report.witnesses)
+        if (w.state != TexelState::hit) text += "\n" + to_text(w);
+    return text + "\n";
+}
+
+nlohmann::json to_json(const HighReport& report) {
+    const TransferOptions& options = report.options;
+    const TransferReport& r = report.result;
+    nlohmann::json witnesses = nlohmann::json::array();
+    for (const Witness& w : report.witnesses) witnesses.push_back(to_json(w));
+    return {{"out", report.args.out},
+            {"width", options.width},
+            {"height", options.height},
+            {"space", options.space == Space::tangent ? "tangent" : "object"},
+            {"green", options.directx ? "down" : "up"},
+            {"high", {{"meshes", report.args.high.paths}, {"triangles", report.high.triangle_count()}}},
+            {"reach", {{"front", report.casting.most_front()}, {"back", report.casting.most_back()}}},
+            {"hard_edges", report.casting.hard_edges()},
+            {"rays", r.rays},
+            {"ray_lengths", r.lengths},
+            {"heights", {r.nearest, r.farthest}},
+            {"parallax_texels", {{"mean", r.parallax_mean}, {"max", r.parallax_max}}},
+            {"seams",
+             {{"edges", report.seams.seams},
+              {"samples", report.seams.samples},
+              {"mean_deg", report.seams.mean},
+              {"p95_deg", report.seams.percentile_95},
+              {"max_deg", report.seams.max}}},
+            {"witnesses", witnesses},
+            {"texels",
+             {{"hit", r.hit},
+              {"missed", r.missed},
+              {"behind", r.behind},
+              {"wider", r.wider},
+              {"outward", r.outward},
+              {"degenerate", r.degenerate},
+              {"border", r.border},
+              {"overlapped", report.target.raster.overlapped},
+              {"padded", r.padded},
+              {"empty", r.empty}}}};
+}
+
+void warn(const CommonArgs& common, const HighReport& report) {
+    const TransferReport& r = report.result;
+    const std::string& low = report.args.mesh;
+    const std::string& high = report.args.high.paths[0];
+    const auto say = [&](std::int64_t count, const std::string& what) {
+        if (count > 0) note(common, format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
+    };
+    if (r.hit == 0 && r.behind > 0)
+        note(common,
+             high + ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
+    else if (r.hit == 0)
+        note(common, high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
+    else
+        say(r.missed, "texels find no detail, and have the normal of the nearest texel that does; give a larger "
+                      "--extrude, or close the high-poly mesh there");
+    if (r.hit > 0) say(r.behind, "of these find the back of triangles; turn those faces over");
+    say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
+    say(r.degenerate, "rays have no tangent space where they start (charts without area)");
+    say(report.target.raster.overlapped, "texels lie in more than one face; the lowest face was baked");
+    say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
+    say(report.target.raster.crossing_faces, "faces leave the tile; only their part inside was baked");
+    say(report.target.raster.degenerate, "triangles have no area in uv and were not baked");
+    if (!report.target.raster.tiles.empty())
+        note(common,
+             low + ": its charts lie in " + report.target.raster.tiles + " of the uvs' tiles and are baked modulo 1");
+}
+
+} // namespace bake
