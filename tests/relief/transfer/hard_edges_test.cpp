@@ -36,6 +36,22 @@ TEST_SUITE("unit") {
         CHECK(none.ends.empty());
         CHECK((none.averaged == none.own));
         CHECK((none.own == corner_normals(sphere, triangulate(sphere))));
+        // A cone: triangles that repeat the tip as quads do, smooth but for its rim with the disc below.
+        Mesh cone;
+        add_patch(cone, 24, 1, [](double s, double t) {
+            const double east = 2 * pi * (s < 1 ? s : 0);
+            return PatchPoint{{(1 - t) * std::cos(east), (1 - t) * std::sin(east), t},
+                              glm::normalize(Vec3d(std::cos(east), std::sin(east), 1)),
+                              {s, t}};
+        });
+        for (std::size_t i = 25; i < 50; ++i) cone.normals[i] = {0, 0, 1};
+        add_patch(cone, 24, 1, [](double s, double t) {
+            const double east = 2 * pi * (s < 1 ? s : 0);
+            return PatchPoint{{t * std::cos(east), t * std::sin(east), 0}, {0, 0, -1}, {s, t}};
+        });
+        const HardEdges rim = edges_of(cone);
+        CHECK(rim.ends.size() == 24);
+        for (const auto& [a, b] : rim.ends) CHECK((cone.positions[a].z == 0 && cone.positions[b].z == 0));
     }
 
     TEST_CASE("hard_edges: a border is not hard") {

@@ -1,3 +1,4 @@
+#include "bake/mesh/weld.h"
 #include "bake/relief/map/normal_code.h"
 #include "bake/relief/transfer/seams.h"
 #include "relief/transfer/transfer_meshes.h"
@@ -14,10 +15,11 @@ Image<float> constant(int width, int height, const Vec3f& t) {
     return map;
 }
 
-/// The box without normals of its own, each side with its chart.
+/// The box shaded smooth, each side with its chart.
 Mesh smooth_box() {
     Mesh box = sharp_box();
     box.normals.clear(), box.corner_normal.clear();
+    weld_positions(box);
     return box;
 }
 
@@ -81,6 +83,14 @@ TEST_SUITE("unit") {
         CHECK(seam.max == doctest::Approx(20).epsilon(0.01));
     }
 
+    TEST_CASE("seams: a sphere whose quads at the poles repeat a vertex has one from pole to pole") {
+        const Mesh sphere = lat_long_sphere(24, 12);
+        const BakeTarget target = make_bake_target(sphere, "sphere", 48, 24);
+        const SeamDisagreement flat = seam_disagreement(target, constant(48, 24, {0, 0, 1}), Space::tangent, false);
+        CHECK(flat.seams == 12);
+        CHECK(flat.max < 1e-3);
+    }
+
     TEST_CASE("shaded_normal: a flat map gives the interpolated normal, a turned one the frame's; green down turns it "
               "round") {
         const Mesh sphere = lat_long_sphere(24, 12);
@@ -110,7 +120,8 @@ TEST_SUITE("oracle") {
 
     TEST_CASE("seams: a box with the detail of a rounded one agrees within a degree, and does not without padding") {
         const auto seams = [](int padding) {
-            JobOptions options = job_options(384, 256);
+            // Cells of 120 texels, whose charts begin at 2.4: a bilinear filter reads a texel there that is not the chart's.
+            JobOptions options = job_options(360, 240);
             options.transfer.padding = padding;
             const Job job(sharp_box(), {rounded_box(80, 0.08)}, options);
             return seam_disagreement(job.target, job.result.map, Space::tangent, false);
@@ -118,7 +129,7 @@ TEST_SUITE("oracle") {
         const SeamDisagreement padded = seams(16), bare = seams(0);
         CHECK(padded.seams == 12);
         CHECK(padded.max <= 1);
-        CHECK(bare.max > 10);
+        CHECK(bare.max > 5);
     }
 
 } // TEST_SUITE

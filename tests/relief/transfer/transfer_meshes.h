@@ -85,8 +85,8 @@ inline Mesh sharp_box() {
 
 inline constexpr double bolt_radius = 0.1, bolt_height = 0.05, bolt_places[] = {-0.6, 0, 0.6};
 
-/// The box with edges rounded by `radius`, cells x cells quads on each side and exact normals; with nine bolts on each side,
-/// half ellipsoids.
+/// The box with edges rounded by `radius`, cells x cells quads on each side and exact normals; with nine bolts on each side
+/// that are bolt_height (1 - r^2)^2 high at r bolt radii from their middle.
 inline Mesh rounded_box(int cells, double radius, bool bolts = false) {
     Mesh mesh;
     for (int i = 0; i < 6; ++i)
@@ -96,15 +96,13 @@ inline Mesh rounded_box(int cells, double radius, bool bolts = false) {
             point.p = core + radius * point.n;
             for (const double u : bolt_places)
                 for (const double v : bolt_places) {
-                    const double du = point.p[side.u()] - u, dv = point.p[side.v()] - v;
-                    const double up2 = 1 - (du * du + dv * dv) / (bolt_radius * bolt_radius);
-                    if (!bolts || up2 <= 0) continue;
-                    const double height = bolt_height * std::sqrt(up2);
-                    point.n = side.normal() * (height / (bolt_height * bolt_height));
-                    point.n[side.u()] = du / (bolt_radius * bolt_radius);
-                    point.n[side.v()] = dv / (bolt_radius * bolt_radius);
+                    const double x = (point.p[side.u()] - u) / bolt_radius, y = (point.p[side.v()] - v) / bolt_radius;
+                    const double inside = 1 - x * x - y * y;
+                    if (!bolts || inside <= 0) continue;
+                    point.p[side.axis()] += side.sign() * bolt_height * inside * inside;
+                    point.n[side.u()] = 4 * bolt_height / bolt_radius * inside * x;
+                    point.n[side.v()] = 4 * bolt_height / bolt_radius * inside * y;
                     point.n = glm::normalize(point.n);
-                    point.p[side.axis()] += side.sign() * height;
                 }
             return point;
         });
