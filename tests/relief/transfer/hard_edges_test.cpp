@@ -120,6 +120,16 @@ TEST_SUITE("unit") {
         CHECK((edges.averaged[0] == edges.averaged[11]));
     }
 
+    TEST_CASE("hard_edges: corners of a face that are one vertex have one normal of their own") {
+        // A triangle given as a quad, and a vertical face at its edge 0-2.
+        const Mesh mesh = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, -1}}, {{0, 3, 1, 2}, {2, 4, 0}});
+        const HardEdges edges = edges_of(mesh);
+        CHECK(edges.ends.size() == 1);
+        for (std::uint32_t c = 0; c < 7; ++c)
+            CHECK(oracle::angle_deg(Vec3d(edges.own[c]), c < 4 ? Vec3d(0, 0, 1) : Vec3d(-1, 0, 0)) < 1e-4);
+        CHECK((edges.averaged[0] == edges.averaged[1]));
+    }
+
 } // TEST_SUITE
 
 TEST_SUITE("stability") {
@@ -129,9 +139,13 @@ TEST_SUITE("stability") {
         Mesh mesh = cube(false);
         mesh.positions[6] = mesh.positions[5]; // four sides lose a corner
         mesh.positions[2] = mesh.positions[1];
-        const HardEdges edges = edges_of(mesh);
+        HardEdges edges = edges_of(mesh);
         for (const std::vector<Vec3f>* normals : {&edges.averaged, &edges.own})
             for (const Vec3f& n : *normals) CHECK((std::abs(glm::length(n) - 1) < 1e-5f || n == Vec3f(0)));
+        // Both sides of a folded sheet: the mean is nothing, and each side keeps its own.
+        edges = edges_of(polygons({{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}, {0.5f, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}));
+        CHECK(edges.ends.size() == 3);
+        for (std::uint32_t c = 0; c < 6; ++c) CHECK((edges.averaged[c] == Vec3f(0, 0, c < 3 ? 1 : -1)));
     }
 
 } // TEST_SUITE
