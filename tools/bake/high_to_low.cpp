@@ -66,8 +66,9 @@ Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const Hi
     if (!args.high.extrude) return Casting(low, args.high.cast, measured_reach(low, high, faces));
     const double whole = diagonal(bounds(*low.mesh)), front = args.high.extrude->in_units(whole);
     const double length = args.high.max_distance ? args.high.max_distance->in_units(whole) : 2 * front;
-    const auto out = float(front), in = float(std::max(0.0, length - front));
-    return Casting(low, args.high.cast, constant_reach(low, {out, in, blend_width(out, in)}));
+    // Below 0 for rays that end before they reach the mesh.
+    const auto out = float(front), in = float(length - front);
+    return Casting(low, args.high.cast, constant_reach(low, {out, in, blend_width(out, std::max(0.0f, in))}));
 }
 
 /// The meshes and what is computed once for all tiles.

@@ -310,6 +310,45 @@ TEST_SUITE("unit") {
         CHECK(holed.raster(16, 16).covered == 0);
         CHECK(holed.raster(16, 16).hits.at(3, 3).triangle == no_index);
     }
+
+    TEST_CASE("uv_raster: another place in each texel is the centre of the quarter of the texel around it") {
+        const Chart chart = soup(40, 0.2f, 0, 17);
+        const UvRaster quarters = uv_raster(chart.mesh, chart.triangles, 96, 64, {.border = false});
+        std::int64_t covered = 0;
+        for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+            const Vec2d place(0.25 + 0.5 * i, 0.25 + 0.5 * j);
+            const UvRaster raster = uv_raster(chart.mesh, chart.triangles, 48, 32, {place, false});
+            covered += raster.covered;
+            int differ = 0;
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 48; ++x) {
+                    const TexelHit &a = raster.hits.at(x, y), &b = quarters.hits.at(2 * x + i, 2 * y + j);
+                    differ +=
+                        a.triangle != b.triangle || std::abs(a.b1 - b.b1) > 1e-5f || std::abs(a.b2 - b.b2) > 1e-5f;
+                }
+            CHECK(differ == 0);
+        }
+        CHECK(covered == quarters.covered);
+        CHECK(covered > 1000);
+    }
+
+    TEST_CASE(
+        "uv_raster: without a border, texels whose centre lies in no triangle stay empty and the others are the same") {
+        const Chart chart = soup(40, 0.1f, 0, 23);
+        const UvRaster with = chart.raster(48, 32),
+                       without = uv_raster(chart.mesh, chart.triangles, 48, 32, {.border = false});
+        CHECK(with.border > 50);
+        CHECK(without.border == 0);
+        CHECK(without.covered == with.covered);
+        CHECK(without.overlapped == with.overlapped);
+        std::int64_t filled = 0, differ = 0;
+        for (std::size_t k = 0; k < with.hits.size(); ++k) {
+            const TexelHit &a = with.hits.data()[k], &b = without.hits.data()[k];
+            if (b.triangle != no_index) ++filled, differ += a.triangle != b.triangle || a.b1 != b.b1 || a.b2 != b.b2;
+        }
+        CHECK(filled == without.covered);
+        CHECK(differ == 0);
+    }
 }
 
 TEST_SUITE("oracle") {

@@ -14,7 +14,7 @@ namespace bake {
 /// How far from the low-poly mesh detail is searched, in object units.
 struct Reach {
     float front = 0; ///< outside, along the direction of the cast
-    float back = 0;  ///< inside
+    float back = 0;  ///< inside; below 0 for rays that end before the mesh
     float blend = 0; ///< distance from a hard edge over which directions turn to the side's own
 };
 /// The blend for detail that stands out of the surface and goes down into it by so much. Below a hard edge rays converge, and must

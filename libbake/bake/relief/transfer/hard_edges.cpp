@@ -1,6 +1,6 @@
 #include "bake/relief/transfer/hard_edges.h"
 #include "bake/mesh/facet_normal.h"
-#include "bake/mesh/topology.h"
+#include "bake/mesh/side_corners.h"
 #include "bake/mesh/weld.h"
 #include <numbers>
 
@@ -21,15 +21,26 @@ std::vector<Vec3d> face_normals(const Mesh& mesh, const std::vector<Triangle>& t
     return normals;
 }
 
+/// Corners of a face that are one vertex, as at the pole of a sphere, belong to one fan.
+void join_repeated(const Mesh& mesh, const std::vector<std::uint32_t>& vertex, DisjointSets& fans) {
+    for (std::size_t f = 0; f < mesh.faces(); ++f)
+        for (std::uint32_t first = mesh.face_begin[f], end = mesh.face_begin[f + 1], c = first; c < end; ++c) {
+            const std::uint32_t next = c + 1 < end ? c + 1 : first;
+            if (vertex[mesh.corner_position[c]] == vertex[mesh.corner_position[next]]) fans.join(c, next);
+        }
+}
+
 } // namespace
 
 HardEdges hard_edges(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const Vec3f> normals) {
     const std::vector<std::uint32_t> vertex = first_equal(mesh.positions);
     const HalfEdges half_edges = make_half_edges(mesh, vertex);
     const EdgeTable edges = make_edges(half_edges);
+    const auto ends = side_corners(mesh, vertex, half_edges);
     const std::vector<Vec3d> facets = face_normals(mesh, triangles);
     HardEdges out;
     DisjointSets fans(mesh.corners());
+    join_repeated(mesh, vertex, fans);
     std::vector<std::uint8_t> touched(mesh.positions.size());
     for (std::uint32_t e = 0; e < edges.edges(); ++e) {
         const auto sides = edges.of(e);
@@ -37,13 +48,13 @@ HardEdges hard_edges(const Mesh& mesh, const std::vector<Triangle>& triangles, s
         const std::uint32_t h = sides[0], m = sides[1];
         const bool opposite = half_edges.origin[h] != half_edges.origin[m];
         // The corners of both faces at the edge's two ends.
-        const std::uint32_t h_far = half_edges.next(h), m_near = opposite ? half_edges.next(m) : m,
-                            m_far = opposite ? m : half_edges.next(m);
+        const auto [h_near, h_far] = ends[h];
+        const std::uint32_t m_near = ends[m][opposite], m_far = ends[m][!opposite];
         const double bend = glm::dot(facets[half_edges.face[h]], facets[half_edges.face[m]]);
-        const bool hard = glm::dot(normals[h], normals[m_near]) < same_normal ||
+        const bool hard = glm::dot(normals[h_near], normals[m_near]) < same_normal ||
                           glm::dot(normals[h_far], normals[m_far]) < same_normal || bend < sharp_facets;
         if (!hard) {
-            fans.join(h, m_near), fans.join(h_far, m_far);
+            fans.join(h_near, m_near), fans.join(h_far, m_far);
             continue;
         }
         out.ends.push_back({half_edges.origin[h], half_edges.target(h)});

@@ -1,5 +1,5 @@
 #include "bake/relief/transfer/seams.h"
-#include "bake/mesh/topology.h"
+#include "bake/mesh/side_corners.h"
 #include "bake/mesh/weld.h"
 #include "bake/relief/map/normal_code.h"
 #include "bake/surface/chart/uv_tiles.h"
@@ -73,8 +73,10 @@ Vec3f shaded_normal(const BakeTarget& target, const Image<float>& map, const Tex
 SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>& map, Space space, bool directx,
                                    int tile) {
     const Mesh& mesh = *target.surface.mesh;
-    const HalfEdges half_edges = make_half_edges(mesh, first_equal(mesh.positions));
+    const std::vector<std::uint32_t> vertex = first_equal(mesh.positions);
+    const HalfEdges half_edges = make_half_edges(mesh, vertex);
     const EdgeTable edges = make_edges(half_edges);
+    const auto ends = side_corners(mesh, vertex, half_edges);
     std::vector<std::vector<std::uint32_t>> of_face(mesh.faces());
     for (std::uint32_t t = 0; t < target.surface.triangles.size(); ++t)
         of_face[target.surface.triangles[t].face].push_back(t);
@@ -88,8 +90,8 @@ SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>&
         if (!in_tile(mesh, half_edges.face[sides[0]], tile) || !in_tile(mesh, half_edges.face[sides[1]], tile))
             continue;
         // Both from the same end on.
-        std::uint32_t end[2][2] = {{sides[0], half_edges.next(sides[0])}, {sides[1], half_edges.next(sides[1])}};
-        if (half_edges.origin[end[0][0]] != half_edges.origin[end[1][0]]) std::swap(end[1][0], end[1][1]);
+        std::array<std::uint32_t, 2> end[2] = {ends[sides[0]], ends[sides[1]]};
+        if (half_edges.origin[sides[0]] != half_edges.origin[sides[1]]) std::swap(end[1][0], end[1][1]);
         if (!has_uv(end[0][0]) || !has_uv(end[0][1]) || !has_uv(end[1][0]) || !has_uv(end[1][1])) continue;
         bool seam = false;
         for (int k = 0; k < 2; ++k)

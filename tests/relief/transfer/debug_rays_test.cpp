@@ -1,0 +1,74 @@
+#include "bake/relief/transfer/debug_rays.h"
+#include "relief/transfer/transfer_meshes.h"
+
+using namespace bake;
+using namespace bake::test;
+
+namespace {
+
+Mesh half_plane() {
+    Mesh mesh;
+    add_patch(mesh, 1, 1, [](double s, double t) { return PatchPoint{{0.5 * s, t, 0.02}, {0, 0, 1}, {}}; });
+    return mesh;
+}
+
+std::size_t faces_of(const Mesh& mesh, std::uint32_t material) {
+    return std::size_t(std::count(mesh.face_material.begin(), mesh.face_material.end(), material));
+}
+
+} // namespace
+
+TEST_SUITE("unit") {
+
+    TEST_CASE("debug_rays: the envelope's triangles, needles of four triangles, and the witnesses that are misses") {
+        const Job job(unit_plane(), {half_plane()}, job_options(32, 32));
+        std::vector<Witness> witnesses = missed_texels(job.target, job.high, job.casting, job.result, 5);
+        REQUIRE(witnesses.size() == 5);
+        witnesses.push_back(farthest_texels(job.target, job.casting, job.result, 1).at(0)); // no miss
+        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, witnesses, 64);
+        check_sound(polygons(mesh.positions, {}));
+        REQUIRE((mesh.materials == std::vector<std::string>{"cage", "rays", "misses"}));
+        REQUIRE(mesh.face_material.size() == mesh.faces());
+        CHECK(faces_of(mesh, 0) == 2);
+        CHECK(faces_of(mesh, 1) == 4 * 64 / 2); // of half of the map's 8 x 8 chosen texels
+        CHECK(faces_of(mesh, 2) == 4 * 5);
+        // Corners of the envelope lie where rays start; needles of hits end on the high-poly mesh.
+        for (std::uint32_t f = 0; f < 2; ++f)
+            for (int k = 0; k < 3; ++k)
+                CHECK((mesh.positions[mesh.corner_position[mesh.face_begin[f] + std::size_t(k)]].z ==
+                       job.casting.most_front()));
+        for (std::size_t f = 2; f < mesh.faces(); ++f) {
+            if (mesh.face_material[f] != 1 || f % 4 == 2) continue; // the first of a needle's four is its base
+            CHECK(mesh.positions[mesh.corner_position[mesh.face_begin[f] + 2]].z ==
+                  doctest::Approx(0.02).epsilon(1e-4));
+        }
+    }
+
+    TEST_CASE("debug_rays: needles are closed and point outward, misses end where their rays do") {
+        const Job job(unit_plane(), {half_plane()}, job_options(32, 32));
+        const std::vector<Witness> witnesses = missed_texels(job.target, job.high, job.casting, job.result, 1);
+        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, witnesses, 1);
+        const std::size_t last = mesh.faces() - 1;
+        const Vec3f tip = mesh.positions[mesh.corner_position[mesh.face_begin[last] + 2]];
+        const Cast& cast = witnesses[0].cast;
+        CHECK(glm::length(tip - (cast.start + (cast.reach.front + cast.reach.back) * cast.inward)) < 1e-6f);
+        double volume = 0; // of the tetrahedron, by its four triangles
+        for (std::size_t f = last - 3; f <= last; ++f) {
+            const auto at = [&](std::size_t k) {
+                return Vec3d(mesh.positions[mesh.corner_position[mesh.face_begin[f] + k]]) - Vec3d(tip);
+            };
+            volume += glm::dot(at(0), glm::cross(at(1), at(2))) / 6;
+        }
+        CHECK(volume > 0);
+    }
+
+    TEST_CASE("debug_rays: lies where the low-poly mesh is, far from zero too") {
+        Mesh low = unit_plane(), high = half_plane();
+        low.origin = high.origin = {1e6, 2e6, 0};
+        const Job job(low, {high}, job_options(8, 8));
+        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, {}, 10);
+        CHECK((mesh.origin == low.origin));
+        CHECK(bounds(mesh).max.x < 2);
+    }
+
+} // TEST_SUITE

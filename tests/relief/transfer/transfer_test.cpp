@@ -1,0 +1,355 @@
+#include "bake/base/parallel.h"
+#include "bake/relief/transfer/seams.h"
+#include "bake/relief/transfer/transfer.h"
+#include "relief/transfer/transfer_meshes.h"
+
+using namespace bake;
+using namespace bake::test;
+
+namespace {
+
+Vec3d flat(0, 0, 1);
+
+double worst_angle(const Job& job, const Vec3d& exact) {
+    double worst = 0;
+    for (int y = 0; y < job.result.map.height(); ++y)
+        for (int x = 0; x < job.result.map.width(); ++x)
+            worst = std::max(worst, oracle::angle_deg(job.normal(x, y), exact));
+    return worst;
+}
+
+constexpr double flattened = 0.7;
+
+/// The sphere flattened along z, with its normals.
+Mesh ellipsoid(int columns, double radius) {
+    Mesh mesh = lat_long_sphere(columns, columns / 2, radius);
+    for (Vec3f& p : mesh.positions) p.z *= float(flattened);
+    for (Vec3f& n : mesh.normals) n = glm::normalize(Vec3f(n.x, n.y, n.z / float(flattened)));
+    return mesh;
+}
+
+/// Where the ray of a texel meets the ellipsoid of radius 1: the normal there, by the sphere that it is a picture of.
+Vec3d on_ellipsoid(const Cast& cast) {
+    const Vec3d scale(1, 1, 1 / flattened), o = scale * Vec3d(cast.start), d = scale * Vec3d(cast.inward);
+    const double a = glm::dot(d, d), half = glm::dot(o, d), c = glm::dot(o, o) - 1;
+    const double t = (-half - std::sqrt(half * half - a * c)) / a;
+    return glm::normalize(scale * (o + t * d));
+}
+
+/// Angles between the normals of a fine ellipsoid on a coarse one and the exact ones.
+oracle::Spread ellipsoid_error(int columns, Space space) {
+    // A size without a common factor with the facets, so that texels lie anywhere in them.
+    JobOptions options = job_options(67, 35);
+    options.transfer.space = space;
+    const Job job(ellipsoid(24, 0.99), {ellipsoid(columns, 1)}, options);
+    REQUIRE(job.report().missed == 0);
+    std::vector<double> angles;
+    for (int y = 2; y < 33; ++y)
+        for (int x = 0; x < 67; ++x) {
+            const Vec3d ours = space == Space::object
+                                   ? job.normal(x, y)
+                                   : Vec3d(shaded_normal(job.target, job.result.map, job.at(x, y), space, false));
+            angles.push_back(oracle::angle_deg(ours, on_ellipsoid(job.casting.at(job.at(x, y)))));
+        }
+    return oracle::spread(angles);
+}
+
+/// The plane wave A sin(k x) with normals of its own in columns of a fine grid.
+constexpr double wave_height = 0.002, wave = 2 * oracle::pi * 2;
+Vec3d wave_normal(double x) { return glm::normalize(Vec3d(-wave_height * wave * std::cos(wave * x), 0, 1)); }
+Mesh waves_along_x() {
+    Mesh mesh;
+    add_patch(mesh, 8192, 1, [](double s, double t) {
+        const double x = 1.2 * s - 0.1;
+        return PatchPoint{{x, 1.2 * t - 0.1, wave_height * std::sin(wave * x)}, wave_normal(x), {}};
+    });
+    return mesh;
+}
+
+/// Of rays x rays per texel against the mean of the exact normals over a texel, 8 texels wide.
+double average_error(int rays) {
+    JobOptions options = job_options(8, 2);
+    options.transfer.rays = rays, options.transfer.padding = 0;
+    options.reach = Reach{0.1f, 0.1f, 0};
+    const Job job(unit_plane(), {waves_along_x()}, options);
+    double worst = 0;
+    for (int x = 0; x < 8; ++x) {
+        Vec3d mean(0);
+        for (int i = 0; i < 4000; ++i) mean += wave_normal((x + (i + 0.5) / 4000) / 8);
+        worst = std::max(worst, glm::length(job.normal(x, 1) - glm::normalize(mean)));
+    }
+    return worst;
+}
+
+/// The largest distance of a bolt's top in the map to where it belongs, in texels: where the normals around it, which lean in
+/// proportion to their distance from it, are level.
+double worst_bolt(CastBy by) {
+    constexpr int width = 768, height = 512, around = 4; // of a bolt with a radius of 12.3 texels
+    JobOptions options = job_options(width, height);
+    options.cast = by;
+    const Job job(sharp_box(), {rounded_box(80, 0.08, true)}, options);
+    double worst = 0;
+    for (int side = 0; side < 6; ++side)
+        for (const double u : bolt_places)
+            for (const double v : bolt_places) {
+                const BoxSide box{side};
+                const Vec2d uv = box.uv((1 + u) / 2, (1 + box.sign() * v) / 2);
+                const Vec2d centre(uv.x * width - 0.5, (1 - uv.y) * height - 0.5);
+                Vec2d at(0), lean(0), product(0), square(0);
+                constexpr double count = (2 * around + 1) * (2 * around + 1);
+                for (int j = -around; j <= around; ++j)
+                    for (int i = -around; i <= around; ++i) {
+                        const int x = int(std::round(centre.x)) + i, y = int(std::round(centre.y)) + j;
+                        const Vec2d d = Vec2d(x, y) - centre, t(job.normal(x, y));
+                        at += d / count, lean += t / count, product += d * t / count, square += d * d / count;
+                    }
+                // The line through the leans along each axis, and where it is 0.
+                const Vec2d slope = (product - at * lean) / (square - at * at);
+                worst = std::max(worst, glm::length(at - lean / slope));
+            }
+    return worst;
+}
+
+} // namespace
+
+TEST_SUITE("unit") {
+
+    TEST_CASE("transfer: a mesh on itself gives the flat map") {
+        for (const int rays : {1, 3}) {
+            JobOptions options = job_options(64, 32);
+            options.transfer.rays = rays;
+            const Job job(oracle::torus_mesh(24, 12), {oracle::torus_mesh(24, 12)}, options);
+            CHECK(job.report().missed == 0);
+            CHECK(job.report().hit == 64 * 32);
+            double worst = 0;
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 64; ++x) worst = std::max(worst, glm::length(job.normal(x, y) - flat));
+            CHECK(worst < 2e-6); // of vectors: 1e-6 of colours
+        }
+    }
+
+    TEST_CASE("transfer: a mesh moved and turned with its detail has the same map") {
+        const auto moved = [](Mesh mesh) {
+            for (Vec3f& p : mesh.positions) p = Vec3f(-p.y, p.z, -p.x) + Vec3f(3, -2, 1);
+            for (Vec3f& n : mesh.normals) n = Vec3f(-n.y, n.z, -n.x);
+            return mesh;
+        };
+        const Mesh low = lat_long_sphere(24, 12, 0.98), high = lat_long_sphere(40, 20);
+        const Job here(low, {high}, job_options(32, 16)), there(moved(low), {moved(high)}, job_options(32, 16));
+        for (int y = 1; y < 15; ++y)
+            for (int x = 0; x < 32; ++x) CHECK(glm::length(here.normal(x, y) - there.normal(x, y)) < 1e-4);
+    }
+
+    TEST_CASE("transfer: green is turned round by directx") {
+        Mesh high = unit_plane(0.001);
+        for (Vec3f& n : high.normals) n = glm::normalize(Vec3f(0.2f, 0.3f, 1));
+        JobOptions options = job_options(4, 4);
+        const Job up(unit_plane(), {high}, options);
+        options.transfer.directx = true;
+        const Job down(unit_plane(), {high}, options);
+        const Vec3d a = up.normal(2, 2), b = down.normal(2, 2);
+        CHECK(oracle::angle_deg(a, {0.2, 0.3, 1}) < 1e-3);
+        CHECK(oracle::angle_deg(b, {0.2, -0.3, 1}) < 1e-3);
+    }
+
+    TEST_CASE("transfer: a bolt that floats above a surface is seen, of two surfaces the outer one") {
+        Mesh lid; // over the left half, tilted normals
+        add_patch(lid, 1, 1, [](double s, double t) {
+            return PatchPoint{{0.5 * s, t, 0.04}, glm::normalize(Vec3d(1, 0, 2)), {}};
+        });
+        const Job job(unit_plane(), {unit_plane(), lid}, job_options(16, 16));
+        CHECK(oracle::angle_deg(job.normal(3, 8), Vec3d(1, 0, 2)) < 0.01);
+        CHECK(oracle::angle_deg(job.normal(12, 8), flat) < 0.01);
+    }
+
+    TEST_CASE(
+        "transfer: backs are passed through and told; a mesh turned over is behind everywhere, and the map flat") {
+        const Job back(unit_plane(), {turned_over(unit_plane(0.001))}, job_options(16, 16));
+        CHECK(back.report().behind == 256);
+        CHECK(back.report().missed == 256);
+        CHECK(back.report().hit == 0);
+        CHECK(back.report().empty == 256);
+        CHECK(back.result.states.at(3, 3) == TexelState::behind);
+        CHECK(worst_angle(back, flat) == 0);
+        const Job both(unit_plane(), {turned_over(unit_plane(0.002)), unit_plane(0.001)}, job_options(16, 16));
+        CHECK(both.report().hit == 256);
+        const Job none(unit_plane(), {unit_plane(40)}, job_options(16, 16));
+        CHECK(none.report().missed == 256);
+        CHECK(none.report().behind == 0);
+        CHECK(none.result.states.at(3, 3) == TexelState::missed);
+        CHECK(none.report().nearest == 0);
+        CHECK(none.report().farthest == 0);
+    }
+
+    TEST_CASE("transfer: the second try goes twice as far out and three times as far in, unless it is not wanted") {
+        const auto job = [](double z, bool wider) {
+            JobOptions options = job_options(4, 4);
+            options.reach = Reach{0.1f, 0.1f, 0};
+            options.transfer.try_wider = wider;
+            return Job(unit_plane(), {unit_plane(z)}, options).report();
+        };
+        for (const double z : {0.09, -0.09}) CHECK((job(z, false).hit == 16 && job(z, true).wider == 0));
+        for (const double z : {0.19, -0.29}) {
+            CHECK(job(z, false).missed == 16);
+            CHECK(job(z, false).rays == 16);
+            const TransferReport wider = job(z, true);
+            CHECK(wider.hit == 16);
+            CHECK(wider.wider == 16);
+            CHECK(wider.rays == 32);
+        }
+        for (const double z : {0.21, -0.31}) CHECK(job(z, true).missed == 16);
+    }
+
+    TEST_CASE("transfer: ray lengths are counted from the envelope to the end") {
+        JobOptions options = job_options(4, 4);
+        options.reach = Reach{0.1f, 0.06f, 0};
+        options.transfer.try_wider = false;
+        for (const auto& [z, slot] : {std::pair(0.099, 0), {0.0, 10}, {-0.055, 15}, {0.045, 5}}) {
+            const TransferReport report = Job(unit_plane(), {unit_plane(z)}, options).report();
+            CHECK(report.lengths[std::size_t(slot)] == 16);
+        }
+    }
+
+    TEST_CASE("transfer: a missed texel has the value of the nearest one that is not, as far as the padding goes") {
+        Mesh half; // to x < 1/2, with a tilt of its own
+        const Vec3d tilt = glm::normalize(Vec3d(0.3, 0.1, 1));
+        add_patch(half, 1, 1, [&](double s, double t) { return PatchPoint{{0.5 * s, t, 0.001}, tilt, {}}; });
+        JobOptions options = job_options(32, 8);
+        options.transfer.padding = 5;
+        const Job job(unit_plane(), {half}, options);
+        CHECK(job.report().hit == 16 * 8);
+        CHECK(job.report().missed == 16 * 8);
+        CHECK(job.report().padded == 5 * 8);
+        CHECK(job.report().empty == 11 * 8);
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 32; ++x) {
+                CAPTURE(x);
+                CHECK(oracle::angle_deg(job.normal(x, y), x < 21 ? tilt : flat) < 0.01);
+            }
+    }
+
+    TEST_CASE("transfer: a normal that points into the mesh is counted") {
+        Mesh high = unit_plane(0.001);
+        for (Vec3f& n : high.normals) n = glm::normalize(Vec3f(1, 0, -0.1f));
+        const Job job(unit_plane(), {high}, job_options(4, 4));
+        CHECK(job.report().outward == 16);
+        JobOptions object = job_options(4, 4);
+        object.transfer.space = Space::object;
+        CHECK(Job(unit_plane(), {high}, object).report().outward == 0);
+    }
+
+    TEST_CASE("transfer: many rays count the texels of charts once, each with the part of it that lies in them") {
+        // A chart that covers 6.5 x 6.5 of 10 x 10 texels over a plane whose detail leans.
+        Mesh low = unit_plane(), high = unit_plane(0.001);
+        for (Vec2f& uv : low.uvs) uv = Vec2f(0.15f) + 0.65f * uv;
+        const Vec3d tilt = glm::normalize(Vec3d(0.2, 0.3, 1));
+        for (Vec3f& n : high.normals) n = Vec3f(tilt);
+        for (const int rays : {1, 2, 5}) {
+            JobOptions options = job_options(10, 10, {DetailMap::height});
+            options.transfer.rays = rays, options.transfer.padding = 0;
+            const Job job(low, {high}, options);
+            CHECK(job.report().hit == 49);
+            CHECK(job.report().missed == 0);
+            for (int y = 0; y < 10; ++y)
+                for (int x = 0; x < 10; ++x) {
+                    const bool inside = job.result.states.at(x, y) == TexelState::hit;
+                    CHECK(oracle::angle_deg(job.normal(x, y), inside ? tilt : flat) < 0.01);
+                    CHECK(job.result.details[0].at(x, y) == doctest::Approx(inside ? 0.001 : 0).epsilon(1e-3));
+                }
+        }
+    }
+
+} // TEST_SUITE
+
+TEST_SUITE("oracle") {
+
+    TEST_CASE("transfer: a finer sphere on a coarse one has the exact normals, whatever its facets") {
+        // Rays, positions and normals are radial, so that facets do not matter.
+        const Job job(lat_long_sphere(24, 12, 0.99), {lat_long_sphere(32, 16)}, job_options(64, 32));
+        REQUIRE(job.report().missed == 0);
+        for (int y = 2; y < 30; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const Vec3d ours(shaded_normal(job.target, job.result.map, job.at(x, y), Space::tangent, false));
+                CHECK(oracle::angle_deg(ours, Vec3d(job.casting.at(job.at(x, y)).start)) < 1e-4);
+            }
+    }
+
+    TEST_CASE("transfer: the normals of a finer ellipsoid, with an error of the second order in its edges") {
+        for (const Space space : {Space::object, Space::tangent}) {
+            const oracle::Spread coarse = ellipsoid_error(30, space), fine = ellipsoid_error(60, space),
+                                 finest = ellipsoid_error(120, space);
+            CHECK(coarse.max < 1);
+            CHECK(coarse.mean / fine.mean == doctest::Approx(4).epsilon(0.15));
+            CHECK(fine.mean / finest.mean == doctest::Approx(4).epsilon(0.15));
+        }
+    }
+
+    TEST_CASE("transfer: k x k rays average a texel as Gauss and Legendre promise, exact to the degree 2 k - 1") {
+        const double one = average_error(1), two = average_error(2), three = average_error(3);
+        // Of the mean of a cosine whose phase turns by pi / 2 over the texel, times the slope 2 k A = .025:
+        // .11, .0014 and 9e-6 of it. Float normals and 1.5e-4 wide columns leave 1e-7.
+        CHECK(one == doctest::Approx(0.11 * wave_height * wave).epsilon(0.1));
+        CHECK(one / two > 50);
+        CHECK(two / three > 50);
+        CHECK(average_error(6) < 5e-7);
+    }
+
+    TEST_CASE(
+        "transfer: the bolts on a box stay where they are, which they do not if directions are averaged all over") {
+        CHECK(worst_bolt(CastBy::blend) < 0.5);
+        CHECK(worst_bolt(CastBy::averaged) > 0.5);
+    }
+
+} // TEST_SUITE
+
+TEST_SUITE("stability") {
+
+    TEST_CASE("transfer: the number of threads does not change a bit of any map or count") {
+        const auto run = [](int threads, int rays) {
+            const ThreadLimit limit(threads);
+            JobOptions options = job_options(90, 62, {std::begin(all_detail_maps), std::end(all_detail_maps)});
+            options.transfer.details.sky_rays = 16, options.transfer.rays = rays;
+            return std::make_unique<Job>(sharp_box(), std::vector<Mesh>{rounded_box(24, 0.08, true)}, options);
+        };
+        for (const int rays : {1, 2}) {
+            const auto one = run(1, rays);
+            for (const int threads : {2, 7}) {
+                const auto other = run(threads, rays);
+                CHECK(same_bytes(one->result.map, other->result.map));
+                CHECK(same_bytes(one->result.states, other->result.states));
+                for (std::size_t m = 0; m < one->result.details.size(); ++m) {
+                    CAPTURE(std::string(name(all_detail_maps[m])));
+                    CHECK(same_bytes(one->result.details[m], other->result.details[m]));
+                }
+                CHECK(one->report().rays == other->report().rays);
+                CHECK((one->report().lengths == other->report().lengths));
+                CHECK(one->report().parallax_mean == other->report().parallax_mean);
+                CHECK(one->report().farthest == other->report().farthest);
+                CHECK(one->result.far.size() == other->result.far.size());
+            }
+        }
+    }
+
+    TEST_CASE("transfer: maps of one texel, one triangle, and triangles without area in space or in uv") {
+        const Mesh triangle = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0}, {1, 0}, {0, 1}});
+        for (const auto& [width, height] : {std::pair(1, 1), {1, 9}, {9, 1}, {5, 7}})
+            for (const int rays : {1, 2, 16}) {
+                JobOptions options = job_options(width, height, {DetailMap::height});
+                options.transfer.rays = rays;
+                const Job job(triangle, {triangle}, options);
+                CHECK(job.report().missed == 0);
+                CHECK(job.report().hit >= 1);
+                CHECK(worst_angle(job, flat) < 1e-3);
+            }
+        Mesh low = unit_plane(0, 4), high = unit_plane(0.001, 4);
+        low.positions[7] = low.positions[6] = high.positions[8] = low.positions[8]; // in space
+        low.uvs[12] = low.uvs[13] = low.uvs[18];                                    // in uv
+        const Job job(low, {high}, job_options(33, 17));
+        for (std::size_t i = 0; i < job.result.map.size(); ++i) REQUIRE(std::isfinite(job.result.map.data()[i]));
+        std::int64_t outside = 0;
+        for (std::size_t i = 0; i < job.result.states.size(); ++i)
+            outside += job.result.states.data()[i] == TexelState::outside;
+        CHECK(job.report().hit + job.report().missed + outside == 33 * 17);
+    }
+
+} // TEST_SUITE
