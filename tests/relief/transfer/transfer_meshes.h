@@ -154,6 +154,7 @@ struct Job {
     Job& operator=(const Job&) = delete;
 
     const TransferReport& report() const { return result.report; }
+    TransferSources sources() const { return {{{&high, &casting}}, {}}; }
     const TexelHit& at(int x, int y) const { return target.raster.hits.at(x, y); }
     /// The value of a texel, decoded.
     Vec3d normal(int x, int y) const {
