@@ -49,10 +49,6 @@ double rays_of(const TransferOptions& options) {
     return casts * (sky ? 1 + options.details.sky_rays : 1);
 }
 
-bool needs_both_sides(const HighArgs& args) {
-    return std::find(args.maps.begin(), args.maps.end(), DetailMap::thickness) != args.maps.end();
-}
-
 std::vector<HighMesh> read_high(const NormalMapArgs& args) {
     std::vector<HighMesh> out;
     for (const std::string& path : args.high.paths) out.push_back({read_mesh(path), path});
@@ -103,8 +99,8 @@ public:
 
 private:
     void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
-        highs_.push_back(std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals,
-                                                       rays_of(options_), needs_both_sides(args_.high)));
+        highs_.push_back(
+            std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals, rays_of(options_)));
         castings_.push_back(std::make_unique<Casting>(make_casting(args_, surface_, *highs_.back(), faces)));
         sources_.sources.push_back({highs_.back().get(), castings_.back().get()});
     }

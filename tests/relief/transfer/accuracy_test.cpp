@@ -56,7 +56,7 @@ bake::Transfer baked(const Mesh& low, std::vector<Mesh> meshes, int size, int ra
     const bake::BakeTarget target = bake::make_bake_target(low, "low", size, size);
     std::vector<bake::HighMesh> named;
     for (Mesh& mesh : meshes) named.push_back({std::move(mesh), "high"});
-    const bake::HighSurface high(std::move(named), low.origin, bake::HighNormals::smooth, double(size) * size, true);
+    const bake::HighSurface high(std::move(named), low.origin, bake::HighNormals::smooth, double(size) * size);
     const bake::Casting casting(target.surface, bake::CastBy::blend,
                                 bake::constant_reach(target.surface, {reach, reach}));
     bake::TransferOptions options;

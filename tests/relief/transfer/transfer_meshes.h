@@ -145,7 +145,7 @@ struct Job {
     Job(Mesh low_mesh, std::vector<Mesh> high_meshes, JobOptions with)
         : options(std::move(with)), low(std::move(low_mesh)),
           target(make_bake_target(low, "low", options.transfer.width, options.transfer.height)),
-          high(named(std::move(high_meshes)), low.origin, options.normals, 1e4, true),
+          high(named(std::move(high_meshes)), low.origin, options.normals, 1e4),
           casting(target.surface, options.cast,
                   options.reach ? constant_reach(target.surface, *options.reach)
                                 : measured_reach(target.surface, high)),

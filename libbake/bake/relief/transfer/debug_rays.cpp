@@ -54,7 +54,7 @@ void draw_cage(const BakeTarget& target, const TransferSources& sources, Drawing
 void draw_cast(const Cast& cast, const HighSurface& high, Part part, Drawing& to) {
     Ray ray{cast.start, cast.inward};
     ray.t_max = cast.reach.front + cast.reach.back;
-    const Hit hit = high.bvh().intersect(ray);
+    const Hit hit = high.land(ray);
     to.needle(cast.start, cast.start + (hit ? hit.t : ray.t_max) * cast.inward, part);
 }
 

@@ -22,6 +22,7 @@ struct Packet {
     std::array<Cast, packet_size> cast;
     std::array<Ray, packet_size> rays;
     std::array<Hit, packet_size> hits;
+    std::array<float, packet_size> start; ///< of the ray, above the low-poly mesh
     PacketMask used = 0;
     int count = 0;
     const TransferSource* source = nullptr; ///< of all of them
@@ -129,7 +130,7 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
 void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts) {
     const int columns = std::min(block, options_.width - x), all = rows * columns;
     PacketMask done = 0;
-    for (int first = 0; first < all; ++first) {
+    for (int first = 0; first < all && done != (PacketMask(1) << all) - 1; ++first) {
         Packet packet;
         for (int i = first; i < all; ++i) {
             const int at_x = x + i % columns, at_y = y + i / columns;
@@ -150,6 +151,7 @@ void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weig
             packet.at[lane] = at, packet.x[lane] = at_x, packet.y[lane] = at_y;
             packet.cast[lane] = source->casting->at(at);
             packet.rays[lane] = ray_of(packet.cast[lane], 1, 1);
+            packet.start[lane] = packet.cast[lane].reach.front;
         }
         if (packet.count == 0) break;
         packet.used = (PacketMask(1) << packet.count) - 1;
@@ -159,8 +161,8 @@ void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weig
 }
 
 void Bake::trace(Packet& packet, Counts& counts) const noexcept {
-    const Bvh& bvh = packet.source->high->bvh();
-    bvh.intersect(packet.rays, packet.used, packet.hits);
+    const HighSurface& high = *packet.source->high;
+    high.land(packet.rays, packet.used, packet.hits);
     counts.rays += packet.count;
     if (!options_.try_wider) return;
     PacketMask missed = 0;
@@ -168,10 +170,11 @@ void Bake::trace(Packet& packet, Counts& counts) const noexcept {
         if (packet.hits[lane]) continue;
         missed |= PacketMask(1) << lane;
         packet.rays[lane] = ray_of(packet.cast[lane], wider_front, wider_back);
+        packet.start[lane] *= wider_front;
     }
     if (missed == 0) return;
     std::array<Hit, packet_size> found;
-    bvh.intersect(packet.rays, missed, found);
+    high.land(packet.rays, missed, found);
     for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
         if (!(missed >> lane & 1)) continue;
         ++counts.rays;
@@ -200,7 +203,7 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
     }
     t = beyond_border(*packet.source, at, packet.x[i], packet.y[i], t, counts);
     const Cast& cast = packet.cast[i];
-    const double height = double(height_of(cast, high.position(hit)));
+    const double height = double(packet.start[i] - hit.t);
     counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
                packet.y[i]);
     const bool first = state != TexelState::hit;
@@ -234,7 +237,7 @@ Vec3f Bake::beyond_border(const TransferSource& source, const TexelHit& edge, in
     constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
     const auto inside = mirrored_at_border(target_, edge, x, y, options_.width, options_.height);
     if (!inside) return at_edge;
-    const Hit hit = source.high->bvh().intersect(ray_of(source.casting->at(*inside), 1, 1));
+    const Hit hit = source.high->land(ray_of(source.casting->at(*inside), 1, 1));
     ++counts.rays;
     if (!hit) return at_edge;
     const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(source.high->normal(hit));
