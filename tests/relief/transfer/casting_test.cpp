@@ -202,6 +202,8 @@ TEST_SUITE("stability") {
                 for (int c = 0; c < 3; ++c) CHECK((std::isfinite(cast.start[c]) && std::isfinite(cast.inward[c])));
             CHECK((b.inward == Vec3f(0)));
             zero += a.inward == Vec3f(0);
+            for (const std::uint32_t corner : surface.triangles[t].corner)
+                CHECK(glm::length(face.envelope(corner)) < 2);
         }
         CHECK(zero <= 1);
     }
