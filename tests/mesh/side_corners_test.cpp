@@ -33,6 +33,7 @@ TEST_SUITE("unit") {
         CHECK((of({{1, 0, 4, 2}, triangle}) == with({{0, 1}, {2, 3}, {3, 0}})));
         CHECK((of({{0, 1, 2, 4}, triangle}) == with({{0, 1}, {1, 2}, {2, 3}})));
         CHECK((of({{0, 4, 0, 1}, triangle}) == after)); // two vertices
+        CHECK(of({{0, 4, 0, 1}}).empty());
     }
 
 } // TEST_SUITE

@@ -120,6 +120,16 @@ TEST_SUITE("unit") {
         }
     }
 
+    TEST_CASE("casting: by face, every direction is the facet's, however the mesh is shaded") {
+        const Mesh mesh = lat_long_sphere(12, 6);
+        const MeshSurface surface = make_mesh_surface(mesh);
+        const Casting casting(surface, CastBy::face, constant_reach(surface, reach));
+        const auto& corner = surface.triangles[40].corner;
+        const auto p = [&](std::size_t k) { return Vec3d(mesh.positions[mesh.corner_position[corner[k]]]); };
+        for (const TexelHit& at : {TexelHit{40, 0.1f, 0.1f}, {40, 0.5f, 0.4f}})
+            CHECK(oracle::angle_deg(-Vec3d(casting.at(at).inward), glm::cross(p(1) - p(0), p(2) - p(0))) < 1e-3);
+    }
+
     TEST_CASE("casting: the envelope's corners are where the rays of the corners start; the farthest reach is told") {
         const LowBox box;
         std::vector<Reach> reaches = constant_reach(box.surface, reach);
@@ -192,6 +202,8 @@ TEST_SUITE("stability") {
                 for (int c = 0; c < 3; ++c) CHECK((std::isfinite(cast.start[c]) && std::isfinite(cast.inward[c])));
             CHECK((b.inward == Vec3f(0)));
             zero += a.inward == Vec3f(0);
+            for (const std::uint32_t corner : surface.triangles[t].corner)
+                CHECK(glm::length(face.envelope(corner)) < 2);
         }
         CHECK(zero <= 1);
     }

@@ -75,6 +75,20 @@ TEST_SUITE("unit") {
         CHECK(result.report.parallax_mean == doctest::Approx(0.1 / 0.8 * 8 * 0.75).epsilon(1e-4));
     }
 
+    TEST_CASE("thickness: straight inward from where a ray lands, however it came there") {
+        Mesh low = unit_plane(), top = unit_plane(0), bottom = turned_over(unit_plane(-0.2));
+        for (Mesh* mesh : {&top, &bottom})
+            for (Vec3f& p : mesh->positions) p.x = 3 * p.x - 1, p.y = 3 * p.y - 1;
+        const BakeTarget target = make_bake_target(low, "low", 4, 4);
+        Mesh cage = low;
+        for (Vec3f& p : cage.positions) p += Vec3f(0.3f, 0, 0.3f);
+        const Casting casting(target.surface, cage, "cage");
+        const HighSurface surface(named({top, bottom}), Vec3d(0), HighNormals::smooth, 1);
+        const Transfer result =
+            transfer(target, surface, casting, near_options(4, 4, {DetailMap::thickness}).transfer, "low");
+        CHECK(std::abs(double(result.details[0].at(1, 2)) - 0.2) < 1e-5);
+    }
+
     TEST_CASE("position map: where rays land, relative to the origin of the low-poly mesh") {
         Mesh low = lat_long_sphere(24, 12, 0.98), high = lat_long_sphere(96, 48);
         low.origin = high.origin = {1e5, 0, 0};

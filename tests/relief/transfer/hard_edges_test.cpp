@@ -120,9 +120,18 @@ TEST_SUITE("unit") {
         CHECK((edges.averaged[0] == edges.averaged[11]));
     }
 
+    TEST_CASE("hard_edges: normals away from hard edges stay as given") {
+        Mesh mesh = roof(60, true);
+        for (const std::uint32_t c : {0u, 3u, 4u, 7u}) mesh.normals[c] = Vec3f(0, 1, 0);
+        const HardEdges edges = edges_of(mesh);
+        CHECK(edges.ends.size() == 1);
+        for (const std::uint32_t c : {0u, 3u, 4u, 7u})
+            CHECK((edges.averaged[c] == Vec3f(0, 1, 0) && edges.own[c] == Vec3f(0, 1, 0)));
+    }
+
     TEST_CASE("hard_edges: corners of a face that are one vertex have one normal of their own") {
         // A triangle given as a quad, and a vertical face at its edge 0-2.
-        const Mesh mesh = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, -1}}, {{0, 3, 1, 2}, {2, 4, 0}});
+        const Mesh mesh = polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 0, 1, 2}, {2, 3, 0}});
         const HardEdges edges = edges_of(mesh);
         CHECK(edges.ends.size() == 1);
         for (std::uint32_t c = 0; c < 7; ++c)

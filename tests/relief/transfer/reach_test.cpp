@@ -44,7 +44,8 @@ TEST_SUITE("unit") {
         const Mesh low = strip([](double) { return 0; });
         const std::vector<Reach> reach = reach_of(low, {strip([](double x) { return x < 0.5 ? 0.1 : 0.01; })});
         for (std::size_t i = 0; i < reach.size(); ++i) {
-            if (low.positions[i].x < 0.5f) CHECK(reach[i].front > 0.1f);
+            // One face farther than the hill, for what hangs over an edge.
+            if (low.positions[i].x < 0.63f) CHECK(reach[i].front > 0.1f);
             if (low.positions[i].x > 0.8f) CHECK(reach[i].front < 0.02f);
             CHECK(reach[i].front > 0.01f);
         }

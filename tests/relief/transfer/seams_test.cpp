@@ -59,6 +59,18 @@ TEST_SUITE("unit") {
         CHECK(none.max == 0);
     }
 
+    TEST_CASE("seams: normals of two sides make a seam of an edge inside of a chart") {
+        Mesh mesh;
+        for (const int side : {0, 1})
+            add_patch(mesh, 1, 1, [&](double s, double t) {
+                return PatchPoint{{side + s, t, 0}, glm::normalize(Vec3d(side, 0, 1)), {(side + s) / 2, t}};
+            });
+        const BakeTarget target = make_bake_target(mesh, "mesh", 8, 8);
+        const SeamDisagreement seam = seam_disagreement(target, constant(8, 8, {0, 0, 1}), Space::tangent, false);
+        CHECK(seam.seams == 1);
+        CHECK(seam.max == doctest::Approx(45));
+    }
+
     TEST_CASE("seams: the mean, the percentile and the largest of a seam whose sides part linearly") {
         // Two squares side by side with charts of their own; the right one's map turns by x degrees at the height y.
         Mesh mesh;
@@ -112,6 +124,12 @@ TEST_SUITE("unit") {
         CHECK(oracle::angle_deg(shaded({0, 0.6f, 0.8f}, false), 0.6 * b_up + 0.8 * n) < 1e-3);
         CHECK(oracle::angle_deg(shaded({0, 0.6f, 0.8f}, true), -0.6 * b_up + 0.8 * n) < 1e-3);
         CHECK(glm::length(shaded({0.6f, 0, 0.8f}, false)) == doctest::Approx(1));
+        // On a chart that is mirrored in u, green still points along v.
+        Mesh mirrored = unit_plane();
+        for (Vec2f& uv : mirrored.uvs) uv.x = 1 - uv.x;
+        const BakeTarget turned = make_bake_target(mirrored, "mirrored", 8, 8);
+        const Vec3f up = shaded_normal(turned, constant(8, 8, {0, 0.6f, 0.8f}), {0, 0.3f, 0.3f}, Space::tangent, false);
+        CHECK(glm::length(up - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
     }
 
 } // TEST_SUITE

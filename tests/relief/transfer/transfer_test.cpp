@@ -214,7 +214,7 @@ TEST_SUITE("unit") {
         Mesh half; // to x < 1/2, with a tilt of its own
         const Vec3d tilt = glm::normalize(Vec3d(0.3, 0.1, 1));
         add_patch(half, 1, 1, [&](double s, double t) { return PatchPoint{{0.5 * s, t, 0.001}, tilt, {}}; });
-        JobOptions options = job_options(32, 8);
+        JobOptions options = job_options(32, 8, {DetailMap::height});
         options.transfer.padding = 5;
         const Job job(unit_plane(), {half}, options);
         CHECK(job.report().hit == 16 * 8);
@@ -225,6 +225,7 @@ TEST_SUITE("unit") {
             for (int x = 0; x < 32; ++x) {
                 CAPTURE(x);
                 CHECK(oracle::angle_deg(job.normal(x, y), x < 21 ? tilt : flat) < 0.01);
+                CHECK(std::abs(double(job.result.details[0].at(x, y)) - (x < 21 ? 0.001 : 0)) < 1e-6);
             }
     }
 
@@ -254,9 +255,65 @@ TEST_SUITE("unit") {
                 for (int x = 0; x < 10; ++x) {
                     const bool inside = job.result.states.at(x, y) == TexelState::hit;
                     CHECK(oracle::angle_deg(job.normal(x, y), inside ? tilt : flat) < 0.01);
-                    CHECK(job.result.details[0].at(x, y) == doctest::Approx(inside ? 0.001 : 0).epsilon(1e-3));
+                    CHECK(std::abs(double(job.result.details[0].at(x, y)) - (inside ? 0.001 : 0)) < 1e-6);
                 }
         }
+    }
+
+    TEST_CASE("transfer: a texel of which one ray lands is a hit, and has the mean of those that do") {
+        Mesh part; // to x = .6, in the middle of the third of four texels
+        add_patch(part, 1, 1, [](double s, double t) { return PatchPoint{{0.6 * s, t, 0.001}, {0, 0, 1}, {}}; });
+        JobOptions options = job_options(4, 4, {DetailMap::height});
+        options.transfer.rays = 2;
+        const Job job(unit_plane(), {part}, options);
+        CHECK(job.report().hit == 12);
+        CHECK(job.report().missed == 4);
+        CHECK(std::abs(double(job.result.details[0].at(2, 2)) - 0.001) < 1e-6);
+    }
+
+    TEST_CASE("transfer: many rays give the mean of the heights over a texel") {
+        // Of .04 x y the mean is that of the centre; samples along a diagonal would give .04 / 12 / 4 more.
+        Mesh high;
+        add_patch(high, 64, 64, [](double x, double y) { return PatchPoint{{x, y, 0.04 * x * y}, {0, 0, 1}, {}}; });
+        JobOptions options = job_options(2, 2, {DetailMap::height});
+        options.transfer.rays = 3;
+        const Job job(unit_plane(), {high}, options);
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 2; ++x)
+                CHECK(std::abs(double(job.result.details[0].at(x, y)) - 0.04 * (x + 0.5) / 2 * (1.5 - y) / 2) < 1e-5);
+        CHECK(job.report().nearest < 0.001);
+        CHECK(job.report().farthest > 0.03);
+    }
+
+    TEST_CASE("transfer: a border texel continues the chart linearly to its centre, which lies outside") {
+        // The chart ends at 6.2 of 8 texels, .3 before the centre of the seventh.
+        Mesh low = unit_plane();
+        const float begin = 0.7f / 8, size = 5.5f / 8;
+        for (Vec2f& uv : low.uvs) uv = Vec2f(begin + size * uv.x, uv.y);
+        const auto value = [](double x) { return glm::normalize(Vec3d(0.3 * x, 0, 1)); };
+        Mesh high;
+        add_patch(high, 400, 1, [&](double s, double t) {
+            return PatchPoint{{1.2 * s - 0.1, t, 0.001}, value(1.2 * s - 0.1), {}};
+        });
+        const Job job(low, {high}, job_options(8, 8));
+        REQUIRE(job.report().border > 0);
+        const double beyond = (6.5 / 8 - double(begin)) / double(size); // of the centre, in x
+        REQUIRE(beyond > 1.04);
+        CHECK(oracle::angle_deg(job.normal(6, 3), value(beyond)) < 0.05);
+        CHECK(oracle::angle_deg(value(beyond), value(1)) > 0.5);
+    }
+
+    TEST_CASE("transfer: texels whose frame has no volume are counted and flat") {
+        const Mesh low = unit_plane();
+        BakeTarget target = make_bake_target(low, "low", 4, 4);
+        for (Vec4f& tangent : target.tangents) tangent = Vec4f(0, 0, 1, 1);
+        const HighSurface high(named({unit_plane(0.001)}), Vec3d(0), HighNormals::smooth, 1);
+        const Casting casting(target.surface, CastBy::blend, measured_reach(target.surface, high));
+        const Transfer result = transfer(target, high, casting, job_options(4, 4).transfer, "low");
+        CHECK(result.report.degenerate == 16);
+        CHECK(result.report.hit == 0);
+        CHECK(result.states.at(2, 2) == TexelState::outside);
+        CHECK(result.map.at(2, 2, 2) == 1);
     }
 
 } // TEST_SUITE

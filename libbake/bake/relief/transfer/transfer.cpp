@@ -1,8 +1,7 @@
 #include "bake/relief/transfer/transfer.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
-#include "bake/picture/pad_texels.h"
-#include "bake/relief/transfer/chart_ring.h"
+#include "bake/relief/transfer/finish_maps.h"
 #include "bake/relief/transfer/gauss_legendre.h"
 #include "bake/relief/transfer/map_frame.h"
 #include <algorithm>
@@ -46,9 +45,7 @@ public:
 
     /// One ray for each texel of the raster, of those that have none yet if `rest`.
     void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
-    void average();
-    /// The row of another map.
-    void average(DetailMap map, int y, float* row) const noexcept;
+    const Image<float>& weights() const noexcept { return weights_; }
 
 private:
     struct Counts {
@@ -244,64 +241,6 @@ Vec3f Bake::beyond_border(const TransferSource& source, const TexelHit& edge, in
     return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
 }
 
-void Bake::average() {
-    for_rows(options_.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = int(begin); y < int(end); ++y) {
-            float* rgb = out_.map.row(y);
-            for (int x = 0; x < options_.width; ++x, rgb += 3) {
-                const Vec3f n = unit_or_zero(Vec3f(rgb[0], rgb[1], rgb[2]));
-                if (n == Vec3f(0) && out_.states.at(x, y) == TexelState::hit) out_.states.at(x, y) = TexelState::missed;
-                const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
-                for (int c = 0; c < 3; ++c) rgb[c] = code[c];
-            }
-            for (std::size_t m = 0; m < out_.details.size(); ++m)
-                average(options_.details.maps[m], y, out_.details[m].row(y));
-        }
-    });
-}
-
-void Bake::average(DetailMap map, int y, float* row) const noexcept {
-    if (map == DetailMap::id) return;
-    const int count = channels(map);
-    for (int x = 0; x < options_.width; ++x, row += count) {
-        if (map == DetailMap::bent_normal) {
-            const Vec3f n = unit_or_zero(Vec3f(row[0], row[1], row[2]));
-            const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
-            for (int c = 0; c < 3; ++c) row[c] = code[c];
-        } else if (!weights_.empty() && weights_.at(x, y) > 0) {
-            for (int c = 0; c < count; ++c) row[c] /= weights_.at(x, y);
-        }
-    }
-}
-
-void count_states(Transfer& out, bool tangent) {
-    for (int y = 0; y < out.map.height(); ++y)
-        for (int x = 0; x < out.map.width(); ++x) switch (out.states.at(x, y)) {
-            case TexelState::outside: break;
-            case TexelState::hit:
-                ++out.report.hit;
-                out.report.outward += tangent && out.map.at(x, y, 2) <= 0.5f;
-                break;
-            case TexelState::behind: ++out.report.behind; [[fallthrough]];
-            case TexelState::missed: ++out.report.missed; break;
-            }
-}
-
-void pad(Transfer& out, int padding) {
-    Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
-    for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
-    for (Image<float>& map : out.details) pad_texels(map, owned, padding);
-    if (!out.alpha.empty()) {
-        for (std::size_t i = 0; i < owned.size(); ++i) out.alpha.data()[i] = owned.data()[i];
-        pad_texels(out.alpha, owned, padding);
-        for (std::size_t i = 0; i < owned.size(); ++i)
-            if (is_missed(out.states.data()[i])) out.alpha.data()[i] = 0;
-    }
-    if (padding > 0) out.report.padded = continue_charts(out.map, owned);
-    out.report.padded += pad_texels(out.map, owned, padding - 1);
-    out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
-}
-
 } // namespace
 
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
@@ -330,13 +269,11 @@ Transfer transfer(const BakeTarget& target, const TransferSources& sources, cons
     }
     // Texels of which no sample lies in a chart have a triangle at their border.
     bake.cast_all(target.raster, 1, options.rays > 1, progress);
-    bake.average();
     if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
     std::stable_sort(out.far.begin(), out.far.end(),
                      [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
-    count_states(out, options.space == Space::tangent);
     out.report.border = target.raster.border;
-    pad(out, options.padding);
+    finish_maps(out, bake.weights(), options);
     return out;
 }
 
