@@ -81,6 +81,14 @@ std::string to_text(const HighReport& report) {
         text += format("\ndetail lies %.3g to %.3g above the surface; leaning rays move it by %.2g texels in the mean, "
                        "%.2g at most",
                        r.nearest, r.farthest, r.parallax_mean, r.parallax_max);
+    if (report.density.max > 0)
+        text += format("\n%.4g texels per unit in the median, 90 %% of the surface %.4g to %.4g", report.density.median,
+                       report.density.p05, report.density.p95);
+    if (report.centre.max > 0)
+        text +=
+            format("\none ray per texel is %.3g deg from the mean over the texel in the median, 95 %% below %.3g, at "
+                   "most %.3g; --rays 2 takes the mean",
+                   report.centre.median, report.centre.p95, report.centre.max);
     if (report.seams.samples > 0)
         text += format("\nthe two sides of %lld seams differ by %.3g deg in the mean, 95 %% below %.3g, at most %.3g",
                        static_cast<long long>(report.seams.seams), report.seams.mean, report.seams.percentile_95,
@@ -108,6 +116,10 @@ nlohmann::json to_json(const HighReport& report) {
             {"ray_lengths", r.lengths},
             {"heights", {r.nearest, r.farthest}},
             {"parallax_texels", {{"mean", r.parallax_mean}, {"max", r.parallax_max}}},
+            {"texels_per_unit",
+             {{"p05", report.density.p05}, {"median", report.density.median}, {"p95", report.density.p95}}},
+            {"centre_error_deg",
+             {{"median", report.centre.median}, {"p95", report.centre.p95}, {"max", report.centre.max}}},
             {"seams",
              {{"edges", report.seams.seams},
               {"samples", report.seams.samples},

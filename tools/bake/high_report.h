@@ -1,5 +1,6 @@
 // What normal-map --high reports.
 #pragma once
+#include "bake/relief/transfer/map_quality.h"
 #include "bake/relief/transfer/match_names.h"
 #include "bake/relief/transfer/seams.h"
 #include "bake/relief/transfer/witness.h"
@@ -14,6 +15,7 @@ struct HighReport {
     const TransferSources& sources;
     const TransferReport& result;
     SeamDisagreement seams;
+    Percentiles density, centre;      ///< texels per unit; degrees, of a bake with one ray
     const NameMatch* match = nullptr; ///< under --match-names
     bool all_tiles = false;           ///< whether this is the map of one tile of all
     std::vector<Witness> witnesses;   ///< misses, then the farthest texels

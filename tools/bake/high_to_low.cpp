@@ -144,6 +144,8 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
                       .match = match_ ? &*match_ : nullptr,
                       .all_tiles = names_tiles(args_.out)};
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
+    report.density = texel_density(target, options.width, options.height);
+    if (options.rays == 1) report.centre = centre_error(result, options.space, options.directx);
     report.witnesses = missed_texels(target, sources_, result, most_witnesses);
     for (Witness& far : farthest_texels(target, sources_, result, most_witnesses)) report.witnesses.push_back(far);
     if (!args.high.debug_rays.empty())

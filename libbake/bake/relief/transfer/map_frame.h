@@ -6,6 +6,15 @@
 
 namespace bake {
 
+/// How many texels a triangle covers in the plane of the uvs; 0 without uvs.
+inline double texels_of(const Mesh& mesh, const Triangle& t, int width, int height) noexcept {
+    for (const std::uint32_t corner : t.corner)
+        if (mesh.corner_uv[corner] == no_index) return 0;
+    const auto uv = [&](std::size_t k) { return Vec2d(mesh.uvs[mesh.corner_uv[t.corner[k]]]); };
+    const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+    return std::abs(d1.x * d2.y - d2.x * d1.y) / 2 * width * height;
+}
+
 /// Facets of the low-poly mesh, and texels on them.
 class Facets {
 public:
@@ -13,13 +22,8 @@ public:
         const Mesh& mesh = *target.surface.mesh;
         for (const Triangle& t : target.surface.triangles) {
             const auto p = [&](std::size_t k) { return Vec3d(mesh.positions[mesh.corner_position[t.corner[k]]]); };
-            const auto uv = [&](std::size_t k) {
-                const std::uint32_t at = mesh.corner_uv[t.corner[k]];
-                return at == no_index ? Vec2d(0) : Vec2d(mesh.uvs[at]);
-            };
             const Vec3d area = glm::cross(p(1) - p(0), p(2) - p(0));
-            const Vec2d d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
-            const double texels = std::abs(d1.x * d2.y - d2.x * d1.y) * width * height, size = glm::length(area);
+            const double texels = texels_of(mesh, t, width, height), size = glm::length(area) / 2;
             facets_.push_back({Vec3f(unit_or_zero(area)), float(size > 0 ? std::sqrt(texels / size) : 0)});
         }
     }

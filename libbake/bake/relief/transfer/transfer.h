@@ -38,7 +38,7 @@ struct TransferReport {
     std::int64_t hit = 0;     ///< texels in charts with a normal of their own
     std::int64_t missed = 0;  ///< texels whose rays find nothing, or nothing but backs
     std::int64_t behind = 0;  ///< of these, texels whose rays find the back of triangles
-    std::int64_t wider = 0;   ///< texels with rays that found something in the second try only
+    std::int64_t wider = 0;   ///< rays that found something in the second try only
     std::int64_t outward = 0; ///< texels whose normal points into the low-poly mesh: out of range in tangent space
     std::int64_t border = 0, degenerate = 0, padded = 0, empty = 0; ///< as NormalMapReport
     /// Of the rays that land, by where they do: from the envelope (0) to where they end (the last).
