@@ -1,6 +1,7 @@
 // bake check: what is in each file, and what is wrong with it.
 #include "bake/base/memory.h"
 #include "bake/verdict/brdf_check.h"
+#include "bake/verdict/decode_check.h"
 #include "bake/verdict/relief_check.h"
 #include "inputs/brdf_input.h"
 #include "inputs/file_kind.h"
@@ -13,6 +14,7 @@ namespace {
 struct CheckArgs {
     std::vector<std::string> files;
     std::vector<std::pair<std::string, std::string>> pairs;
+    std::vector<std::pair<std::string, std::string>> maps; ///< and their meshes
     std::vector<std::string> brdfs;
     std::string against;
     HeightInput height; ///< for the meshes; none unless it has a path
@@ -103,6 +105,12 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     for (const auto& [height, normals] : args.pairs)
         add_result(results, height, common,
                    [&, &h = height, &n = normals] { return inspect_pair(h, n, args.options); });
+    for (const auto& [map, mesh] : args.maps)
+        add_result(results, map, common, [&, &n = map, &m = mesh] {
+            expect_picture(n);
+            expect_mesh(m);
+            return inspect_decoding(n, m, args.options.directx.value_or(false), args.options);
+        });
     for (const std::string& spec : args.brdfs)
         add_result(results, spec, common, [&] { return check_brdf(spec, parse_brdf("--brdf", spec)); });
     if (common.json) print_json({{"files", results.files}}, -1);
@@ -146,8 +154,12 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     add_channel_option(sub, "--height-channel", args->options.height_channel, "Grey of the pair's height");
     add_choice<std::optional<bool>>(sub, "--expect", args->options.directx, {{"opengl", false}, {"directx", true}},
                                     "With --pair: exit with 1 unless the green of the normal map points up (opengl) or "
-                                    "down (directx)")
-        ->needs(pair);
+                                    "down (directx); with --decode: the green that is right [opengl]");
+    const auto maps = sub.add_option("--decode", args->maps,
+                                     "A normal map and the mesh that it was baked for: what viewers that decode it in "
+                                     "other ways make of it, in degrees; may be given again")
+                          ->allow_extra_args(false)
+                          ->type_name("NORMAL MESH");
     const auto brdf = sub.add_option("--brdf", args->brdfs,
                                      "A reflection model, or several joined by +: whether it is positive, conserves "
                                      "energy and is reciprocal; may be given again")
@@ -170,26 +182,33 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
         ->needs(against)
         ->default_str(std::to_string(args->options.distance.samples));
     sub.add_flag("--strict", args->strict, "Exit with 1 if anything is wrong (any warning)");
-    add_examples(sub, "  bake check meshes/torus.obj meshes/bricks.png\n"
-                      "  bake check meshes/torus.obj --height meshes/bricks.png --amplitude 2%\n"
-                      "  bake check --strict --json meshes/*.obj\n"
-                      "  bake check --audit meshes/torus.obj\n"
-                      "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
-                      "  bake normal-map --height meshes/bricks.png -o bricks_normal.png\n"
-                      "  bake check --pair meshes/bricks.png bricks_normal.png --expect opengl\n"
-                      "  bake check --brdf phong:n=3\n"
-                      "  bake check --brdf lambert:albedo=.5+normalised-blinn:n=32,specular=.3\n\n"
-                      "Reflection models of --brdf, their keys and defaults:\n" +
-                          brdf_models());
-    return [args, &common, files, pair, brdf, height] {
+    add_examples(sub,
+                 "  bake check meshes/torus.obj meshes/bricks.png\n"
+                 "  bake check meshes/torus.obj --height meshes/bricks.png --amplitude 2%\n"
+                 "  bake check --strict --json meshes/*.obj\n"
+                 "  bake check --audit meshes/torus.obj\n"
+                 "  bake check meshes/torus.obj --against meshes/sphere.obj --limit 2\n"
+                 "  bake normal-map --height meshes/bricks.png -o bricks_normal.png\n"
+                 "  bake check --pair meshes/bricks.png bricks_normal.png --expect opengl\n"
+                 "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus_normal.png\n"
+                 "  bake check --decode torus_normal.png meshes/torus.obj\n"
+                 "  bake check --brdf phong:n=3\n"
+                 "  bake check --brdf lambert:albedo=.5+normalised-blinn:n=32,specular=.3\n\n"
+                 "Reflection models of --brdf, their keys and defaults:\n" +
+                     brdf_models());
+    return [args, &common, files, pair, maps, brdf, height] {
         check_height_usage(*args);
-        if (files->empty() && pair->empty() && brdf->empty())
+        if (files->empty() && pair->empty() && maps->empty() && brdf->empty())
+            throw Error(Refusal::usage, "check: no file given; name meshes, images, a --pair, a map to --decode or a "
+                                        "--brdf; see bake check --help");
+        if (args->options.directx && pair->empty() && maps->empty())
             throw Error(Refusal::usage,
-                        "check: no file given; name meshes, images, a --pair or a --brdf; see bake check --help");
-        if (!args->against.empty() &&
-            (files->empty() || !pair->empty() || !brdf->empty() || !height->empty() || args->options.audit))
+                        "--expect: says which green a --pair or a map to --decode has; give one of them");
+        const bool others = !pair->empty() || !maps->empty() || !brdf->empty() || !height->empty();
+        if (!args->against.empty() && (files->empty() || others || args->options.audit))
             throw Error(Refusal::usage,
-                        "check: --against takes meshes alone; run --audit, --height, --pair and --brdf separately");
+                        "check: --against takes meshes alone; run --audit, --height, --pair, --decode and "
+                        "--brdf separately");
         for (const std::string& spec : args->brdfs) parse_brdf("--brdf", spec); // refused before a file is read
         return run(*args, common);
     };

@@ -1,6 +1,6 @@
 // From the sums over the samples of texels to the maps of a bake.
 #pragma once
-#include "bake/relief/transfer/transfer.h"
+#include "bake/relief/transfer/types.h"
 
 namespace bake {
 

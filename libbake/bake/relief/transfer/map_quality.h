@@ -1,6 +1,6 @@
 // How many texels a chart has, and how much of the detail they can hold.
 #pragma once
-#include "bake/relief/transfer/transfer.h"
+#include "bake/relief/transfer/types.h"
 
 namespace bake {
 

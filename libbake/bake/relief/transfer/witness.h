@@ -1,6 +1,6 @@
 // Texels by which a bake can be judged: where rays found nothing, or went farthest.
 #pragma once
-#include "bake/relief/transfer/transfer.h"
+#include "bake/relief/transfer/types.h"
 
 namespace bake {
 
