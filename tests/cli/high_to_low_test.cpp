@@ -189,6 +189,8 @@ TEST_SUITE("cli") {
         "high to low: a mesh on itself is flat within the encoding, shells closer than the envelope go by the first") {
         const Meshes folder;
         const std::string torus = (own_meshes() / "torus.obj").string();
+        const Run level = good(folder, command({}, "low.obj", "low.obj"));
+        CHECK(level.out.find("detail lies 0 to 0 above the surface") != std::string::npos);
         good(folder, {"normal-map", torus, "--high", torus, "-o", "n.png", "--size", "96x48"});
         CHECK(off_flat(folder / "n.png") <= step);
         // The outer shell leans to -x, the inner one is level; both are within reach.

@@ -65,7 +65,7 @@ std::string to_text(const HighReport& report) {
     if (r.hit > 0)
         text += format("\ndetail lies %.3g to %.3g above the surface; leaning rays move it by %.2g texels in the mean, "
                        "%.2g at most",
-                       r.nearest, r.farthest, r.parallax_mean, r.parallax_max);
+                       r.nearest + 0.0, r.farthest + 0.0, r.parallax_mean, r.parallax_max); // + 0: no "-0"
     if (report.seams.samples > 0)
         text += format("\nthe two sides of %lld seams differ by %.3g deg in the mean, 95 %% below %.3g, at most %.3g",
                        static_cast<long long>(report.seams.seams), report.seams.mean, report.seams.percentile_95,
