@@ -3,6 +3,7 @@
 import MESH.obj                          prints SECONDS of the operator alone: no start, no textures read
 bump MESH.obj HEIGHT.exr AMPLITUDE SIZE OUT.exr     the same of the bake operator
 displace CAGE.obj HEIGHT LEVELS AMPLITUDE OUT.obj   prints SECONDS from import to export, of the modifiers alone, quads
+transfer HIGH.obj LOW.obj SIZE SAMPLES EXTRUSION OUT.exr   the same of a bake of HIGH to the uvs of LOW, and peak MiB
 render MESH.obj SIZE                     SECONDS of one sample per pixel in Cycles, without import, export and BVH
 cage cube|suzanne OUT.obj                writes one of Blender's own primitives, with uvs
 """
@@ -96,6 +97,37 @@ def displace(cage, height, levels, amplitude, out):
     return f"{time.perf_counter() - begin:.4f} {modifiers:.4f} {export:.4f} {quads} {peak:.0f}"
 
 
+def transfer(high, low, size, samples, extrusion, out):
+    """HIGH's normals as a tangent-space map of LOW, both with the normals of their files. Prints peak MiB as well. The bake
+    is the first of the process, as a user's is, and builds Cycles' scene and BVH."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.samples = int(samples)
+    scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
+    source, target = imported(high)[1], imported(low)[1]
+    image = bpy.data.images.new("map", int(size), int(size), float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    for item in (source, target):
+        material = bpy.data.materials.new("plain")
+        material.use_nodes = True
+        item.data.materials.clear()
+        item.data.materials.append(material)
+        item.select_set(True)
+    nodes = target.data.materials[0].node_tree.nodes
+    nodes.active = nodes.new("ShaderNodeTexImage")
+    nodes.active.image = image
+    bpy.context.view_layer.objects.active = target
+    extruded = {} if extrusion == "default" else {"cage_extrusion": float(extrusion)}
+    begin = time.perf_counter()
+    bpy.ops.object.bake(type="NORMAL", normal_space="TANGENT", use_selected_to_active=True, margin=0, **extruded)
+    seconds = time.perf_counter() - begin
+    image.file_format = "OPEN_EXR"
+    image.filepath_raw = out
+    image.save()
+    return f"{seconds:.4f} {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f}"
+
+
 def render(mesh, size):
     """A diffuse and glossy mesh under one sun, direct light alone. The picture of one sample is rendered twice: with
     persistent data the second time has neither export nor building of the BVH."""
@@ -151,5 +183,5 @@ def cage(shape, out):
     return 0
 
 
-jobs = {"import": lambda mesh: imported(mesh)[0], "bump": bump, "displace": displace, "render": render, "cage": cage}
+jobs = {"import": lambda mesh: imported(mesh)[0], "bump": bump, "displace": displace, "transfer": transfer, "render": render, "cage": cage}
 print("SECONDS", jobs[job](*args))

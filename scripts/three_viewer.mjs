@@ -10,7 +10,8 @@
 //      {"what": "normals", "file": "n.f32"},         world-space shading normals
 //      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true},   samples^2 per pixel; with the sky behind
 //      {"what": "radiance", "file": "r.png", "exposure": -1,   in stops, sRGB-encoded
-//       "model": "other.glb", "camera": {...}}]}   instead of those of the job
+//       "model": "other.glb", "camera": {...}},   instead of those of the job
+//      {"what": "texture", "texture": "n.ktx2", "level": 0, "file": "t.f32"}]}   texels of a level of this "size"
 //
 // .f32: R, G, B, A as 32-bit floats, low byte first, rows from the top down; A is the share of samples on the model, or 1
 // with a background. No tone mapping, no shadows, no lights but the sky.

@@ -2,6 +2,7 @@
 // reads back floats.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 
 const renderer = new THREE.WebGLRenderer();
@@ -91,10 +92,29 @@ function base64(bytes) {
   return btoa(text);
 }
 
+/// A level of a texture, texel by texel, as a shader reads it.
+async function texels(file, level, size) {
+  const map = await new KTX2Loader().detectSupport(renderer).loadAsync(url(file));
+  const material = new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3,
+    uniforms: { map: { value: map } },
+    vertexShader: 'in vec3 position; void main() { gl_Position = vec4(position, 1.0); }',
+    fragmentShader: `precision highp float; precision highp sampler2D; uniform sampler2D map; out vec4 colour;
+      void main() { // the first row is the upper one
+        colour = texelFetch(map, ivec2(int(gl_FragCoord.x), ${size[1] - 1} - int(gl_FragCoord.y)), ${level});
+      }`,
+  });
+  const scene = new THREE.Scene();
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
+  return render(scene, new THREE.Camera(), size, 1);
+}
+
 let sky = null; // one sky serves all outputs of a job
 
 /// One output of the job, its file as base64.
 window.show = async (job, output) => {
+  if (output.what === 'texture')
+    return base64(new Uint8Array((await texels(output.texture, output.level ?? 0, job.size)).buffer));
   const normals = output.what === 'normals';
   sky ??= normals ? null : await load_sky(job.sky); // its filtering takes seconds
   const scene = new THREE.Scene();

@@ -96,7 +96,7 @@ std::vector<std::string> complete(const std::string& verb, const std::string& fl
     if (verb == "compare" && is_one_of(flag, {"--spp", "--size", "--repeats", "--object", "--methods", "--reference",
                                               "--camera", "--csv", "--no-causes", "--report"}))
         line = {verb, relief_scene};
-    if (flag == "--roughness") line.insert(line.end(), {"--specular", "ggx"});
+    if (flag == "--roughness" && verb == "cubemap") line.insert(line.end(), {"--specular", "ggx"});
     return line;
 }
 

@@ -2,6 +2,7 @@
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include "mesh/gltf/gltf_files.h"
+#include <nlohmann/json.hpp>
 
 namespace {
 using namespace bake;
@@ -76,24 +77,83 @@ TEST_SUITE("cli") {
         test::check_refused(folder, {"surface", "udim.obj", "--maps", "normal", "--maps-out", "m", "--size", "16"}, 4,
                             "1001, 1002");
         CHECK(says(test::run_bake(folder, {"check", "udim.obj"}).out, "the charts lie in several tiles (1001, 1002)"));
+        test::check_refused(folder, bake_it, 4, "<UDIM>");
         CHECK(normal_map(folder, "udim.obj", "n.png", {"--tile", "1003"}).code == 4);
         CHECK(normal_map(folder, "udim.obj", "n.png", {"--tile", "7"}).code == 2);
     }
 
-    TEST_CASE("uv tiles: a name with the place of a number is refused by every verb, and no such file is written") {
+    TEST_CASE("uv tiles: <UDIM> in a name writes the map of every tile, the same as --tile does") {
+        const test::Folder folder;
+        test::write_file(
+            folder / "udim.obj",
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\n"
+            "vt 2 1\nf 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n");
+        const auto check_tiles = [&](const std::vector<std::string>& verb, const std::string& out,
+                                     const std::string& ending) {
+            for (const std::string tile : {"1001", "1002", "<UDIM>"}) {
+                std::vector<std::string> line = verb;
+                line.insert(line.end(), {out, "t" + tile + ending});
+                if (tile == "<UDIM>") {
+                    for (const std::string made : {"t1001", "t1002"})
+                        std::filesystem::rename(folder / (made + ending), folder / made);
+                } else {
+                    line.insert(line.end(), {"--tile", tile});
+                }
+                const test::Run run = test::run_bake(folder, line);
+                CHECK_MESSAGE(run.code == 0, run.err);
+                if (tile != "<UDIM>") continue;
+                CHECK_FALSE(says(run.err, "outside the tile"));
+                for (const std::string made : {"t1001", "t1002"})
+                    CHECK(bytes_of(folder / (made + ending)) == bytes_of(folder / made));
+            }
+        };
+        const std::vector<std::string> height = {"--height", bricks, "--amplitude", "1%", "--size", "16"};
+        std::vector<std::string> baked = {"normal-map", "udim.obj"}, cast = baked;
+        baked.insert(baked.end(), height.begin(), height.end());
+        cast.insert(cast.end(), {"--high", "udim.obj", "--size", "16"});
+        check_tiles(baked, "-o", ".png");
+        check_tiles(cast, "-o", ".exr");
+        const auto is_map = [&](const std::string& tile) {
+            return std::filesystem::exists(folder / ("m" + tile + "_normal.exr"));
+        };
+        CHECK(
+            test::run_bake(folder, {"surface", "udim.obj", "--maps", "normal", "--size", "16", "--maps-out", "m<UDIM>"})
+                .code == 0);
+        CHECK(is_map("1001"));
+        CHECK(is_map("1002"));
+        CHECK_FALSE(is_map("1003"));
+        baked.insert(baked.end(), {"-o", "j<UDIM>.png", "--json"});
+        const auto json = nlohmann::json::parse(test::run_bake(folder, baked).out);
+        CHECK(json["tiles"][1]["tile"] == 1002);
+        CHECK(json["tiles"][1]["out"] == "j1002.png");
+        baked.insert(baked.end(), {"--tile", "1001"});
+        test::check_refused(folder, baked, 2, "all tiles");
+        cast.insert(cast.end(), {"-o", "<UDIM>.png", "--maps", "height", "--maps-out", "one"});
+        test::check_refused(folder, cast, 2, "of all files or in none");
+        test::write_file(folder / "below.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt -1 0\nvt 0 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+        test::check_refused(folder, {"normal-map", "below.obj", "--high", "below.obj", "-o", "<UDIM>.png"}, 4,
+                            "(-1, 0)");
+    }
+
+    TEST_CASE("uv tiles: a name with the place of a number is refused where there are no tiles, and no such file is "
+              "written") {
         const test::Folder folder;
         const std::string mesh = (test::own_meshes() / "torus.obj").string();
         for (const std::string place : {"<UDIM>", "<udim>", "<UVTILE>", "%d", "%04d", "%(UDIM)d"}) {
             CAPTURE(place);
             const std::string name = "n." + place;
+            for (const std::vector<std::string>& verb :
+                 std::vector<std::vector<std::string>>{{"bump-table", bricks, "-o", name + ".exr"},
+                                                       {"displace", mesh, "--height", bricks, "-o", name + ".ply"},
+                                                       {"surface", mesh, "-o", name + ".glb"}})
+                test::check_refused(folder, verb, 2, "stands for the number");
+            if (place == "<UDIM>") continue;
             for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
                      {"normal-map", mesh, "--height", bricks, "--amplitude", "1%", "--size", "16", "-o", name + ".png"},
-                     {"bump-table", bricks, "-o", name + ".exr"},
-                     {"displace", mesh, "--height", bricks, "-o", name + ".ply"},
-                     {"surface", mesh, "-o", name + ".glb"},
                      {"surface", mesh, "--maps", "normal", "--size", "16", "--maps-out", name}})
                 test::check_refused(folder, verb, 2, "stands for the number");
         }
+        test::check_refused(folder, {"normal-map", bricks, "-o", "n<UDIM>.png"}, 2, "there is no mesh");
         CHECK(normal_map(folder, mesh, "100%dirt, <b>.png").code == 0);
     }
 

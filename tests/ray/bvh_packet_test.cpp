@@ -67,6 +67,32 @@ std::array<Ray, packet_size> random_rays(std::mt19937& random) {
 
 TEST_SUITE("unit") {
 
+    TEST_CASE("bvh_packet: intersect_fronts finds the nearest front, whatever backs are before it") {
+        const Soup soup(2000);
+        std::vector<BvhMesh> meshes(1), filtered(1);
+        meshes[0].positions = filtered[0].positions = soup.positions;
+        meshes[0].triangles = filtered[0].triangles = soup.triangles;
+        filtered[0].passes_seen = [](const Crossing& at) { return at.behind; };
+        for (const BvhTree tree : {BvhTree::fast, BvhTree::quick}) {
+            const Bvh bvh(std::vector<BvhMesh>(meshes), tree, true), expected(std::vector<BvhMesh>(filtered), tree);
+            std::mt19937 random(5);
+            int different = 0, found = 0, passed = 0;
+            for (int k = 0; k < 200; ++k) {
+                const std::array<Ray, packet_size> rays = random_rays(random);
+                std::array<Hit, packet_size> hits;
+                bvh.intersect_fronts(rays, all, hits);
+                for (std::size_t i = 0; i < packet_size; ++i) {
+                    const Hit front = expected.intersect(rays[i]), any = bvh.intersect(rays[i]);
+                    different += hits[i].triangle != front.triangle, found += bool(front);
+                    passed += any.triangle != front.triangle;
+                }
+            }
+            CHECK(different == 0);
+            CHECK(found > 500);
+            CHECK(passed > 500);
+        }
+    }
+
     TEST_CASE("bvh_packet: rays with a component that is all but 0 hit what the others of the packet hit") {
         // Rays in the planes of meridians of the unit sphere, with what rounding leaves of x = 0.
         const auto at = [](double east, double north) {

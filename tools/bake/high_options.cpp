@@ -22,6 +22,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_option("--cage", args.cage,
                    "The first mesh with its faces pushed out: rays start there [automatic, from the meshes' distance]")
         ->type_name("MESH");
+    add_choice<bool>(sub, "--match-names", args.match_names, {{"yes", true}, {"no", false}},
+                     "Parts take detail from the parts of their name alone: low_wheel from high_wheel");
     add_length_option(sub, "--extrude", args.extrude, "Rays start this far outside of the first mesh [automatic]");
     add_length_option(sub, "--max-distance", args.max_distance,
                       "Length of the rays [with --extrude twice that, else automatic]");
@@ -50,9 +52,11 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
     sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
         ->type_name("OUT.glb");
+    sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
-    for (const char* flag : {"--cage", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
-                             "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--strict"})
+    for (const char* flag :
+         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
+          "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 

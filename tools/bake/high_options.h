@@ -12,7 +12,7 @@ struct HighArgs {
     int rays = 1; ///< along each side of a texel
     HighNormals normals = HighNormals::smooth;
     CastBy cast = CastBy::blend;
-    bool strict = false;
+    bool strict = false, alpha = false, match_names = false;
     std::string debug_rays;
     std::vector<DetailMap> maps;
     std::string maps_out;

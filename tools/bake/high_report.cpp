@@ -1,4 +1,5 @@
 #include "high_report.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
@@ -30,6 +31,19 @@ std::string to_text(const Witness& w) {
                          w.distance);
 }
 
+/// Of all sources together.
+struct Totals {
+    std::size_t triangles = 0, hard_edges = 0;
+    float front = 0, back = 0;
+    explicit Totals(const TransferSources& sources) {
+        for (const TransferSource& source : sources.sources) {
+            triangles += source.high->triangle_count();
+            hard_edges = std::max(hard_edges, source.casting->hard_edges()); // each knows the whole low-poly mesh
+            front = std::max(front, source.casting->most_front()), back = std::max(back, source.casting->most_back());
+        }
+    }
+};
+
 nlohmann::json vector(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 nlohmann::json to_json(const Witness& w) {
@@ -51,13 +65,14 @@ nlohmann::json to_json(const Witness& w) {
 std::string to_text(const HighReport& report) {
     const TransferOptions& options = report.options;
     const TransferReport& r = report.result;
+    const Totals totals(report.sources);
     const std::int64_t texels = std::int64_t(options.width) * options.height;
-    std::string text = format(
-        "%s: %d x %d, %s space, green %s\n%zu triangles, %lld rays; %s: at most %.3g outward and %.3g inward",
-        printable(report.args.out).c_str(), options.width, options.height,
-        options.space == Space::tangent ? "tangent" : "object", options.directx ? "down (DirectX)" : "up (OpenGL)",
-        report.high.triangle_count(), static_cast<long long>(r.rays), source_of_reach(report.args.high),
-        double(report.casting.most_front()), double(report.casting.most_back()));
+    std::string text =
+        format("%s: %d x %d, %s space, green %s\n%zu triangles, %lld rays; %s: at most %.3g outward and %.3g inward",
+               printable(report.args.out).c_str(), options.width, options.height,
+               options.space == Space::tangent ? "tangent" : "object",
+               options.directx ? "down (DirectX)" : "up (OpenGL)", totals.triangles, static_cast<long long>(r.rays),
+               source_of_reach(report.args.high), double(totals.front), double(totals.back));
     text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
                    "left flat",
                    share(r.hit + r.missed, texels), share(r.missed, r.hit + r.missed), share(r.padded, texels),
@@ -78,6 +93,7 @@ std::string to_text(const HighReport& report) {
 nlohmann::json to_json(const HighReport& report) {
     const TransferOptions& options = report.options;
     const TransferReport& r = report.result;
+    const Totals totals(report.sources);
     nlohmann::json witnesses = nlohmann::json::array();
     for (const Witness& w : report.witnesses) witnesses.push_back(to_json(w));
     return {{"out", report.args.out},
@@ -85,9 +101,9 @@ nlohmann::json to_json(const HighReport& report) {
             {"height", options.height},
             {"space", options.space == Space::tangent ? "tangent" : "object"},
             {"green", options.directx ? "down" : "up"},
-            {"high", {{"meshes", report.args.high.paths}, {"triangles", report.high.triangle_count()}}},
-            {"reach", {{"front", report.casting.most_front()}, {"back", report.casting.most_back()}}},
-            {"hard_edges", report.casting.hard_edges()},
+            {"high", {{"meshes", report.args.high.paths}, {"triangles", totals.triangles}}},
+            {"reach", {{"front", totals.front}, {"back", totals.back}}},
+            {"hard_edges", totals.hard_edges},
             {"rays", r.rays},
             {"ray_lengths", r.lengths},
             {"heights", {r.nearest, r.farthest}},
@@ -112,31 +128,40 @@ nlohmann::json to_json(const HighReport& report) {
               {"empty", r.empty}}}};
 }
 
-void warn(const CommonArgs& common, const HighReport& report) {
+std::vector<std::string> notes_of(const HighReport& report) {
+    std::vector<std::string> out;
     const TransferReport& r = report.result;
     const std::string& low = report.args.mesh;
     const std::string& high = report.args.high.paths[0];
     const auto say = [&](std::int64_t count, const std::string& what) {
-        if (count > 0) note(common, format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
+        if (count > 0) out.push_back(format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
     };
     if (r.hit == 0 && r.behind > 0)
-        note(common,
-             high + ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
+        out.push_back(high +
+                      ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
     else if (r.hit == 0)
-        note(common, high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
+        out.push_back(high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
     else
         say(r.missed, "texels find no detail, and have the normal of the nearest texel that does; give a larger "
                       "--extrude, or close the high-poly mesh there");
     if (r.hit > 0) say(r.behind, "of these find the back of triangles; turn those faces over");
+    if (report.match) {
+        for (const std::string& name : report.match->low_alone)
+            out.push_back(low + ": part " + name + " has no high-poly part of its name");
+        for (const std::string& name : report.match->high_alone)
+            out.push_back(high + ": part " + name + " belongs to no part of " + low + " and is left out");
+    }
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");
     say(report.target.raster.overlapped, "texels lie in more than one face; the lowest face was baked");
-    say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
+    // One map per tile leaves nothing out.
+    if (!report.all_tiles) say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
     say(report.target.raster.crossing_faces, "faces leave the tile; only their part inside was baked");
     say(report.target.raster.degenerate, "triangles have no area in uv and were not baked");
     if (!report.target.raster.tiles.empty())
-        note(common,
-             low + ": its charts lie in " + report.target.raster.tiles + " of the uvs' tiles and are baked modulo 1");
+        out.push_back(low + ": its charts lie in " + report.target.raster.tiles +
+                      " of the uvs' tiles and are baked modulo 1");
+    return out;
 }
 
 } // namespace bake

@@ -1,5 +1,6 @@
 // What normal-map --high reports.
 #pragma once
+#include "bake/relief/transfer/match_names.h"
 #include "bake/relief/transfer/seams.h"
 #include "bake/relief/transfer/witness.h"
 #include "normal_map_options.h"
@@ -10,16 +11,17 @@ struct HighReport {
     const NormalMapArgs& args;
     const TransferOptions& options;
     const BakeTarget& target;
-    const HighSurface& high;
-    const Casting& casting;
+    const TransferSources& sources;
     const TransferReport& result;
     SeamDisagreement seams;
-    std::vector<Witness> witnesses; ///< misses, then the farthest texels
+    const NameMatch* match = nullptr; ///< under --match-names
+    bool all_tiles = false;           ///< whether this is the map of one tile of all
+    std::vector<Witness> witnesses;   ///< misses, then the farthest texels
 };
 
 std::string to_text(const HighReport& report);
 nlohmann::json to_json(const HighReport& report);
-/// Notes on texels that are not what they should be.
-void warn(const CommonArgs& common, const HighReport& report);
+/// One line for each kind of texel that is not what it should be.
+std::vector<std::string> notes_of(const HighReport& report);
 
 } // namespace bake

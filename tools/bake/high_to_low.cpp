@@ -3,6 +3,8 @@
 #include "bake/relief/transfer/debug_rays.h"
 #include "bake/relief/transfer/reach.h"
 #include "high_report.h"
+#include "inputs/tile_names.h"
+#include "normal_map_file.h"
 #include <algorithm>
 
 namespace bake {
@@ -16,6 +18,7 @@ TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
     std::tie(options.width, options.height) = args.size.value_or(std::pair(default_size, default_size));
     options.space = args.space, options.directx = args.directx;
     options.padding = args.padding, options.tile = args.tile, options.rays = args.high.rays;
+    options.alpha = args.high.alpha;
     options.details.maps = args.high.maps, options.details.sky_rays = args.high.sky_rays;
     if (args.high.sky_distance)
         options.details.sky_distance = float(args.high.sky_distance->in_units(diagonal(bounds(low))));
@@ -46,24 +49,119 @@ double rays_of(const TransferOptions& options) {
     return casts * (sky ? 1 + options.details.sky_rays : 1);
 }
 
-bool needs_both_sides(const HighArgs& args) {
-    return std::find(args.maps.begin(), args.maps.end(), DetailMap::thickness) != args.maps.end();
-}
-
 std::vector<HighMesh> read_high(const NormalMapArgs& args) {
     std::vector<HighMesh> out;
     for (const std::string& path : args.high.paths) out.push_back({read_mesh(path), path});
     return out;
 }
 
-Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const HighSurface& high) {
-    if (!args.high.cage.empty()) return Casting(low, read_mesh(args.high.cage), args.high.cage);
-    if (!args.high.extrude) return Casting(low, args.high.cast, measured_reach(low, high));
+/// `faces`: those of the low-poly mesh that take their detail from `high`; empty: all.
+Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const HighSurface& high,
+                     std::span<const std::uint8_t> faces) {
+    if (!args.high.cage.empty()) return Casting(low, read_mesh(args.high.cage, args.read), args.high.cage);
+    if (!args.high.extrude) return Casting(low, args.high.cast, measured_reach(low, high, faces));
     const double whole = diagonal(bounds(*low.mesh)), front = args.high.extrude->in_units(whole);
     const double length = args.high.max_distance ? args.high.max_distance->in_units(whole) : 2 * front;
     // Below 0 for rays that end before they reach the mesh.
     const auto out = float(front), in = float(length - front);
     return Casting(low, args.high.cast, constant_reach(low, {out, in, blend_width(out, std::max(0.0f, in))}));
+}
+
+/// The meshes and what is computed once for all tiles.
+class HighBake {
+public:
+    HighBake(const NormalMapArgs& args, Depth depth, const Mesh& low, std::vector<HighMesh> meshes, Progress& progress,
+             Stopwatch& watch)
+        : args_(args), depth_(depth), low_(low), options_(options_of(args, low)), progress_(progress), watch_(watch),
+          surface_(make_mesh_surface(low, {.derivatives = false})) {
+        if (!args.high.match_names) {
+            add_source(std::move(meshes));
+        } else {
+            match_ = match_names(low, args.mesh, std::move(meshes));
+            for (std::uint32_t part = 0; part < match_->high.size(); ++part) {
+                std::vector<std::uint8_t> faces(low.faces());
+                for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = match_->of_face[f] == part;
+                add_source(std::move(match_->high[part]), faces);
+            }
+            sources_.of_face = match_->of_face;
+        }
+        watch_.lap("trees and reach");
+    }
+
+    struct Baked {
+        std::string text;
+        nlohmann::json object;
+        std::vector<std::string> notes;
+        std::int64_t missed = 0;
+    };
+    /// `args`: those of the constructor, with the names of one tile.
+    Baked bake(const NormalMapArgs& args);
+
+private:
+    void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
+        highs_.push_back(
+            std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals, rays_of(options_)));
+        castings_.push_back(std::make_unique<Casting>(make_casting(args_, surface_, *highs_.back(), faces)));
+        sources_.sources.push_back({highs_.back().get(), castings_.back().get()});
+    }
+
+    const NormalMapArgs& args_;
+    Depth depth_;
+    const Mesh& low_;
+    TransferOptions options_;
+    Progress& progress_;
+    Stopwatch& watch_;
+    MeshSurface surface_;
+    std::vector<std::unique_ptr<HighSurface>> highs_;
+    std::vector<std::unique_ptr<Casting>> castings_;
+    TransferSources sources_;
+    std::optional<NameMatch> match_; ///< its meshes are moved to the sources
+};
+
+HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
+    TransferOptions options = options_;
+    options.tile = args.tile;
+    // Opened before the work, so that a long bake does not fail at its end.
+    NormalMapFile file(args, options.width, options.height, depth_);
+    const auto map_writers = open_maps(args.high, options);
+    const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
+    watch_.lap("surface, tangents, raster");
+    progress_.start("bake", (options.height + 3) / 4 * (options.rays == 1 ? 1 : 1 + options.rays * options.rays));
+    const Transfer result = transfer(target, sources_, options, args.mesh, &progress_);
+    progress_.finish();
+    watch_.lap("bake");
+    const auto stored = file.write(result.map, result.alpha);
+    for (std::size_t m = 0; m < map_writers.size(); ++m) {
+        map_writers[m]->write(result.details[m].data(), options.height);
+        map_writers[m]->finish();
+    }
+    watch_.lap("write");
+    HighReport report{.args = args,
+                      .options = options,
+                      .target = target,
+                      .sources = sources_,
+                      .result = result.report,
+                      .match = match_ ? &*match_ : nullptr,
+                      .all_tiles = names_tiles(args_.out)};
+    report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
+    report.witnesses = missed_texels(target, sources_, result, most_witnesses);
+    for (Witness& far : farthest_texels(target, sources_, result, most_witnesses)) report.witnesses.push_back(far);
+    if (!args.high.debug_rays.empty())
+        write_mesh(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
+    watch_.lap("report");
+    Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed};
+    if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
+    return out;
+}
+
+/// Bakes one map, or one for each tile.
+std::vector<HighBake::Baked> bake_tiles(const NormalMapArgs& args, const Mesh& low, HighBake& bake) {
+    std::vector<HighBake::Baked> out;
+    for (const NormalMapArgs& one : args_of_tiles(args, low)) {
+        out.push_back(bake.bake(one));
+        if (names_tiles(args.out)) out.back().object["tile"] = one.tile;
+    }
+    return out;
 }
 
 } // namespace
@@ -74,45 +172,30 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     progress.start("read", 0);
     const Mesh low = read_mesh(args.mesh, args.read);
     std::vector<HighMesh> meshes = read_high(args);
-    std::vector<std::pair<std::string, std::vector<std::string>>> notes{{args.mesh, low.notes}};
-    for (const HighMesh& high : meshes) notes.emplace_back(high.name, high.mesh.notes);
+    std::vector<std::string> notes;
+    const auto take_notes = [&](const std::string& path, const Mesh& mesh) {
+        for (const std::string& line : mesh.notes) notes.push_back(path + ": " + line);
+    };
+    take_notes(args.mesh, low);
+    for (const HighMesh& high : meshes) take_notes(high.name, high.mesh);
     watch.lap("read");
-    const TransferOptions options = options_of(args, low);
-    // Opened before the work, so that a long bake does not fail at its end.
-    ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
-    const auto map_writers = open_maps(args.high, options);
-    const BakeTarget target = make_bake_target(low, args.mesh, options.width, options.height, options.tile);
-    watch.lap("surface, tangents, raster");
-    const HighSurface high(std::move(meshes), low.origin, args.high.normals, rays_of(options),
-                           needs_both_sides(args.high));
-    watch.lap("tree");
-    const Casting casting = make_casting(args, target.surface, high);
-    watch.lap("reach");
-    progress.start("bake", (options.height + 3) / 4 * (options.rays == 1 ? 1 : 1 + options.rays * options.rays));
-    Transfer result = transfer(target, high, casting, options, args.mesh, &progress);
-    progress.finish();
-    watch.lap("bake");
-    writer.write(result.map.data(), options.height);
-    writer.finish();
-    for (std::size_t m = 0; m < map_writers.size(); ++m) {
-        map_writers[m]->write(result.details[m].data(), options.height);
-        map_writers[m]->finish();
+    HighBake bake(args, depth, low, std::move(meshes), progress, watch);
+    const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
+    std::string text;
+    std::int64_t missed = 0;
+    nlohmann::json tiles = nlohmann::json::array();
+    for (const HighBake::Baked& one : baked) {
+        text += one.text, missed += one.missed;
+        notes.insert(notes.end(), one.notes.begin(), one.notes.end());
+        tiles.push_back(one.object);
     }
-    watch.lap("write");
-    HighReport report{args, options, target, high, casting, result.report, {}, {}};
-    report.seams = seam_disagreement(target, result.map, options.space, options.directx);
-    report.witnesses = missed_texels(target, high, casting, result, most_witnesses);
-    for (Witness& far : farthest_texels(target, casting, result, most_witnesses)) report.witnesses.push_back(far);
-    if (!args.high.debug_rays.empty())
-        write_mesh(args.high.debug_rays, debug_rays(target, high, casting, result, report.witnesses));
-    watch.lap("report");
-    print_result(common, to_text(report), to_json(report), watch);
-    for (const auto& [path, lines] : notes) note_all(common, path, lines);
-    warn(common, report);
-    if (args.high.strict && result.report.missed > 0)
-        return fail(
-            format("%s: %lld texels find no detail", args.mesh.c_str(), static_cast<long long>(result.report.missed)),
-            Refusal::over_limit);
+    nlohmann::json object = names_tiles(args.out) ? nlohmann::json{{"tiles", tiles}} : tiles[0];
+    if (!notes.empty()) object["notes"] = notes;
+    print_result(common, text, object, watch);
+    for (const std::string& line : notes) note(common, line);
+    if (args.high.strict && missed > 0)
+        return fail(format("%s: %lld texels find no detail", args.mesh.c_str(), static_cast<long long>(missed)),
+                    Refusal::over_limit);
     return 0;
 }
 

@@ -1,5 +1,7 @@
 #include "normal_map_options.h"
+#include "bake/picture/texture_file.h"
 #include "inputs/file_kind.h"
+#include "inputs/tile_names.h"
 
 namespace bake {
 
@@ -19,6 +21,60 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
     add_tile_option(sub, args.tile);
 }
 
+void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
+    add_choice<MapDepth>(sub, "--depth", args.depth,
+                         {{"auto", MapDepth::automatic},
+                          {"8", MapDepth::u8},
+                          {"16", MapDepth::u16},
+                          {"half", MapDepth::half},
+                          {"float", MapDepth::float32},
+                          {"bc5", MapDepth::bc5}},
+                         "auto: 16 for .png, half for .exr, float for .tif, bc5 for .dds and .ktx2");
+    CLI::Option* const map =
+        sub.add_option("--roughness-map", args.roughness_map,
+                       "Roughness to write beside it (.dds, .ktx2): what each level of mips loses of the relief");
+    add_number_option(sub, "--roughness", args.roughness, 0, 1, "Roughness of the material, for --roughness-map")
+        ->default_str("0.5")
+        ->needs(map);
+}
+
+namespace {
+
+Depth texture_depth(const NormalMapArgs& args) {
+    const auto usage = [&](const char* why) { return Error(Refusal::usage, args.out + ": " + why); };
+    if (args.depth == MapDepth::u8) return Depth::u8;
+    if (args.depth == MapDepth::u16) return Depth::u16;
+    if (args.depth != MapDepth::automatic && args.depth != MapDepth::bc5)
+        throw usage("textures hold 8 or 16 bits or bc5; write .exr or .tif for half and float");
+    if (args.space == Space::object)
+        throw usage("bc5 holds x and y alone, and object space needs the sign of z; use --depth 8 or 16");
+    return Depth::float32;
+}
+
+} // namespace
+
+Depth resolve_map_depth(const NormalMapArgs& args) {
+    const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
+    if (!args.roughness_map.empty()) {
+        if (!texture_container(args.roughness_map))
+            throw usage(args.roughness_map + ": a roughness map has mips; write .dds or .ktx2");
+        if (args.space == Space::object)
+            throw usage("--roughness-map: slopes are those of tangent space; leave out --space object");
+    }
+    if (texture_container(args.out)) return texture_depth(args);
+    if (picture_format(args.out) == PictureFormat::unknown)
+        throw usage(args.out + ": unknown ending; write .png, .exr, .tif, .dds or .ktx2");
+    switch (args.depth) {
+    case MapDepth::automatic: return resolve_depth(args.out, Depth::automatic);
+    case MapDepth::u8: return resolve_depth(args.out, Depth::u8);
+    case MapDepth::u16: return resolve_depth(args.out, Depth::u16);
+    case MapDepth::half: return resolve_depth(args.out, Depth::half);
+    case MapDepth::float32: return resolve_depth(args.out, Depth::float32);
+    case MapDepth::bc5: break;
+    }
+    throw usage(args.out + ": pictures are not stored in blocks; write .dds or .ktx2 for bc5");
+}
+
 void complete(NormalMapArgs& args, const std::string& verb) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     complete(args.high);
@@ -30,6 +86,8 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         if (args.extent || !args.displaced.empty())
             throw usage("--extent, --residual-of: belong to a height; leave them out with --high");
         expect_mesh(args.mesh);
+        if (args.high.alpha && texture_container(args.out))
+            throw usage("--alpha: a texture has no fourth channel; choose a name that ends in .png, .exr or .tif");
     } else if (args.height.path.empty()) {
         if (args.mesh.empty() || named_like_a_mesh(args.mesh))
             throw usage("--height: is required; name the picture of the relief, as in bake " + verb +
@@ -50,8 +108,27 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         if (args.space == Space::object)
             throw usage("--residual-of: normals in object space are the same on both meshes; leave one of the two out");
     }
+    for (const std::string& name : {args.high.maps_out, args.high.debug_rays, args.roughness_map})
+        if (!name.empty() && names_tiles(name) != names_tiles(args.out))
+            throw usage("-o " + args.out + ": <UDIM> stands in the names of all files or in none");
+    if (names_tiles(args.out) && args.tile != 0)
+        throw usage("--tile: <UDIM> in the name of the map asks for all tiles; leave one of the two out");
+    if (args.mesh.empty()) expect_one_file("-o", args.out, "there is no mesh; give the map one name");
     if (args.space == Space::object && args.directx)
         throw usage("--directx: turns the green of tangent space; leave it out with --space object");
+}
+
+std::vector<NormalMapArgs> args_of_tiles(const NormalMapArgs& args, const Mesh& mesh) {
+    if (!names_tiles(args.out)) return {args};
+    std::vector<NormalMapArgs> out;
+    for (const int tile : udim_tiles(mesh, args.mesh)) {
+        NormalMapArgs one = args;
+        one.tile = tile;
+        for (std::string* name : {&one.out, &one.roughness_map, &one.high.maps_out, &one.high.debug_rays})
+            *name = file_of_tile(*name, tile);
+        out.push_back(std::move(one));
+    }
+    return out;
 }
 
 Whole whole_of(const NormalMapArgs& args, const Mesh& mesh) {

@@ -6,6 +6,9 @@
 
 namespace bake {
 
+/// How the map's file stores its samples.
+enum class MapDepth { automatic, u8, u16, half, float32, bc5 };
+
 struct NormalMapArgs {
     std::string mesh, out;
     std::string displaced; ///< --residual-of
@@ -18,14 +21,23 @@ struct NormalMapArgs {
     Space space = Space::tangent;
     bool directx = false;
     int padding = NormalMapOptions{}.padding, tile = 0;
-    Depth depth = Depth::automatic;
+    MapDepth depth = MapDepth::automatic;
+    std::string roughness_map;
+    double roughness = 0.5; ///< of the material that the map is for
 };
 
 /// The options that the normal of one texel depends on.
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
+/// --depth, --roughness-map and --roughness.
+void add_texture_options(CLI::App& sub, NormalMapArgs& args);
+/// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
+/// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.
+Depth resolve_map_depth(const NormalMapArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other, before anything is read. A lone picture is the
 /// height of a flat rectangle.
 void complete(NormalMapArgs& args, const std::string& verb);
+/// The arguments of each map: those given, or one for each tile of the mesh if the name of the map has <UDIM> in it.
+std::vector<NormalMapArgs> args_of_tiles(const NormalMapArgs& args, const Mesh& mesh);
 /// What an amplitude in per cent refers to: the mesh's diagonal, or the width of the picture without a mesh.
 Whole whole_of(const NormalMapArgs& args, const Mesh& mesh);
 /// The library's options: size from the height unless given, a per cent turned into units.

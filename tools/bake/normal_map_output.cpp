@@ -1,6 +1,16 @@
 #include "normal_map_output.h"
+#include <algorithm>
+#include <cmath>
 
 namespace bake {
+
+void set_stored(NormalMapResult& result, std::optional<StoredNormalMap> stored) {
+    result.stored = stored;
+    if (!stored || !stored->blocks) return;
+    ErrorBudget& budget = result.budget; // of a file that stores floats: its total is 1.5 times the root of all squares
+    budget.encoding_deg = stored->error.rms_deg;
+    budget.total_deg = std::min(180.0, std::hypot(budget.total_deg, 1.5 * budget.encoding_deg));
+}
 
 std::string to_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result) {
     const NormalMapOptions& options = result.options;
@@ -18,6 +28,7 @@ std::string to_text(const NormalMapArgs& args, const HeightTexture& height, cons
         text += format("\ncharts cover %.1f %% and %.1f %% at their borders; %.1f %% padded, %.1f %% left flat",
                        share * double(r.covered), share * double(r.border), share * double(r.padded),
                        share * double(r.empty));
+    if (result.stored) text += "\n" + to_text(*result.stored);
     return text + "\n" + to_text(result.budget) + "\n";
 }
 
@@ -41,6 +52,8 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (!result.notes.empty()) object["notes"] = result.notes;
     if (result.advice) object["better_filter"] = to_json(*result.advice);
     if (options.method != NormalMethod::exact) object["method_error"] = to_json(result.method_error, options.method);
+    if (result.stored) object["stored"] = to_json(*result.stored);
+    if (!args.roughness_map.empty()) object["roughness_map"] = args.roughness_map;
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
                             {"uncovered", r.uncovered},

@@ -2,7 +2,7 @@
 #pragma once
 #include "bake/relief/map/bake_budget.h"
 #include "bake/relief/map/method_error.h"
-#include "normal_map_options.h"
+#include "normal_map_file.h"
 
 namespace bake {
 
@@ -13,11 +13,14 @@ struct NormalMapResult {
     ErrorBudget budget;
     std::optional<FilterAdvice> advice;
     MethodError method_error;
-    double tilt_deg = 0; ///< of the normal, by one level of the height
+    std::optional<StoredNormalMap> stored; ///< a texture
+    double tilt_deg = 0;                   ///< of the normal, by one level of the height
     Filter filter = Filter::central;
     std::vector<std::string> notes, mesh_notes; ///< doubts about the height; of reading the mesh
 };
 
+/// Notes how the map was stored. Where it is in blocks, the budget's term for the encoding becomes the measured one.
+void set_stored(NormalMapResult& result, std::optional<StoredNormalMap> stored);
 std::string to_text(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result);
 nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, const NormalMapResult& result);
 /// Notes on faces and texels that were not baked as they are.

@@ -1,6 +1,7 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/map/residual_map.h"
 #include "high_to_low.h"
+#include "inputs/tile_names.h"
 #include "normal_map_output.h"
 
 namespace bake {
@@ -34,49 +35,82 @@ void bake_mesh(const HeightTexture& height, const HeightField& field, const Bake
         step_tilt_deg(height.step, options.height_options.amplitude, target.scale.u, height.values.width());
 }
 
+/// What the maps of all tiles are made from.
+struct Inputs {
+    HeightTexture height;
+    Mesh mesh, diced;
+    std::vector<std::string> notes; ///< doubts about the height
+};
+
+/// Bakes and writes one map.
+NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth depth, Progress& progress,
+                         Stopwatch& watch) {
+    NormalMapResult result;
+    result.options = resolve_options(args, in.height, in.mesh);
+    const NormalMapOptions& options = result.options;
+    result.mesh_notes = in.mesh.notes, result.notes = in.notes;
+    result.filter = resolve_filter(options.filter, in.height);
+    // Opened before the work, so that a long bake does not fail at its end.
+    NormalMapFile file(args, options.width, options.height, depth);
+    std::optional<BakeTarget> target, displaced;
+    if (!args.mesh.empty()) {
+        target = make_bake_target(in.mesh, args.mesh, options.width, options.height, options.tile);
+        if (!args.displaced.empty())
+            displaced = make_bake_target(in.diced, args.displaced, options.width, options.height, options.tile);
+        watch.lap("surface, tangents, raster");
+    }
+    const HeightField field(in.height, options.height_options, options.filter, options.width, options.height);
+    progress.start("bake", options.height);
+    if (target) bake_mesh(in.height, field, *target, displaced, depth, progress, result);
+    else bake_plane(args, in.height, field, depth, progress, result);
+    progress.finish();
+    watch.lap("bake");
+    set_stored(result, file.write(result.map));
+    watch.lap("write");
+    result.map = {};
+    return result;
+}
+
+/// One map, or one for each tile; the arguments of each with its result.
+std::vector<std::pair<NormalMapArgs, NormalMapResult>> bake_all(const NormalMapArgs& args, const Inputs& in,
+                                                                Depth depth, Progress& progress, Stopwatch& watch) {
+    std::vector<std::pair<NormalMapArgs, NormalMapResult>> out;
+    for (NormalMapArgs& one : args_of_tiles(args, in.mesh)) {
+        NormalMapResult result = bake_one(one, in, depth, progress, watch);
+        if (names_tiles(args.out)) result.report.outside_faces = 0; // they are in the maps of other tiles
+        out.emplace_back(std::move(one), std::move(result));
+    }
+    return out;
+}
+
 int run(NormalMapArgs& args, const CommonArgs& common) {
-    const Depth depth = resolve_depth(args.out, args.depth);
+    const Depth depth = resolve_map_depth(args);
     complete(args, "normal-map");
     if (args.high.given()) return bake_high(args, depth, common);
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
-    const HeightTexture height = load_height(args.height, common);
-    Mesh mesh, diced;
-    if (!args.mesh.empty()) mesh = read_mesh(args.mesh, args.read);
-    if (!args.displaced.empty()) diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
+    Inputs in{.height = load_height(args.height, common)};
+    if (!args.mesh.empty()) in.mesh = read_mesh(args.mesh, args.read);
+    if (!args.displaced.empty()) in.diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
     watch.lap("read");
-    NormalMapResult result;
-    result.options = resolve_options(args, height, mesh);
-    const NormalMapOptions& options = result.options;
-    result.mesh_notes = mesh.notes;
-    result.notes = note_doubts(common, args.height, height);
-    result.filter = resolve_filter(options.filter, height);
-    // Opened before the work, so that a long bake does not fail at its end.
-    ImageWriter writer(args.out, options.width, options.height, 3, {.depth = depth, .channels = {"R", "G", "B"}});
-    std::optional<BakeTarget> target, displaced;
-    if (!args.mesh.empty()) {
-        target = make_bake_target(mesh, args.mesh, options.width, options.height, options.tile);
-        if (!args.displaced.empty())
-            displaced = make_bake_target(diced, args.displaced, options.width, options.height, options.tile);
-        watch.lap("surface, tangents, raster");
+    in.notes = note_doubts(common, args.height, in.height);
+    const auto baked = bake_all(args, in, depth, progress, watch);
+    std::string text;
+    nlohmann::json tiles = nlohmann::json::array();
+    for (const auto& [one, result] : baked) {
+        text += to_text(one, in.height, result), tiles.push_back(to_json(one, in.height, result));
+        if (names_tiles(args.out)) tiles.back()["tile"] = one.tile;
     }
-    const HeightField field(height, options.height_options, options.filter, options.width, options.height);
-    progress.start("bake", options.height);
-    if (target) bake_mesh(height, field, *target, displaced, depth, progress, result);
-    else bake_plane(args, height, field, depth, progress, result);
-    progress.finish();
-    watch.lap("bake");
-    writer.write(result.map.data(), result.map.height());
-    writer.finish();
-    watch.lap("write");
-    print_result(common, to_text(args, height, result), to_json(args, height, result), watch);
-    note_all(common, args.mesh, result.mesh_notes);
-    warn(common, args, result.report);
-    note(common, default_amplitude_note(args.height, height.info, options.height_options, whole_of(args, mesh)));
-    if (const std::string doubt = describe(result.method_error, options.method); !doubt.empty())
+    print_result(common, text, names_tiles(args.out) ? nlohmann::json{{"tiles", tiles}} : tiles[0], watch);
+    note_all(common, args.mesh, in.mesh.notes);
+    for (const auto& [one, result] : baked) warn(common, one, result.report);
+    const NormalMapResult& first = baked[0].second;
+    note(common,
+         default_amplitude_note(args.height, in.height.info, first.options.height_options, whole_of(args, in.mesh)));
+    if (const std::string doubt = describe(first.method_error, first.options.method); !doubt.empty())
         note(common, doubt + "; use --method exact");
-    if (result.advice) note(common, to_text(*result.advice));
+    if (first.advice) note(common, to_text(*first.advice));
     return 0;
 }
 
@@ -86,9 +120,10 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<NormalMapArgs>();
     sub.add_option("input", args->mesh,
                    "UV-mapped mesh (.obj, .ply, .gltf, .glb) for the relief of --height or --high, or the height "
-                   "picture of a flat "
-                   "rectangle");
-    add_output_option(sub, args->out, "Normal map to write (.png, .exr, .tif): rgb = (n + 1) / 2");
+                   "picture of a flat rectangle");
+    add_output_option(sub, args->out,
+                      "Normal map to write (.png, .exr, .tif; with mips .dds, .ktx2): rgb = (n + 1) / 2; <UDIM> in the "
+                      "name: one for each tile");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
     sub.add_option("--residual-of", args->displaced,
@@ -97,7 +132,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
         ->default_str(std::to_string(args->padding));
-    add_depth_option(sub, args->depth, "auto: 16 for .png, half for .exr, float for .tif");
+    add_texture_options(sub, *args);
     add_examples(
         sub,
         "  bake normal-map meshes/bricks.png -o bricks.png\n"

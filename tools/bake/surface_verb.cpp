@@ -1,5 +1,6 @@
 // bake surface: an analytic shape, a mesh or the limit surface of a cage, as a mesh and as maps.
 #include "bake/base/output_file.h"
+#include "inputs/tile_names.h"
 #include "surface_map_files.h"
 #include "surface_options.h"
 #include "surface_report.h"
@@ -35,9 +36,57 @@ Loaded load(const SurfaceArgs& args) {
     return {std::move(surface), SurfaceKind::limit, rate, args.surface.mesh + what};
 }
 
+/// The maps of one tile, or of all charts.
+struct Maps {
+    std::vector<MapQuantity> quantities;
+    SurfaceMapOptions options;
+    std::string prefix; ///< of their names
+    SurfaceMapReport report;
+    std::vector<Image<float>> images;
+    std::vector<std::unique_ptr<ImageWriter>> writers;
+
+    void compute(const Loaded& loaded, const SurfaceMesh& mesh, const std::string& title, Progress& progress) {
+        if (quantities.empty()) return;
+        progress.start("maps", options.height);
+        images = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
+    }
+    void add_to(nlohmann::json& object) const {
+        for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(prefix, q);
+        if (!quantities.empty()) object["texels"] = to_json(report);
+    }
+};
+
+/// Opens the files before the work, those of further tiles when they are due.
+Maps open_maps_of(const SurfaceArgs& args, int tile) {
+    Maps maps{.quantities = args.maps, .options = {.padding = args.padding, .tile = tile}};
+    std::tie(maps.options.width, maps.options.height) = *args.size;
+    if (!args.maps_out.empty() && maps.quantities.empty())
+        maps.quantities.assign(std::begin(all_map_quantities), std::end(all_map_quantities));
+    maps.prefix = tile == 0 ? args.maps_out : file_of_tile(args.maps_out, tile);
+    maps.writers = open_maps(maps.prefix, maps.quantities, maps.options);
+    return maps;
+}
+
+/// One file of each map for every tile that the surface has charts in.
+std::string write_tiles(const SurfaceArgs& args, const Loaded& loaded, const SurfaceMesh& mesh, Progress& progress,
+                        nlohmann::json& object) {
+    std::string text;
+    for (const int tile : udim_tiles(mesh.mesh, args.surface.name())) {
+        Maps maps = open_maps_of(args, tile);
+        maps.compute(loaded, mesh, args.surface.name(), progress);
+        write_maps(maps.writers, maps.images);
+        nlohmann::json one = {{"tile", tile}};
+        maps.add_to(one);
+        object["tiles"].push_back(one);
+        text += "tile " + std::to_string(tile) + ": " + to_text(maps.report, maps.options);
+    }
+    return text;
+}
+
 int run(const SurfaceArgs& args, const CommonArgs& common) {
     check_usage(args);
     const std::string& title = args.surface.name();
+    const bool tiled = names_tiles(args.maps_out);
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
@@ -45,43 +94,36 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     watch.lap("read");
 
     if (!args.out.empty()) const OutputFile writable(args.out);
-    SurfaceMapOptions options{.padding = args.padding, .tile = args.tile};
-    std::tie(options.width, options.height) = *args.size;
-    std::vector<MapQuantity> quantities = args.maps;
-    if (!args.maps_out.empty() && quantities.empty())
-        quantities.assign(std::begin(all_map_quantities), std::end(all_map_quantities));
-    auto writers = open_maps(args.maps_out, quantities, options);
+    Maps maps = tiled ? Maps{} : open_maps_of(args, args.tile);
     progress.start("surface", std::int64_t(loaded.surface.complex().patches.size()));
     const SurfaceMesh mesh = surface_mesh(loaded.surface, loaded.kind, loaded.rate, &progress);
     const SurfaceSummary summary = summarise(mesh);
     watch.lap("surface");
-    std::vector<Image<float>> maps;
-    SurfaceMapReport report;
-    if (!quantities.empty()) {
-        progress.start("maps", options.height);
-        maps = surface_maps(loaded.surface, mesh, quantities, options, title, report, &progress);
-        watch.lap("maps");
-        const Vec3d& origin = mesh.mesh.origin;
-        if (origin != Vec3d(0) && std::count(quantities.begin(), quantities.end(), MapQuantity::position))
-            note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,
-                                origin.y, origin.z));
-    }
-    progress.finish();
-    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
-    write_maps(writers, maps);
-    watch.lap("write");
-
     nlohmann::json object = {
         {"surface", title}, {"faces", mesh.mesh.faces()}, {"vertices", mesh.mesh.positions.size()}};
     object.update(to_json(summary, !mesh.mesh.corner_uv.empty()));
+    std::string text = to_text(printable(loaded.what), mesh, summary);
+    maps.compute(loaded, mesh, title, progress);
+    if (!maps.images.empty()) watch.lap("maps");
+    if (tiled) {
+        text += write_tiles(args, loaded, mesh, progress, object);
+        watch.lap("maps");
+    }
+    progress.finish();
+    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
+    write_maps(maps.writers, maps.images);
+    watch.lap("write");
+
     if (!args.out.empty()) object["out"] = args.out;
-    for (const MapQuantity q : quantities) object["maps"][name(q)] = map_file(args.maps_out, q);
     if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
-    if (!maps.empty()) object["texels"] = to_json(report);
-    const std::string text = to_text(printable(loaded.what), mesh, summary);
-    print_result(common, text + (maps.empty() ? "" : to_text(report, options)), object, watch);
+    maps.add_to(object);
+    print_result(common, text + (maps.images.empty() ? "" : to_text(maps.report, maps.options)), object, watch);
     note_all(common, title, loaded.surface.mesh().notes);
-    warn(common, title, report);
+    const bool positions = tiled || std::count(maps.quantities.begin(), maps.quantities.end(), MapQuantity::position);
+    if (const Vec3d& origin = mesh.mesh.origin; origin != Vec3d(0) && !args.maps_out.empty() && positions)
+        note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,
+                            origin.y, origin.z));
+    warn(common, title, maps.report);
     return 0;
 }
 

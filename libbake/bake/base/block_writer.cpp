@@ -22,6 +22,11 @@ void BlockWriter::commit() {
     file_.commit();
 }
 
+int BlockWriter::descriptor() {
+    if (std::fflush(stream_) != 0) refuse();
+    return file_.open_descriptor();
+}
+
 void BlockWriter::refuse() { refuse_unwritten(path_, std::strerror(errno)); }
 
 } // namespace bake

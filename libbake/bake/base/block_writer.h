@@ -23,6 +23,8 @@ public:
 
     void write(std::string_view block);
     void commit();
+    /// A descriptor of the file as written up to now, for reading, which the caller closes.
+    int descriptor();
     std::int64_t bytes() const noexcept { return bytes_; } ///< written
 
 private:

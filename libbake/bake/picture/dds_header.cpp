@@ -124,13 +124,10 @@ void read_code(const PictureFile& file, DdsHeader& header) {
     const std::uint32_t number = word(file, extended ? 128 : 84);
     if (extended) header.offset += 20;
     if (file.size() < header.offset) throw unreadable(file.path(), "is cut short");
-    if ((header.block_bytes = block_bytes(code, number)) > 0) return;
-    constexpr const char* names[] = {"R", "G", "B", "A"};
-    if (extended)
-        if (const auto* masked = find(std::begin(dxgi_masked), std::end(dxgi_masked), number))
-            return set_masks(file, *masked, names, header);
-    if (const auto* sampled = extended ? find(std::begin(dxgi_sampled), std::end(dxgi_sampled), number)
-                                       : find(std::begin(direct3d9_sampled), std::end(direct3d9_sampled), number))
+    if (extended && set_dxgi_texels(file, number, header)) return;
+    if (!extended && (header.block_bytes = block_bytes(code, number)) > 0) return;
+    if (const auto* sampled = find(std::begin(direct3d9_sampled), std::end(direct3d9_sampled), number);
+        sampled && !extended)
         return set_samples(*sampled, header);
     const bool printable = std::all_of(code.begin(), code.end(), [](unsigned char c) { return std::isprint(c); });
     throw unreadable(file.path(),
@@ -167,6 +164,8 @@ void read_parts(const PictureFile& file, DdsHeader& header) {
     }
 }
 
+} // namespace
+
 std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept {
     const std::int64_t width = std::max<std::int64_t>(1, header.width >> level),
                        height = std::max<std::int64_t>(1, header.height >> level);
@@ -174,7 +173,16 @@ std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept {
                                   : width * height * header.texel_bytes;
 }
 
-} // namespace
+bool set_dxgi_texels(const PictureFile& file, std::uint32_t number, DdsHeader& header) {
+    constexpr const char* names[] = {"R", "G", "B", "A"};
+    header.bc5 = number == 83;
+    if ((header.block_bytes = block_bytes("DX10", number)) > 0) return true;
+    if (const auto* masked = find(std::begin(dxgi_masked), std::end(dxgi_masked), number))
+        return set_masks(file, *masked, names, header), true;
+    if (const auto* sampled = find(std::begin(dxgi_sampled), std::end(dxgi_sampled), number))
+        return set_samples(*sampled, header), true;
+    return false;
+}
 
 DdsHeader read_dds_header(const PictureFile& file) {
     DdsHeader header;

@@ -1,4 +1,4 @@
-// The header of a DDS: what it says of its texels, and whether all of them are there.
+// The header of a texture, DDS or KTX2: what it says of its texels, and whether all of them are there.
 #pragma once
 #include "bake/picture/picture_file.h"
 #include <vector>
@@ -14,6 +14,7 @@ struct DdsHeader {
     std::int64_t face_bytes = 0;        ///< of a face with all its levels
 
     std::int64_t block_bytes = 0; ///< of 4 x 4 texels; 0 for a picture that is not compressed
+    bool bc5 = false;             ///< BC5 in its unsigned form, which is read here
     std::int64_t texel_bytes = 0; ///< of a texel that is not compressed
     SampleType type = SampleType::u8;
     std::vector<std::string> channels = {}; ///< none for a compressed picture
@@ -26,5 +27,11 @@ struct DdsHeader {
 /// that lacks a face or a level of those that its header claims, and Error{Refusal::unsuitable} for a volume and for a cube
 /// map without all six faces.
 DdsHeader read_dds_header(const PictureFile& file);
+
+/// Bytes of a level of one face.
+std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept;
+
+/// Sets what the header says of texels of this DXGI_FORMAT. False for a format that is not read.
+bool set_dxgi_texels(const PictureFile& file, std::uint32_t number, DdsHeader& header);
 
 } // namespace bake

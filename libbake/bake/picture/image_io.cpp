@@ -64,6 +64,7 @@ ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>*
     case PictureKind::hdr: read_rgbe(file, limits, info, image); break;
     case PictureKind::exr: read = read_exr(file, limits, info, image); break;
     case PictureKind::dds: read = read_dds(file, limits, info, image); break;
+    case PictureKind::ktx2: read_ktx2(file, limits, info, image); break;
     case PictureKind::bmp: read = read_masked_bmp(file, limits, info, image); break;
     default: read = false;
     }

@@ -10,7 +10,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr const char* mend = "export it as PNG, EXR, TIFF, HDR, JPEG, TGA, BMP, PNM, PFM, DDS, PSD, JPEG 2000 or WebP";
+constexpr const char* mend =
+    "export it as PNG, EXR, TIFF, HDR, JPEG, TGA, BMP, PNM, PFM, DDS, KTX2, PSD, JPEG 2000 or WebP";
 
 struct Signature {
     std::size_t offset;
@@ -28,6 +29,7 @@ constexpr Signature signatures[] = {
     {0, "#?"sv, PictureKind::hdr}, // the name of the program follows, mostly RADIANCE or RGBE
     {0, "\xff\xd8\xff"sv, PictureKind::jpeg},
     {0, "DDS "sv, PictureKind::dds},
+    {0, "\xabKTX 20\xbb"sv, PictureKind::ktx2},
     {0, "8BPS"sv, PictureKind::psd},
     {0, "\0\0\0\x0cjP  \r\n\x87\n"sv, PictureKind::jpeg2000},
     {0, "\xff\x4f\xff\x51"sv, PictureKind::jpeg2000}, // a codestream without boxes
@@ -71,7 +73,6 @@ constexpr OtherFormat other_formats[] = {
     {0, "\0\0\1\xba"sv, "a video"},
     {0, "\0\0\1\xb3"sv, "a video"},
     {0, "\xabKTX 11\xbb"sv, "a KTX texture"},
-    {0, "\xabKTX 20\xbb"sv, "a KTX2 texture"},
     {0, "\xff\x0a"sv, "a JPEG XL picture"},
     {0, "\0\0\0\x0cJXL "sv, "a JPEG XL picture"},
     {0, "II\xbc\1"sv, "a JPEG XR picture"},

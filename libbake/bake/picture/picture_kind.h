@@ -5,7 +5,7 @@
 namespace bake {
 
 /// The formats that are read.
-enum class PictureKind { png, exr, tiff, hdr, jpeg, tga, bmp, pnm, pfm, dds, psd, jpeg2000, webp };
+enum class PictureKind { png, exr, tiff, hdr, jpeg, tga, bmp, pnm, pfm, dds, ktx2, psd, jpeg2000, webp };
 
 /// The format of the file whatever its name is; only TGA, which has no signature, may need its ending. Throws
 /// Error{Refusal::unreadable} for any other format, with its name if it is a well-known one.

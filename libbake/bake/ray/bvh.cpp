@@ -125,6 +125,15 @@ struct Bvh::Impl {
     float scale = 1, unscale = 1; ///< of the positions in the buffers, see scale_for(); and its reciprocal
     std::vector<Buffers> meshes;
 
+    /// A context by which a filter finds the object.
+    struct Asked {
+        RTCIntersectContext context;
+        const Impl* impl;
+    };
+    static void skip_backs(const RTCFilterFunctionNArguments* args) noexcept;
+    void intersect(std::span<const Ray, packet_size> rays, PacketMask active, std::span<Hit, packet_size> hits,
+                   RTCFilterFunctionN filter) const noexcept;
+
     Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -162,7 +171,7 @@ template <bool seen> void Bvh::Impl::Buffers::filter(const RTCFilterFunctionNArg
     }
 }
 
-Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree) : impl_(std::make_unique<Impl>()) {
+Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree, bool fronts) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) refuse_device();
     impl_->scene = rtcNewScene(impl_->device);
@@ -170,7 +179,8 @@ Bvh::Bvh(std::vector<BvhMesh> meshes, BvhTree tree) : impl_(std::make_unique<Imp
     const bool quick = tree == BvhTree::quick;
     const RTCBuildQuality quality = quick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
     rtcSetSceneFlags(impl_->scene,
-                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (quick ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE)));
+                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | (quick ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE) |
+                                   (fronts ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_NONE)));
     rtcSetSceneBuildQuality(impl_->scene, quality);
     impl_->scale = scale_for(meshes), impl_->unscale = 1 / impl_->scale;
     impl_->meshes.resize(meshes.size());
@@ -229,21 +239,41 @@ bool Bvh::occluded(const Ray& ray) const noexcept {
     return query.tfar < 0; // Embree sets tfar to -infinity if the ray is occluded
 }
 
-void Bvh::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
-                    std::span<Hit, packet_size> hits) const noexcept {
+/// `filter`: asked about each triangle, or null. Hits of rays that are not active stay.
+void Bvh::Impl::intersect(std::span<const Ray, packet_size> rays, PacketMask active, std::span<Hit, packet_size> hits,
+                          RTCFilterFunctionN filter) const noexcept {
     alignas(64) int valid[packet_size];
     alignas(64) RTCRayHit16 query;
     for (int i = 0; i < packet_size; ++i) {
         query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        hits[std::size_t(i)] = {};
+        if (active >> i & 1) hits[std::size_t(i)] = {};
     }
-    if (to_embree(rays, active, impl_->scale, query.ray, valid) == 0) return;
-    RTCIntersectContext context = packet_context(impl_->tree);
-    rtcIntersect16(valid, impl_->scene, &context, &query);
+    if (to_embree(rays, active, scale, query.ray, valid) == 0) return;
+    Asked asked{packet_context(tree), this};
+    asked.context.filter = filter;
+    rtcIntersect16(valid, scene, &asked.context, &query);
     for (int i = 0; i < packet_size; ++i)
         if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-            hits[std::size_t(i)] = {query.ray.tfar[i] * impl_->unscale, query.hit.geomID[i], query.hit.primID[i],
+            hits[std::size_t(i)] = {query.ray.tfar[i] * unscale, query.hit.geomID[i], query.hit.primID[i],
                                     query.hit.u[i], query.hit.v[i]};
+}
+
+void Bvh::Impl::skip_backs(const RTCFilterFunctionNArguments* args) noexcept {
+    const Impl& self = *reinterpret_cast<const Asked*>(args->context)->impl;
+    const unsigned count = args->N;
+    for (unsigned i = 0; i < count; ++i) {
+        if (args->valid[i] == 0) continue;
+        const Vec3f direction(RTCRayN_dir_x(args->ray, count, i), RTCRayN_dir_y(args->ray, count, i),
+                              RTCRayN_dir_z(args->ray, count, i));
+        const Buffers& mesh = self.meshes[RTCHitN_geomID(args->hit, count, i)];
+        if (mesh.is_behind(RTCHitN_primID(args->hit, count, i), direction)) args->valid[i] = 0;
+    }
+}
+
+void Bvh::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
+                    std::span<Hit, packet_size> hits) const noexcept {
+    std::fill(hits.begin(), hits.end(), Hit{});
+    impl_->intersect(rays, active, hits, nullptr);
 }
 
 PacketMask Bvh::occluded(std::span<const Ray, packet_size> rays, PacketMask active) const noexcept {
@@ -255,6 +285,17 @@ PacketMask Bvh::occluded(std::span<const Ray, packet_size> rays, PacketMask acti
     PacketMask hidden = 0;
     for (int i = 0; i < packet_size; ++i) hidden |= PacketMask(valid[i] && query.tfar[i] < 0) << i;
     return hidden;
+}
+
+void Bvh::intersect_fronts(std::span<const Ray, packet_size> rays, PacketMask active,
+                           std::span<Hit, packet_size> hits) const noexcept {
+    // Most rays meet a front first. A filter that is asked about each triangle costs them more than the second try of the others.
+    intersect(rays, active, hits);
+    PacketMask behind = 0;
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (hits[i] && impl_->meshes[hits[i].mesh].is_behind(hits[i].triangle, rays[i].direction))
+            behind |= PacketMask(1) << i;
+    if (behind != 0) impl_->intersect(rays, behind, hits, Impl::skip_backs);
 }
 
 HitPoint Bvh::point(const Hit& hit) const noexcept {

@@ -61,7 +61,8 @@ struct HitPoint {
 class Bvh {
 public:
     /// Triangles with corners that are not finite or beyond 1e18 are never hit. Without any mesh every ray misses.
-    explicit Bvh(std::vector<BvhMesh> meshes, BvhTree tree = BvhTree::fast);
+    /// `fronts`: whether intersect_fronts() will be called.
+    explicit Bvh(std::vector<BvhMesh> meshes, BvhTree tree = BvhTree::fast, bool fronts = false);
     ~Bvh();
     Bvh(Bvh&&) noexcept;
     Bvh& operator=(Bvh&&) noexcept;
@@ -77,6 +78,10 @@ public:
     void intersect(std::span<const Ray, packet_size> rays, PacketMask active,
                    std::span<Hit, packet_size> hits) const noexcept;
     PacketMask occluded(std::span<const Ray, packet_size> rays, PacketMask active) const noexcept;
+    /// As intersect(), of triangles that a ray meets on the side from which their corners are counter-clockwise; the others are as
+    /// if they were not there. Filters of the meshes are not asked.
+    void intersect_fronts(std::span<const Ray, packet_size> rays, PacketMask active,
+                          std::span<Hit, packet_size> hits) const noexcept;
     /// Position of `hit`, which must come from this Bvh.
     HitPoint point(const Hit& hit) const noexcept;
     std::size_t triangle_count() const noexcept;

@@ -25,12 +25,21 @@ inline Jet<double> unit_torus(double u, double v) {
     return s;
 }
 
-/// The exact normal of the displaced torus.
-inline Vec3d relief_normal(const TorusRelief& r, double u, double v) {
+/// A point of the displaced torus with its derivatives along u and v.
+struct ReliefPoint {
+    Vec3d p, p_u, p_v;
+
+    Vec3d normal() const { return glm::normalize(glm::cross(p_u, p_v)); }
+};
+
+inline ReliefPoint relief_point(const TorusRelief& r, double u, double v) {
     const Jet<double> s = unit_torus(u, v);
     const Height<double> h = relief(r, u, v);
-    return glm::normalize(glm::cross(s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v));
+    return {s.p + h.b * s.n, s.p_u + h.b_u * s.n + h.b * s.n_u, s.p_v + h.b_v * s.n + h.b * s.n_v};
 }
+
+/// The exact normal of the displaced torus.
+inline Vec3d relief_normal(const TorusRelief& r, double u, double v) { return relief_point(r, u, v).normal(); }
 
 /// The relief as a texture: value = b / (2 A) + 0.5, so that amplitude 2 A and midlevel 0.5 give it back; rounded to
 /// `bits` where bits > 0.

@@ -22,10 +22,10 @@ TEST_SUITE("unit") {
 
     TEST_CASE("debug_rays: the envelope's triangles, needles of four triangles, and the witnesses that are misses") {
         const Job job(unit_plane(), {half_plane()}, job_options(32, 32));
-        std::vector<Witness> witnesses = missed_texels(job.target, job.high, job.casting, job.result, 5);
+        std::vector<Witness> witnesses = missed_texels(job.target, job.sources(), job.result, 5);
         REQUIRE(witnesses.size() == 5);
-        witnesses.push_back(farthest_texels(job.target, job.casting, job.result, 1).at(0)); // no miss
-        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, witnesses, 64);
+        witnesses.push_back(farthest_texels(job.target, job.sources(), job.result, 1).at(0)); // no miss
+        const Mesh mesh = debug_rays(job.target, job.sources(), job.result, witnesses, 64);
         check_sound(polygons(mesh.positions, {}));
         REQUIRE((mesh.materials == std::vector<std::string>{"cage", "rays", "misses"}));
         REQUIRE(mesh.face_material.size() == mesh.faces());
@@ -48,8 +48,8 @@ TEST_SUITE("unit") {
 
     TEST_CASE("debug_rays: needles are closed and point outward, misses end where their rays do") {
         const Job job(unit_plane(), {half_plane()}, job_options(32, 32));
-        const std::vector<Witness> witnesses = missed_texels(job.target, job.high, job.casting, job.result, 1);
-        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, witnesses, 1);
+        const std::vector<Witness> witnesses = missed_texels(job.target, job.sources(), job.result, 1);
+        const Mesh mesh = debug_rays(job.target, job.sources(), job.result, witnesses, 1);
         const std::size_t last = mesh.faces() - 1;
         const Vec3f tip = mesh.positions[mesh.corner_position[mesh.face_begin[last] + 2]];
         const Cast& cast = witnesses[0].cast;
@@ -69,7 +69,7 @@ TEST_SUITE("unit") {
         Mesh low = unit_plane(), high = half_plane();
         low.origin = high.origin = {1e6, 2e6, 0};
         const Job job(low, {high}, job_options(8, 8));
-        const Mesh mesh = debug_rays(job.target, job.high, job.casting, job.result, {}, 10);
+        const Mesh mesh = debug_rays(job.target, job.sources(), job.result, {}, 10);
         CHECK((mesh.origin == low.origin));
         CHECK(bounds(mesh).max.x < 2);
     }

@@ -83,7 +83,7 @@ TEST_SUITE("unit") {
         Mesh cage = low;
         for (Vec3f& p : cage.positions) p += Vec3f(0.3f, 0, 0.3f);
         const Casting casting(target.surface, cage, "cage");
-        const HighSurface surface(named({top, bottom}), Vec3d(0), HighNormals::smooth, 1, true);
+        const HighSurface surface(named({top, bottom}), Vec3d(0), HighNormals::smooth, 1);
         const Transfer result =
             transfer(target, surface, casting, near_options(4, 4, {DetailMap::thickness}).transfer, "low");
         CHECK(std::abs(double(result.details[0].at(1, 2)) - 0.2) < 1e-5);

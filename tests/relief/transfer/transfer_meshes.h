@@ -145,7 +145,7 @@ struct Job {
     Job(Mesh low_mesh, std::vector<Mesh> high_meshes, JobOptions with)
         : options(std::move(with)), low(std::move(low_mesh)),
           target(make_bake_target(low, "low", options.transfer.width, options.transfer.height)),
-          high(named(std::move(high_meshes)), low.origin, options.normals, 1e4, true),
+          high(named(std::move(high_meshes)), low.origin, options.normals, 1e4),
           casting(target.surface, options.cast,
                   options.reach ? constant_reach(target.surface, *options.reach)
                                 : measured_reach(target.surface, high)),
@@ -154,6 +154,7 @@ struct Job {
     Job& operator=(const Job&) = delete;
 
     const TransferReport& report() const { return result.report; }
+    TransferSources sources() const { return {{{&high, &casting}}, {}}; }
     const TexelHit& at(int x, int y) const { return target.raster.hits.at(x, y); }
     /// The value of a texel, decoded.
     Vec3d normal(int x, int y) const {

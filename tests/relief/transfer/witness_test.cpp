@@ -30,7 +30,7 @@ TEST_SUITE("unit") {
     TEST_CASE("missed_texels: the first misses in the order of texels, with the nearest corner of the high-poly mesh") {
         const Job job(unit_plane(), {with_gap()}, job_options(16, 16));
         REQUIRE(job.report().missed == 4 * 16);
-        const std::vector<Witness> witnesses = missed_texels(job.target, job.high, job.casting, job.result, 6);
+        const std::vector<Witness> witnesses = missed_texels(job.target, job.sources(), job.result, 6);
         REQUIRE(witnesses.size() == 6);
         for (std::size_t i = 0; i < witnesses.size(); ++i) {
             const Witness& w = witnesses[i];
@@ -47,15 +47,15 @@ TEST_SUITE("unit") {
             CHECK(w.mesh == "high0");
             CHECK((w.cast.inward == Vec3f(0, 0, -1)));
         }
-        CHECK(missed_texels(job.target, job.high, job.casting, job.result, 1000).size() == 64);
+        CHECK(missed_texels(job.target, job.sources(), job.result, 1000).size() == 64);
     }
 
     TEST_CASE(
         "missed_texels: none where all rays land; a texel that sees a back says so, and of which mesh is nearest") {
         const Job whole(unit_plane(), {unit_plane(0.01)}, job_options(8, 8));
-        CHECK(missed_texels(whole.target, whole.high, whole.casting, whole.result, 9).empty());
+        CHECK(missed_texels(whole.target, whole.sources(), whole.result, 9).empty());
         const Job back(unit_plane(), {unit_plane(5), turned_over(unit_plane(0.01))}, job_options(8, 8));
-        const std::vector<Witness> witnesses = missed_texels(back.target, back.high, back.casting, back.result, 3);
+        const std::vector<Witness> witnesses = missed_texels(back.target, back.sources(), back.result, 3);
         REQUIRE(witnesses.size() == 3);
         CHECK(witnesses[0].state == TexelState::behind);
         CHECK(witnesses[0].mesh == "high1");
@@ -63,7 +63,7 @@ TEST_SUITE("unit") {
 
     TEST_CASE("farthest_texels: the largest heights first, one of each four rows") {
         const Job job(unit_plane(), {slope()}, job_options(16, 16));
-        const std::vector<Witness> witnesses = farthest_texels(job.target, job.casting, job.result, 3);
+        const std::vector<Witness> witnesses = farthest_texels(job.target, job.sources(), job.result, 3);
         REQUIRE(witnesses.size() == 3);
         const double highest = 0.04 * (15.5 / 16) * (15.5 / 16) - 0.01;
         CHECK(witnesses[0].x == 15);
@@ -74,7 +74,7 @@ TEST_SUITE("unit") {
             for (std::size_t k = 0; k < i; ++k) CHECK(witnesses[i].y / 4 != witnesses[k].y / 4);
             CHECK(witnesses[i].state == TexelState::hit);
         }
-        CHECK(farthest_texels(job.target, job.casting, job.result, 100).size() == 4);
+        CHECK(farthest_texels(job.target, job.sources(), job.result, 100).size() == 4);
     }
 
 } // TEST_SUITE

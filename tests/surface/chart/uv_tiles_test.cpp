@@ -80,7 +80,7 @@ TEST_SUITE("unit") {
         CHECK(tiles_of(udim).placement == ChartPlacement::several);
         CHECK(refusal(udim) ==
               "mesh: its charts lie in several tiles of the uvs (1001, 1002, 1024) and overlap modulo 1; "
-              "name the tile to bake (`tile`), or move the charts into one tile");
+              "name the tile to bake (`tile`), or write <UDIM> in the name of the map for one map per tile");
         const UvRaster second = raster(udim, 1002);
         CHECK(second.covered == 64 * 64 / 2);
         CHECK(second.outside_faces == 2);

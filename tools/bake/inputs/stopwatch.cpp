@@ -10,9 +10,14 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 Stopwatch::Stopwatch() : last_(now()) {}
 
 void Stopwatch::lap(const std::string& step) {
-    const double time = now();
-    laps_.emplace_back(step, time - last_);
+    const double time = now(), seconds = time - last_;
     last_ = time;
+    for (auto& [name, sum] : laps_)
+        if (name == step) {
+            sum += seconds;
+            return;
+        }
+    laps_.emplace_back(step, seconds);
 }
 
 double Stopwatch::seconds(const std::string& step) const {

@@ -10,7 +10,7 @@ namespace bake {
 class Stopwatch {
 public:
     Stopwatch();
-    /// Ends a step.
+    /// Ends a step. The seconds of steps of one name add up.
     void lap(const std::string& step);
     /// Of the step of this name; 0 if there was none.
     double seconds(const std::string& step) const;

@@ -41,10 +41,12 @@ private:
     Mesh mesh_;
 };
 
-void draw_cage(const BakeTarget& target, const Casting& casting, Drawing& to) {
+void draw_cage(const BakeTarget& target, const TransferSources& sources, Drawing& to) {
     for (const Triangle& t : target.surface.triangles) {
+        const TransferSource* const source = sources.of(t.face);
+        if (!source) continue;
         std::uint32_t at[3];
-        for (std::size_t k = 0; k < 3; ++k) at[k] = to.point(casting.envelope(t.corner[k]));
+        for (std::size_t k = 0; k < 3; ++k) at[k] = to.point(source->casting->envelope(t.corner[k]));
         to.face({at[0], at[1], at[2]}, cage);
     }
 }
@@ -52,25 +54,29 @@ void draw_cage(const BakeTarget& target, const Casting& casting, Drawing& to) {
 void draw_cast(const Cast& cast, const HighSurface& high, Part part, Drawing& to) {
     Ray ray{cast.start, cast.inward};
     ray.t_max = cast.reach.front + cast.reach.back;
-    const Hit hit = high.bvh().intersect(ray);
+    const Hit hit = high.land(ray);
     to.needle(cast.start, cast.start + (hit ? hit.t : ray.t_max) * cast.inward, part);
 }
 
 } // namespace
 
-Mesh debug_rays(const BakeTarget& target, const HighSurface& high, const Casting& casting, const Transfer& result,
+Mesh debug_rays(const BakeTarget& target, const TransferSources& sources, const Transfer& result,
                 std::span<const Witness> witnesses, int most) {
     Drawing out;
     out.mesh().origin = target.surface.mesh->origin;
-    draw_cage(target, casting, out);
+    draw_cage(target, sources, out);
     const int width = result.states.width(), height = result.states.height();
     const int step = std::max(1, int(std::sqrt(double(width) * height / std::max(1, most))));
     for (int y = step / 2; y < height; y += step)
-        for (int x = step / 2; x < width; x += step)
-            if (result.states.at(x, y) == TexelState::hit && target.raster.hits.at(x, y).triangle != no_index)
-                draw_cast(casting.at(target.raster.hits.at(x, y)), high, rays, out);
+        for (int x = step / 2; x < width; x += step) {
+            const TexelHit& at = target.raster.hits.at(x, y);
+            if (result.states.at(x, y) != TexelState::hit || at.triangle == no_index) continue;
+            const TransferSource& source = *sources.of(target.surface.triangles[at.triangle].face);
+            draw_cast(source.casting->at(at), *source.high, rays, out);
+        }
     for (const Witness& witness : witnesses)
-        if (witness.state != TexelState::hit) draw_cast(witness.cast, high, misses, out);
+        if (const TransferSource* const source = sources.of(witness.face); source && witness.state != TexelState::hit)
+            draw_cast(witness.cast, *source->high, misses, out);
     return std::move(out.mesh());
 }
 

@@ -114,7 +114,7 @@ DetailProbe::Sky DetailProbe::sky_at(const Landing& landing) const noexcept {
 float DetailProbe::thickness_at(const Landing& landing) const noexcept {
     const HitPoint at = high_.bvh().point(landing.hit);
     const Vec3f inward = -landing.normal;
-    const Hit other = high_.both_sides().intersect({offset_origin(at, -at.normal), inward});
+    const Hit other = high_.bvh().intersect({offset_origin(at, -at.normal), inward});
     return other ? glm::dot(high_.position(other) - at.p, inward) : 0;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 #include "bake/mesh/triangulate.h"
 #include "bake/ray/bvh.h"
-#include <optional>
 #include <string>
 
 namespace bake {
@@ -18,18 +17,21 @@ struct HighMesh {
     std::string name;
 };
 
-/// Triangles of several meshes in one tree. Rays land on the front of triangles alone, the side from which their corners are
-/// counter-clockwise, and pass through the back; occluded() counts both.
+/// Triangles of several meshes in one tree. Rays land on the front of triangles, the side from which their corners are
+/// counter-clockwise, and pass through the back.
 class HighSurface {
 public:
     /// Positions become relative to `origin`, that of the low-poly mesh. `rays`: how many will be cast, by which the tree is
     /// chosen. Throws Error{Refusal::unsuitable}, which names the mesh, if one has no faces.
-    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays,
-                bool both_sides = false);
+    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays);
 
+    /// In it, rays meet both sides.
     const Bvh& bvh() const noexcept { return bvh_; }
-    /// A tree in which rays land on the back of triangles as well; only if the constructor was told so.
-    const Bvh& both_sides() const noexcept { return *both_sides_; }
+    void land(std::span<const Ray, packet_size> rays, PacketMask active,
+              std::span<Hit, packet_size> hits) const noexcept {
+        bvh_.intersect_fronts(rays, active, hits);
+    }
+    Hit land(const Ray& ray) const noexcept;
     std::size_t count() const noexcept { return parts_.size(); }
     const Mesh& mesh(std::size_t i) const noexcept { return parts_[i].high.mesh; }
     const std::string& name(std::size_t i) const noexcept { return parts_[i].high.name; }
@@ -56,11 +58,10 @@ private:
         std::uint32_t first_number = 1; ///< of its faces without a material
     };
     static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals);
-    static Bvh tree_of(const std::vector<Part>& parts, double rays, bool both_sides);
+    static Bvh tree_of(const std::vector<Part>& parts, double rays);
 
     std::vector<Part> parts_;
     Bvh bvh_;
-    std::optional<Bvh> both_sides_;
     Bounds bounds_;
 };
 

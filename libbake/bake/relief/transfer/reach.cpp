@@ -25,11 +25,20 @@ struct Extremes {
     void include(const Extremes& other) noexcept { out = std::max(out, other.out), in = std::max(in, other.in); }
 };
 
+std::vector<Triangle> triangles_of(const MeshSurface& low, std::span<const std::uint8_t> faces) {
+    if (faces.empty()) return low.triangles;
+    std::vector<Triangle> out;
+    for (const Triangle& t : low.triangles)
+        if (faces[t.face]) out.push_back(t);
+    return out;
+}
+
 class Measure {
 public:
-    Measure(const MeshSurface& low, const HighSurface& high)
-        : low_(low), high_(high), vertex_(first_equal(low.mesh->positions)), tree_(*low.mesh, low.triangles),
-          most_(farthest * diagonal(bounds(*low.mesh))), extremes_(low.mesh->positions.size()) {
+    Measure(const MeshSurface& low, const HighSurface& high, std::span<const std::uint8_t> faces)
+        : low_(low), high_(high), vertex_(first_equal(low.mesh->positions)), triangles_(triangles_of(low, faces)),
+          tree_(*low.mesh, triangles_), most_(farthest * diagonal(bounds(*low.mesh))),
+          extremes_(low.mesh->positions.size()) {
         std::size_t all = 0;
         for (std::size_t i = 0; i < high.count(); ++i) all += high.triangles(i).size();
         const std::size_t stride = all / most_samples + 1;
@@ -53,7 +62,7 @@ private:
         const NearestPoint nearest = tree_.nearest(p, start);
         start = nearest.triangle;
         if (start == no_index || !(nearest.distance2 <= most_ * most_)) return;
-        const Triangle& below = low_.triangles[tree_.index(start)];
+        const Triangle& below = triangles_[tree_.index(start)];
         const auto& c = tree_.corners(start);
         const Vec3f n = glm::cross(c[1] - c[0], c[2] - c[0]);
         if (!(glm::dot(n, high_.facet_normal(mesh, triangle)) > 0)) return;
@@ -67,7 +76,7 @@ private:
     /// To the neighbours, so that detail that hangs over an edge is within reach of both sides.
     void spread() {
         std::vector<Extremes> wide = extremes_;
-        for (const Triangle& t : low_.triangles) {
+        for (const Triangle& t : triangles_) {
             Extremes all;
             for (const std::uint32_t k : t.corner) all.include(extremes_[vertex_[low_.mesh->corner_position[k]]]);
             for (const std::uint32_t k : t.corner) wide[vertex_[low_.mesh->corner_position[k]]].include(all);
@@ -78,6 +87,7 @@ private:
     const MeshSurface& low_;
     const HighSurface& high_;
     std::vector<std::uint32_t> vertex_;
+    std::vector<Triangle> triangles_;
     TriangleTree tree_;
     double most_;
     std::vector<Extremes> extremes_; ///< of the first of equal positions
@@ -105,8 +115,9 @@ std::vector<float> least_cosines(const MeshSurface& low, const std::vector<std::
 
 } // namespace
 
-std::vector<Reach> measured_reach(const MeshSurface& low, const HighSurface& high) {
-    const Measure measure(low, high);
+std::vector<Reach> measured_reach(const MeshSurface& low, const HighSurface& high,
+                                  std::span<const std::uint8_t> faces) {
+    const Measure measure(low, high, faces);
     const std::vector<std::uint32_t>& vertex = measure.vertex();
     const std::vector<float> cosine = least_cosines(low, vertex);
     const auto extent = float(diagonal(bounds(*low.mesh)));

@@ -2,6 +2,7 @@
 #include "bake/mesh/side_corners.h"
 #include "bake/mesh/weld.h"
 #include "bake/relief/map/normal_code.h"
+#include "bake/surface/chart/uv_tiles.h"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -40,6 +41,13 @@ std::optional<TexelHit> on_edge(const std::vector<Triangle>& triangles, std::uin
     return TexelHit{triangle, weight[1], weight[2]};
 }
 
+bool in_tile(const Mesh& mesh, std::uint32_t face, int tile) {
+    if (tile == 0) return true;
+    const UvTile wanted{(tile - 1001) % 10, (tile - 1001) / 10};
+    const TileRange range = tiles_of_face(mesh, face);
+    return !range.empty && range.first == wanted && range.last == wanted;
+}
+
 double degrees_between(const Vec3f& a, const Vec3f& b) noexcept {
     return std::atan2(double(glm::length(glm::cross(a, b))), double(glm::dot(a, b))) * 180 / pi;
 }
@@ -62,7 +70,8 @@ Vec3f shaded_normal(const BakeTarget& target, const Image<float>& map, const Tex
     return unit_or_zero(t.x * T + t.y * target.tangents[corner[0]].w * glm::cross(N, T) + t.z * N);
 }
 
-SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>& map, Space space, bool directx) {
+SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>& map, Space space, bool directx,
+                                   int tile) {
     const Mesh& mesh = *target.surface.mesh;
     const std::vector<std::uint32_t> vertex = first_equal(mesh.positions);
     const HalfEdges half_edges = make_half_edges(mesh, vertex);
@@ -78,6 +87,8 @@ SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>&
     for (std::uint32_t e = 0; e < edges.edges(); ++e) {
         const auto sides = edges.of(e);
         if (sides.size() != 2) continue;
+        if (!in_tile(mesh, half_edges.face[sides[0]], tile) || !in_tile(mesh, half_edges.face[sides[1]], tile))
+            continue;
         // Both from the same end on.
         std::array<std::uint32_t, 2> end[2] = {ends[sides[0]], ends[sides[1]]};
         if (half_edges.origin[sides[0]] != half_edges.origin[sides[1]]) std::swap(end[1][0], end[1][1]);

@@ -10,8 +10,10 @@ struct SeamDisagreement {
 };
 
 /// The map is read bilinearly, as a shader does, at points about a texel apart along every seam, and decoded in the tangent space
-/// of each side (or as it is, in object space). `map`: encoded, three channels.
-SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>& map, Space space, bool directx);
+/// of each side (or as it is, in object space). `map`: encoded, three channels. `tile`: that of the map, as NormalMapOptions; seams
+/// between tiles do not count.
+SeamDisagreement seam_disagreement(const BakeTarget& target, const Image<float>& map, Space space, bool directx,
+                                   int tile = 0);
 
 /// The unit normal in object space that a shader takes from a map at a point of the mesh; zero where there is none.
 Vec3f shaded_normal(const BakeTarget& target, const Image<float>& map, const TexelHit& at, Space space,

@@ -1,8 +1,7 @@
 #include "bake/relief/transfer/transfer.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
-#include "bake/picture/pad_texels.h"
-#include "bake/relief/transfer/chart_ring.h"
+#include "bake/relief/transfer/finish_maps.h"
 #include "bake/relief/transfer/gauss_legendre.h"
 #include "bake/relief/transfer/map_frame.h"
 #include <algorithm>
@@ -22,8 +21,10 @@ struct Packet {
     std::array<Cast, packet_size> cast;
     std::array<Ray, packet_size> rays;
     std::array<Hit, packet_size> hits;
+    std::array<float, packet_size> start; ///< of the ray, above the low-poly mesh
     PacketMask used = 0;
     int count = 0;
+    const TransferSource* source = nullptr; ///< of all of them
 };
 
 Ray ray_of(const Cast& cast, float front, float back) noexcept {
@@ -35,18 +36,16 @@ Ray ray_of(const Cast& cast, float front, float back) noexcept {
 /// Sums over the samples of texels, until they are averaged.
 class Bake {
 public:
-    Bake(const BakeTarget& target, const HighSurface& high, const Casting& casting, const TransferOptions& options,
-         Transfer& out)
-        : target_(target), high_(high), casting_(casting), options_(options), details_(high, options.details),
-          facets_(target, options.width, options.height), out_(out),
-          weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
-                                                            : Image<float>()) {}
+    Bake(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options, Transfer& out)
+        : target_(target), sources_(sources), options_(options), facets_(target, options.width, options.height),
+          out_(out), weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
+                                                                       : Image<float>()) {
+        for (const TransferSource& source : sources.sources) details_.emplace_back(*source.high, options.details);
+    }
 
     /// One ray for each texel of the raster, of those that have none yet if `rest`.
     void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
-    void average();
-    /// The row of another map.
-    void average(DetailMap map, int y, float* row) const noexcept;
+    const Image<float>& weights() const noexcept { return weights_; }
 
 private:
     struct Counts {
@@ -60,15 +59,18 @@ private:
     };
     void clear(int y) noexcept;
     void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts);
+    const TransferSource* source_of(const TexelHit& at) const noexcept {
+        return sources_.of(target_.surface.triangles[at.triangle].face);
+    }
     void trace(Packet& packet, Counts& counts) const noexcept;
-    Vec3f beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept;
+    Vec3f beyond_border(const TransferSource& source, const TexelHit& edge, int x, int y, const Vec3f& at_edge,
+                        Counts& counts) const noexcept;
     void add(const Packet& packet, int lane, float weight, Counts& counts) noexcept;
 
     const BakeTarget& target_;
-    const HighSurface& high_;
-    const Casting& casting_;
+    const TransferSources& sources_;
     const TransferOptions& options_;
-    DetailProbe details_;
+    std::vector<DetailProbe> details_; ///< per source
     Facets facets_;
     Transfer& out_;
     Image<float> weights_; ///< with several rays
@@ -121,26 +123,43 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
     report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
 }
 
+/// Texels of one source at a time.
 void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts) {
-    Packet packet;
-    const int columns = std::min(block, options_.width - x);
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            const TexelHit& at = raster.hits.at(x + i, y + j);
-            if (at.triangle == no_index || (rest && out_.states.at(x + i, y + j) != TexelState::outside)) continue;
+    const int columns = std::min(block, options_.width - x), all = rows * columns;
+    PacketMask done = 0;
+    for (int first = 0; first < all && done != (PacketMask(1) << all) - 1; ++first) {
+        Packet packet;
+        for (int i = first; i < all; ++i) {
+            const int at_x = x + i % columns, at_y = y + i / columns;
+            const TexelHit& at = raster.hits.at(at_x, at_y);
+            TexelState& state = out_.states.at(at_x, at_y);
+            if (done >> i & 1) continue;
+            const bool wanted = at.triangle != no_index && !(rest && state != TexelState::outside);
+            const TransferSource* const source = wanted ? source_of(at) : nullptr;
+            if (!source) {
+                if (wanted) state = TexelState::missed; // a part without a counterpart
+                done |= PacketMask(1) << i;
+                continue;
+            }
+            if (packet.count > 0 && source != packet.source) continue;
+            done |= PacketMask(1) << i;
+            packet.source = source;
             const auto lane = std::size_t(packet.count++);
-            packet.at[lane] = at, packet.x[lane] = x + i, packet.y[lane] = y + j;
-            packet.cast[lane] = casting_.at(at);
+            packet.at[lane] = at, packet.x[lane] = at_x, packet.y[lane] = at_y;
+            packet.cast[lane] = source->casting->at(at);
             packet.rays[lane] = ray_of(packet.cast[lane], 1, 1);
+            packet.start[lane] = packet.cast[lane].reach.front;
         }
-    if (packet.count == 0) return;
-    packet.used = (PacketMask(1) << packet.count) - 1;
-    trace(packet, counts);
-    for (int lane = 0; lane < packet.count; ++lane) add(packet, lane, weight, counts);
+        if (packet.count == 0) break;
+        packet.used = (PacketMask(1) << packet.count) - 1;
+        trace(packet, counts);
+        for (int lane = 0; lane < packet.count; ++lane) add(packet, lane, weight, counts);
+    }
 }
 
 void Bake::trace(Packet& packet, Counts& counts) const noexcept {
-    high_.bvh().intersect(packet.rays, packet.used, packet.hits);
+    const HighSurface& high = *packet.source->high;
+    high.land(packet.rays, packet.used, packet.hits);
     counts.rays += packet.count;
     if (!options_.try_wider) return;
     PacketMask missed = 0;
@@ -148,10 +167,11 @@ void Bake::trace(Packet& packet, Counts& counts) const noexcept {
         if (packet.hits[lane]) continue;
         missed |= PacketMask(1) << lane;
         packet.rays[lane] = ray_of(packet.cast[lane], wider_front, wider_back);
+        packet.start[lane] *= wider_front;
     }
     if (missed == 0) return;
     std::array<Hit, packet_size> found;
-    high_.bvh().intersect(packet.rays, missed, found);
+    high.land(packet.rays, missed, found);
     for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
         if (!(missed >> lane & 1)) continue;
         ++counts.rays;
@@ -162,24 +182,25 @@ void Bake::trace(Packet& packet, Counts& counts) const noexcept {
 
 void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noexcept {
     const auto i = std::size_t(lane);
+    const HighSurface& high = *packet.source->high;
     const TexelHit& at = packet.at[i];
     const Hit& hit = packet.hits[i];
     TexelState& state = out_.states.at(packet.x[i], packet.y[i]);
     if (!hit) {
         if (state != TexelState::outside) return;
-        state = high_.bvh().occluded(packet.rays[i]) ? TexelState::behind : TexelState::missed;
+        state = high.bvh().occluded(packet.rays[i]) ? TexelState::behind : TexelState::missed;
         return;
     }
-    const Vec3f normal = high_.normal(hit);
+    const Vec3f normal = high.normal(hit);
     const MapFrame frame(target_, at, options_.space);
     Vec3f t = frame.in_map(normal);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;
     }
-    t = beyond_border(at, packet.x[i], packet.y[i], t, counts);
+    t = beyond_border(*packet.source, at, packet.x[i], packet.y[i], t, counts);
     const Cast& cast = packet.cast[i];
-    const double height = double(height_of(cast, high_.position(hit)));
+    const double height = double(packet.start[i] - hit.t);
     counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
                packet.y[i]);
     const bool first = state != TexelState::hit;
@@ -191,7 +212,7 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
     const std::uint64_t seed =
         std::uint64_t(pass_) << 40 ^ std::uint64_t(packet.y[i]) << 20 ^ std::uint64_t(packet.x[i]);
     std::array<float, 4 * std::size(all_detail_maps)> values;
-    details_.at({cast, hit, normal, seed}, values);
+    details_[std::size_t(packet.source - sources_.sources.data())].at({cast, hit, normal, seed}, values);
     for (std::size_t m = 0; m < out_.details.size(); ++m) {
         const DetailMap map = options_.details.maps[m];
         float* to = &out_.details[m].at(packet.x[i], packet.y[i]);
@@ -208,80 +229,35 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
 
 /// The value for a texel whose centre lies beyond the border of a chart, continued linearly from the nearest point of the chart and
 /// from the point as far inside: what a bilinear filter reads on the border is then what was hit there, on both sides of a seam.
-Vec3f Bake::beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge, Counts& counts) const noexcept {
+Vec3f Bake::beyond_border(const TransferSource& source, const TexelHit& edge, int x, int y, const Vec3f& at_edge,
+                          Counts& counts) const noexcept {
     constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
     const auto inside = mirrored_at_border(target_, edge, x, y, options_.width, options_.height);
     if (!inside) return at_edge;
-    const Hit hit = high_.bvh().intersect(ray_of(casting_.at(*inside), 1, 1));
+    const Hit hit = source.high->land(ray_of(source.casting->at(*inside), 1, 1));
     ++counts.rays;
     if (!hit) return at_edge;
-    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(high_.normal(hit));
+    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(source.high->normal(hit));
     return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
-}
-
-void Bake::average() {
-    for_rows(options_.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = int(begin); y < int(end); ++y) {
-            float* rgb = out_.map.row(y);
-            for (int x = 0; x < options_.width; ++x, rgb += 3) {
-                const Vec3f n = unit_or_zero(Vec3f(rgb[0], rgb[1], rgb[2]));
-                if (n == Vec3f(0) && out_.states.at(x, y) == TexelState::hit) out_.states.at(x, y) = TexelState::missed;
-                const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
-                for (int c = 0; c < 3; ++c) rgb[c] = code[c];
-            }
-            for (std::size_t m = 0; m < out_.details.size(); ++m)
-                average(options_.details.maps[m], y, out_.details[m].row(y));
-        }
-    });
-}
-
-void Bake::average(DetailMap map, int y, float* row) const noexcept {
-    if (map == DetailMap::id) return;
-    const int count = channels(map);
-    for (int x = 0; x < options_.width; ++x, row += count) {
-        if (map == DetailMap::bent_normal) {
-            const Vec3f n = unit_or_zero(Vec3f(row[0], row[1], row[2]));
-            const Vec3f code = encode_normal(n == Vec3f(0) ? Vec3f(0, 0, 1) : n, options_.directx);
-            for (int c = 0; c < 3; ++c) row[c] = code[c];
-        } else if (!weights_.empty() && weights_.at(x, y) > 0) {
-            for (int c = 0; c < count; ++c) row[c] /= weights_.at(x, y);
-        }
-    }
-}
-
-void count_states(Transfer& out, bool tangent) {
-    for (int y = 0; y < out.map.height(); ++y)
-        for (int x = 0; x < out.map.width(); ++x) switch (out.states.at(x, y)) {
-            case TexelState::outside: break;
-            case TexelState::hit:
-                ++out.report.hit;
-                out.report.outward += tangent && out.map.at(x, y, 2) <= 0.5f;
-                break;
-            case TexelState::behind: ++out.report.behind; [[fallthrough]];
-            case TexelState::missed: ++out.report.missed; break;
-            }
-}
-
-void pad(Transfer& out, int padding) {
-    Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
-    for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
-    for (Image<float>& map : out.details) pad_texels(map, owned, padding);
-    if (padding > 0) out.report.padded = continue_charts(out.map, owned);
-    out.report.padded += pad_texels(out.map, owned, padding - 1);
-    out.report.empty = std::int64_t(owned.size()) - out.report.hit - out.report.padded;
 }
 
 } // namespace
 
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
                   const TransferOptions& options, const std::string& path, Progress* progress) {
+    return transfer(target, {{{&high, &casting}}, {}}, options, path, progress);
+}
+
+Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
+                  const std::string& path, Progress* progress) {
     Transfer out;
     out.map = Image<float>(options.width, options.height, 3);
     for (const DetailMap map : options.details.maps)
         out.details.emplace_back(options.width, options.height, channels(map));
+    if (options.alpha) out.alpha = Image<float>(options.width, options.height, 1);
     out.states = Image<TexelState>(options.width, options.height, 1);
     out.report.nearest = INFINITY, out.report.farthest = -INFINITY;
-    Bake bake(target, high, casting, options, out);
+    Bake bake(target, sources, options, out);
     if (options.rays > 1) {
         const std::vector<QuadraturePoint> rule = gauss_legendre(options.rays);
         for (const QuadraturePoint& v : rule)
@@ -293,13 +269,11 @@ Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casti
     }
     // Texels of which no sample lies in a chart have a triangle at their border.
     bake.cast_all(target.raster, 1, options.rays > 1, progress);
-    bake.average();
     if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
     std::stable_sort(out.far.begin(), out.far.end(),
                      [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
-    count_states(out, options.space == Space::tangent);
     out.report.border = target.raster.border;
-    pad(out, options.padding);
+    finish_maps(out, bake.weights(), options);
     return out;
 }
 

@@ -18,6 +18,7 @@ struct TransferOptions {
     int padding = 16;     ///< texels filled beyond the charts' borders
     int tile = 0;         ///< as NormalMapOptions
     int rays = 1;         ///< along each side of a texel, from 1 to 16
+    bool alpha = false;   ///< whether Transfer::alpha is wanted
     DetailOptions details;
     bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
 };
@@ -28,6 +29,8 @@ enum class TexelState : unsigned char {
     missed,  ///< its rays find nothing
     behind,  ///< its rays find nothing but the back of triangles
 };
+
+inline bool is_missed(TexelState state) noexcept { return state == TexelState::missed || state == TexelState::behind; }
 
 /// What became of texels and rays.
 struct TransferReport {
@@ -53,15 +56,36 @@ struct FarTexel {
 struct Transfer {
     Image<float> map;                  ///< three channels, encoded
     std::vector<Image<float>> details; ///< options.details.maps, padded like the map; 0 elsewhere
+    Image<float> alpha; ///< 1 where the map was filled, padding included; 0 for misses, and beyond the padding
     Image<TexelState> states;
     TransferReport report;
     std::vector<FarTexel> far; ///< of each four rows the texel with the largest height or depth, ordered by that
+};
+
+/// What a part of the low-poly mesh is baked from.
+struct TransferSource {
+    const HighSurface* high;
+    const Casting* casting;
+};
+struct TransferSources {
+    std::vector<TransferSource> sources;
+    std::vector<std::uint32_t>
+        of_face; ///< faces of the low-poly mesh: the source, no_index for none; empty: the first for all
+
+    /// Null for a face without a source.
+    const TransferSource* of(std::uint32_t face) const noexcept {
+        const std::uint32_t i = of_face.empty() ? 0 : of_face[face];
+        return i == no_index ? nullptr : &sources[i];
+    }
 };
 
 /// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat
 /// normal. The average of several rays is over the part of the texel that lies in
 /// charts, by Gauss and Legendre's rule in each direction: an average over a smooth surface is exact to the degree 2 rays - 1.
 /// `target` has the size and the tile of the options. The result does not depend on the number of threads.
+Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
+                  const std::string& path, Progress* progress = nullptr);
+/// From one source.
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
                   const TransferOptions& options, const std::string& path, Progress* progress = nullptr);
 

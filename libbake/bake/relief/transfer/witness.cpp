@@ -5,14 +5,15 @@
 namespace bake {
 namespace {
 
-Witness witness_at(const BakeTarget& target, const Casting& casting, int x, int y) {
+Witness witness_at(const BakeTarget& target, const TransferSources& sources, int x, int y) {
     Witness out{.x = x, .y = y};
     const TexelHit& at = target.raster.hits.at(x, y);
     const Mesh& mesh = *target.surface.mesh;
     const Triangle& triangle = target.surface.triangles[at.triangle];
     const double b[3] = {1.0 - double(at.b1) - double(at.b2), double(at.b1), double(at.b2)};
     for (std::size_t k = 0; k < 3; ++k) out.uv += b[k] * Vec2d(mesh.uvs[mesh.corner_uv[triangle.corner[k]]]);
-    out.face = triangle.face, out.cast = casting.at(at);
+    out.face = triangle.face;
+    if (const TransferSource* const source = sources.of(out.face)) out.cast = source->casting->at(at);
     return out;
 }
 
@@ -30,28 +31,29 @@ void set_nearest(Witness& witness, const HighSurface& high) {
 
 } // namespace
 
-std::vector<Witness> missed_texels(const BakeTarget& target, const HighSurface& high, const Casting& casting,
-                                   const Transfer& result, std::size_t most) {
+std::vector<Witness> missed_texels(const BakeTarget& target, const TransferSources& sources, const Transfer& result,
+                                   std::size_t most) {
     std::vector<Witness> out;
     for (int y = 0; y < result.states.height() && result.report.missed > 0; ++y)
         for (int x = 0; x < result.states.width() && out.size() < most; ++x) {
             const TexelState state = result.states.at(x, y);
-            if (state != TexelState::missed && state != TexelState::behind) continue;
+            if (!is_missed(state)) continue;
             if (target.raster.hits.at(x, y).triangle == no_index) continue; // a sample beside the centre was in a chart
-            out.push_back(witness_at(target, casting, x, y));
+            out.push_back(witness_at(target, sources, x, y));
             out.back().state = state;
-            set_nearest(out.back(), high);
+            if (const TransferSource* const source = sources.of(out.back().face))
+                set_nearest(out.back(), *source->high);
         }
     return out;
 }
 
-std::vector<Witness> farthest_texels(const BakeTarget& target, const Casting& casting, const Transfer& result,
+std::vector<Witness> farthest_texels(const BakeTarget& target, const TransferSources& sources, const Transfer& result,
                                      std::size_t most) {
     std::vector<Witness> out;
     for (const FarTexel& far : result.far) {
         if (out.size() == most) break;
         if (target.raster.hits.at(far.x, far.y).triangle == no_index) continue;
-        out.push_back(witness_at(target, casting, far.x, far.y));
+        out.push_back(witness_at(target, sources, far.x, far.y));
         out.back().state = TexelState::hit, out.back().height = far.height;
     }
     return out;

@@ -14,14 +14,14 @@ struct Witness {
     /// Of a miss: the corner of the high-poly meshes that is nearest to the low-poly mesh there, and its distance.
     Vec3f nearest{0};
     double distance = 0;
-    std::string mesh; ///< that has the corner
+    std::string mesh; ///< that has the corner; empty for a part without a counterpart
 };
 
 /// The first `most` misses in the order of texels.
-std::vector<Witness> missed_texels(const BakeTarget& target, const HighSurface& high, const Casting& casting,
-                                   const Transfer& result, std::size_t most);
+std::vector<Witness> missed_texels(const BakeTarget& target, const TransferSources& sources, const Transfer& result,
+                                   std::size_t most);
 /// Up to `most` texels with detail far from the low-poly mesh, the farthest first; no two of the same four rows.
-std::vector<Witness> farthest_texels(const BakeTarget& target, const Casting& casting, const Transfer& result,
+std::vector<Witness> farthest_texels(const BakeTarget& target, const TransferSources& sources, const Transfer& result,
                                      std::size_t most);
 
 } // namespace bake

@@ -245,9 +245,10 @@ UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, 
     case ChartPlacement::one_tile: out = raster_tile(mesh, triangles, width, height, tiles.tiles[0], options); break;
     case ChartPlacement::modulo_1: out = raster_modulo_1(mesh, triangles, width, height, options); break;
     case ChartPlacement::several:
-        throw Error(Refusal::unsuitable, path + ": its charts lie in several tiles of the uvs (" + names(tiles.tiles) +
-                                             ") and overlap modulo 1; name the tile to bake (`tile`), or move the "
-                                             "charts into one tile");
+        throw Error(Refusal::unsuitable,
+                    path + ": its charts lie in several tiles of the uvs (" + names(tiles.tiles) +
+                        ") and overlap modulo 1; name the tile to bake (`tile`), or write <UDIM> in "
+                        "the name of the map for one map per tile");
     }
     if (tiles.placement != ChartPlacement::as_they_are) out.tiles = names(tiles.tiles);
     if (options.border && out.covered + out.border == 0)

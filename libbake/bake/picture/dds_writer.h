@@ -1,0 +1,12 @@
+// DDS of a flat picture with all its levels.
+#pragma once
+#include "bake/base/block_writer.h"
+#include "bake/picture/texture_level.h"
+#include <vector>
+
+namespace bake {
+
+/// Writes the header with its DX10 extension and the levels, largest first. Does not commit.
+void write_dds(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels);
+
+} // namespace bake

@@ -1,0 +1,77 @@
+// Khronos, "KTX File Format Specification" 2.0.
+#include "bake/picture/ktx2_header.h"
+#include "bake/picture/masked_texels.h"
+#include <algorithm>
+#include <iterator>
+
+namespace bake {
+namespace {
+
+constexpr const char* mend = "export it again as RGBA or BC5 without supercompression";
+constexpr std::int64_t index_at = 80, index_bytes = 24;
+
+/// The number that DXGI_FORMAT has for a VkFormat; 0: not read.
+std::uint32_t dxgi_of(std::uint32_t vulkan) noexcept {
+    constexpr std::uint32_t pairs[][2] = {
+        {9, 61},  {16, 49}, {37, 28}, {43, 29},  {44, 87},  {50, 91}, {70, 56}, {76, 54},  {77, 35},
+        {83, 34}, {91, 11}, {97, 10}, {100, 41}, {103, 16}, {106, 6}, {109, 2}, {141, 83},
+    };
+    for (const auto& [from, to] : pairs)
+        if (from == vulkan) return to;
+    return 0;
+}
+
+std::uint32_t word(const PictureFile& file, std::size_t at) noexcept { return little_endian(file.head(), at, 4); }
+
+/// 8 bytes, at most 2^62.
+std::int64_t place(const PictureFile& file, std::size_t at) noexcept {
+    return std::int64_t(word(file, at)) | std::int64_t(std::min(word(file, at + 4), 0x3fffffffu)) << 32;
+}
+
+void check_kind(const PictureFile& file) {
+    const auto unsuitable = [&](const char* why) { return Error(Refusal::unsuitable, file.path() + ": " + why); };
+    if (word(file, 28) > 0) throw unsuitable("is a volume; give a flat image");
+    if (word(file, 36) != 1) throw unsuitable("is a cube map; give its faces as pictures");
+    if (word(file, 44) != 0) throw unreadable(file.path(), "is supercompressed, which is not read", mend);
+}
+
+/// Rows from the bottom up are said by the second letter of KTXorientation.
+bool bottom_up(const PictureFile& file) {
+    const std::int64_t at = word(file, 56), size = std::min<std::int64_t>(word(file, 60), 1 << 16);
+    std::string pairs(std::size_t(size), '\0');
+    pairs.resize(std::size_t(std::max<std::int64_t>(0, file.read(at, pairs.data(), size))));
+    const std::string key("KTXorientation\0", 15);
+    const std::size_t found = pairs.find(key);
+    return found != std::string::npos && found + key.size() + 1 < pairs.size() && pairs[found + key.size() + 1] == 'u';
+}
+
+} // namespace
+
+DdsHeader read_ktx2_header(const PictureFile& file) {
+    if (std::int64_t(file.head().size()) < index_at + index_bytes) throw unreadable(file.path(), "is cut short");
+    DdsHeader header;
+    header.width = word(file, 20), header.height = std::max(1u, word(file, 24));
+    if (header.width == 0) throw unreadable(file.path(), "has no pixels");
+    if (std::max(header.width, header.height) > (1 << 20))
+        throw unreadable(file.path(), "claims more pixels than a texture has room for");
+    check_kind(file);
+    const std::uint32_t vulkan = word(file, 12), dxgi = dxgi_of(vulkan);
+    if (dxgi == 0 || !set_dxgi_texels(file, dxgi, header))
+        throw unreadable(file.path(), "has texels of the format " + std::to_string(vulkan) + ", which are not read",
+                         mend);
+    header.arrays = std::max(1u, word(file, 32));
+    header.offset = place(file, std::size_t(index_at));
+    header.face_bytes = level_bytes(header, 0);
+    if (place(file, std::size_t(index_at) + 8) < header.face_bytes)
+        throw unreadable(file.path(), "has a level that is smaller than its size says");
+    constexpr std::int64_t most_levels = 32;
+    for (std::int64_t k = 0; k < std::min<std::int64_t>(most_levels, std::max(1u, word(file, 40))); ++k) {
+        const auto at = std::size_t(index_at + k * index_bytes);
+        if (place(file, at) > file.size() || place(file, at + 8) > file.size() - place(file, at))
+            throw unreadable(file.path(), "is cut short");
+    }
+    if (bottom_up(file)) throw Error(Refusal::unsuitable, file.path() + ": is stored from the bottom up; turn it over");
+    return header;
+}
+
+} // namespace bake

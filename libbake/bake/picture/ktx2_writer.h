@@ -1,0 +1,13 @@
+// KTX2 of a flat picture with all its levels, not supercompressed.
+#pragma once
+#include "bake/base/block_writer.h"
+#include "bake/picture/texture_level.h"
+#include <vector>
+
+namespace bake {
+
+/// Writes the header, the index of levels, the data format descriptor, the keys KTXorientation and KTXwriter, and the levels,
+/// smallest first. Does not commit.
+void write_ktx2(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels);
+
+} // namespace bake

@@ -1,0 +1,28 @@
+// Textures for graphics cards: DDS and KTX2, with all their levels.
+#pragma once
+#include "bake/base/block_writer.h"
+#include "bake/picture/image.h"
+#include "bake/picture/texture_level.h"
+#include <optional>
+#include <vector>
+
+namespace bake {
+
+enum class TextureContainer { dds, ktx2 };
+
+/// The container for the ending of the name, in upper or lower case: .dds or .ktx2.
+std::optional<TextureContainer> texture_container(const std::string& path);
+
+/// The first channels of `values`, as many as the format has. Values beyond the range are clamped; NaN counts as its least.
+TextureLevel pack_level(const Image<float>& values, TexelFormat format);
+
+/// Writes a texture whose levels go from the largest down to 1 x 1, each half as large as the one before, rounded down. The
+/// caller commits `out`.
+void write_texture(BlockWriter& out, TextureContainer container, TexelFormat format,
+                   const std::vector<TextureLevel>& levels);
+
+/// The largest level of the texture that was written to `out`, decoded from the bytes of the file as read_image() does.
+/// `path` is named in messages. Before `out` is committed.
+Image<float> read_back(BlockWriter& out, const std::string& path, TextureContainer container);
+
+} // namespace bake

@@ -1,0 +1,90 @@
+#include "normal_map_file.h"
+#include "bake/picture/texture_file.h"
+#include "bake/relief/map/normal_mips.h"
+#include <algorithm>
+
+namespace bake {
+namespace {
+
+/// (n + 1) / 2
+Image<float> as_colours(const Image<float>& normals) {
+    Image<float> colours(normals.width(), normals.height(), 3);
+    for (std::size_t i = 0; i < colours.size(); ++i) colours.data()[i] = 0.5f * normals.data()[i] + 0.5f;
+    return colours;
+}
+
+StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
+                             Depth depth) {
+    const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
+                               : depth == Depth::u16 ? TexelFormat::rgba16
+                                                     : TexelFormat::bc5;
+    const bool blocks = format == TexelFormat::bc5;
+    std::vector<TextureLevel> levels;
+    for (const NormalLevel& mip : mips)
+        levels.push_back(blocks ? pack_level(mip.normal, format) : pack_level(as_colours(mip.normal), format));
+    const TextureContainer container = *texture_container(path);
+    write_texture(out, container, format, levels);
+    const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
+    out.commit();
+    return {int(levels.size()), blocks, error};
+}
+
+void write_roughness(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
+                     double roughness) {
+    std::vector<TextureLevel> levels;
+    for (const NormalLevel& mip : mips)
+        levels.push_back(pack_level(roughness_map(mip, float(roughness)), TexelFormat::r8));
+    write_texture(out, *texture_container(path), TexelFormat::r8, levels);
+    out.commit();
+}
+
+void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<float>& alpha) {
+    std::vector<float> row(4 * std::size_t(map.width()));
+    for (int y = 0; y < map.height(); ++y) {
+        for (int x = 0; x < map.width(); ++x) {
+            std::copy_n(&map.at(x, y), 3, &row[4 * std::size_t(x)]);
+            row[4 * std::size_t(x) + 3] = alpha.at(x, y);
+        }
+        writer.write(row.data(), 1);
+    }
+}
+
+} // namespace
+
+std::string to_text(const StoredNormalMap& stored) {
+    const StoredError& error = stored.error;
+    return format("%d mips; largest level as it is read back: mean %.4f, p95 %.4f, max %.4f, rms %.4f deg", stored.mips,
+                  error.mean_deg, error.p95_deg, error.max_deg, error.rms_deg);
+}
+
+nlohmann::json to_json(const StoredNormalMap& stored) {
+    return {{"mips", stored.mips},
+            {"mean_deg", stored.error.mean_deg},
+            {"p95_deg", stored.error.p95_deg},
+            {"max_deg", stored.error.max_deg},
+            {"rms_deg", stored.error.rms_deg}};
+}
+
+NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
+    : args_(args), depth_(depth) {
+    if (texture_container(args.out)) texture_.emplace(args.out);
+    else if (args.high.alpha)
+        picture_.emplace(args.out, width, height, 4, WriteOptions{.depth = depth, .channels = {"R", "G", "B", "A"}});
+    else picture_.emplace(args.out, width, height, 3, WriteOptions{.depth = depth, .channels = {"R", "G", "B"}});
+    if (!args.roughness_map.empty()) roughness_.emplace(args.roughness_map);
+}
+
+std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, const Image<float>& alpha) {
+    if (picture_) {
+        if (alpha.empty()) picture_->write(map.data(), map.height());
+        else write_with_alpha(*picture_, map, alpha);
+        picture_->finish();
+    }
+    if (!texture_ && !roughness_) return {};
+    const std::vector<NormalLevel> mips = normal_mips(map, args_.directx);
+    if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
+    if (!texture_) return {};
+    return write_levels(*texture_, args_.out, mips, depth_);
+}
+
+} // namespace bake

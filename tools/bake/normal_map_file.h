@@ -1,0 +1,35 @@
+// The files of the verb normal-map: the map as a picture or as a texture with all levels, and the roughness of the levels.
+#pragma once
+#include "bake/base/block_writer.h"
+#include "bake/picture/image_io.h"
+#include "bake/relief/map/stored_error.h"
+#include "normal_map_options.h"
+
+namespace bake {
+
+struct StoredNormalMap {
+    int mips = 0;
+    bool blocks = false; ///< bc5
+    StoredError error;   ///< of the largest level, read from the file
+};
+
+/// "11 mips; ..."
+std::string to_text(const StoredNormalMap& stored);
+nlohmann::json to_json(const StoredNormalMap& stored);
+
+class NormalMapFile {
+public:
+    /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it.
+    NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth);
+    /// Writes and completes them. Says how a texture was stored; nothing for a picture. `alpha`: the fourth channel of a picture
+    /// under --alpha.
+    std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});
+
+private:
+    const NormalMapArgs& args_;
+    Depth depth_;
+    std::optional<ImageWriter> picture_;
+    std::optional<BlockWriter> texture_, roughness_;
+};
+
+} // namespace bake
