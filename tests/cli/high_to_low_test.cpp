@@ -189,6 +189,8 @@ TEST_SUITE("cli") {
         "high to low: a mesh on itself is flat within the encoding, shells closer than the envelope go by the first") {
         const Meshes folder;
         const std::string torus = (own_meshes() / "torus.obj").string();
+        const Run level = good(folder, command({}, "low.obj", "low.obj"));
+        CHECK(level.out.find("detail lies 0 to 0 above the surface") != std::string::npos);
         good(folder, {"normal-map", torus, "--high", torus, "-o", "n.png", "--size", "96x48"});
         CHECK(off_flat(folder / "n.png") <= step);
         // The outer shell leans to -x, the inner one is level; both are within reach.
@@ -255,7 +257,8 @@ TEST_SUITE("cli") {
         check_refused(folder, command({"--maps", "hight", "--maps-out", "m"}), 2, "'hight' is no map; choose from");
         check_refused(folder, command({"--cage", "low.obj", "--extrude", "1"}), 2, "--cage: brings its own distances");
         check_refused(folder, command({"--max-distance", "1"}), 2, "--max-distance: counts from where rays start");
-        check_refused(folder, command({"--extent", "1,1"}), 2, "leave them out with --high");
+        for (const char* option : {"--extent=1,1", "--amplitude=1", "--method=blinn", "--wrap=clamp", "--invert"})
+            check_refused(folder, command({option}), 2, "leave it out with --high");
         check_refused(folder, command({}, "low.obj", dots), 3, "dots.png: is a picture, where a mesh is expected");
         check_refused(folder, command({"--debug-rays", "low.obj"}), 2, "would replace a file");
         check_refused(folder,

@@ -80,7 +80,7 @@ std::string to_text(const HighReport& report) {
     if (r.hit > 0)
         text += format("\ndetail lies %.3g to %.3g above the surface; leaning rays move it by %.2g texels in the mean, "
                        "%.2g at most",
-                       r.nearest, r.farthest, r.parallax_mean, r.parallax_max);
+                       r.nearest + 0.0, r.farthest + 0.0, r.parallax_mean, r.parallax_max); // + 0: no "-0"
     if (report.density.max > 0)
         text += format("\n%.4g texels per unit in the median, 90 %% of the surface %.4g to %.4g", report.density.median,
                        report.density.p05, report.density.p95);

@@ -83,8 +83,6 @@ void complete(NormalMapArgs& args, const std::string& verb) {
             throw usage("--high: needs the low-poly mesh; name it first, as in bake " + verb + " LOW --high HIGH");
         if (!args.height.path.empty())
             throw usage("--high, --height: the detail comes from one of them; leave the other out");
-        if (args.extent || !args.displaced.empty())
-            throw usage("--extent, --residual-of: belong to a height; leave them out with --high");
         expect_mesh(args.mesh);
         if (args.high.alpha && texture_container(args.out))
             throw usage("--alpha: a texture has no fourth channel; choose a name that ends in .png, .exr or .tif");

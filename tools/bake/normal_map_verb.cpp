@@ -142,7 +142,10 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "  bake displace meshes/torus.obj --height meshes/bricks.png --amplitude 1% --levels 2 -o displaced.glb\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% --residual-of displaced.glb -o "
         "detail.png\n");
-    return [args, &common] { return run(*args, common); };
+    return [args, &common, &sub] {
+        refuse_height_options(sub, args->high);
+        return run(*args, common);
+    };
 }
 
 } // namespace bake
