@@ -15,6 +15,7 @@ const char* name(TexelState state) {
     case TexelState::hit: return "hit";
     case TexelState::behind: return "behind";
     case TexelState::missed: return "missed";
+    case TexelState::unmatched:
     case TexelState::outside: break;
     }
     return "outside";
@@ -24,7 +25,6 @@ std::string to_text(const Witness& w) {
     const Vec3f at = w.cast.start + w.cast.reach.front * w.cast.inward;
     std::string text = format("  texel (%d, %d), face %u, uv (%.5g, %.5g), at (%.4g, %.4g, %.4g): ", w.x, w.y, w.face,
                               w.uv.x, w.uv.y, double(at.x), double(at.y), double(at.z));
-    if (w.state == TexelState::hit) return text + format("detail %.4g above the surface", w.height);
     return text + format("%s; the nearest corner of %s is (%.4g, %.4g, %.4g), %.4g away",
                          w.state == TexelState::behind ? "only the back of triangles" : "nothing",
                          printable(w.mesh).c_str(), double(w.nearest.x), double(w.nearest.y), double(w.nearest.z),
@@ -75,8 +75,8 @@ std::string to_text(const HighReport& report) {
                source_of_reach(report.args.high), double(totals.front), double(totals.back));
     text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
                    "left flat",
-                   share(r.hit + r.missed, texels), share(r.missed, r.hit + r.missed), share(r.padded, texels),
-                   share(r.empty, texels));
+                   share(r.hit + r.missed + r.unmatched, texels), share(r.missed, r.hit + r.missed + r.unmatched),
+                   share(r.padded, texels), share(r.empty, texels));
     if (r.hit > 0)
         text += format("\ndetail lies %.3g to %.3g above the surface; leaning rays move it by %.2g texels in the mean, "
                        "%.2g at most",
@@ -131,6 +131,7 @@ nlohmann::json to_json(const HighReport& report) {
              {{"hit", r.hit},
               {"missed", r.missed},
               {"behind", r.behind},
+              {"unmatched", r.unmatched},
               {"wider", r.wider},
               {"outward", r.outward},
               {"degenerate", r.degenerate},
@@ -148,20 +149,24 @@ std::vector<std::string> notes_of(const HighReport& report) {
     const auto say = [&](std::int64_t count, const std::string& what) {
         if (count > 0) out.push_back(format("%s: %lld %s", low.c_str(), static_cast<long long>(count), what.c_str()));
     };
+    const bool cage = !report.args.high.cage.empty();
+    const std::string farther = cage ? "a cage that lies farther out" : "a larger --extrude";
     if (r.hit == 0 && r.behind > 0)
-        out.push_back(high +
-                      ": rays meet the back of its triangles alone; turn its faces over, or give a larger --extrude");
-    else if (r.hit == 0)
-        out.push_back(high + ": no ray finds it; is it elsewhere in space, or in another unit than " + low + "?");
+        out.push_back(high + ": rays meet the back of its triangles alone; turn its faces over, or give " + farther);
+    else if (r.hit == 0 && r.missed > 0)
+        out.push_back(
+            high + ": no ray finds it; " +
+            (cage ? "is the cage outside of it?" : "is it elsewhere in space, or in another unit than " + low + "?"));
     else
-        say(r.missed, "texels find no detail, and have the normal of the nearest texel that does; give a larger "
-                      "--extrude, or close the high-poly mesh there");
+        say(r.missed, "texels find no detail, and are filled like the padding of charts; give " + farther +
+                          ", or close the high-poly mesh there");
     if (r.hit > 0) say(r.behind, "of these find the back of triangles; turn those faces over");
+    say(r.unmatched, "texels belong to parts without a high-poly part of their name, and are flat");
     if (report.match) {
         for (const std::string& name : report.match->low_alone)
             out.push_back(low + ": part " + name + " has no high-poly part of its name");
         for (const std::string& name : report.match->high_alone)
-            out.push_back(high + ": part " + name + " belongs to no part of " + low + " and is left out");
+            out.push_back("high-poly part " + name + " belongs to no part of " + low + " and is left out");
     }
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");

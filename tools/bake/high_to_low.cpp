@@ -99,8 +99,9 @@ public:
 
 private:
     void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
-        highs_.push_back(
-            std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals, rays_of(options_)));
+        highs_.push_back(std::make_unique<HighSurface>(std::move(meshes), low_.origin, args_.high.normals,
+                                                       rays_of(options_),
+                                                       highs_.empty() ? 1 : highs_.back()->next_number()));
         castings_.push_back(std::make_unique<Casting>(make_casting(args_, surface_, *highs_.back(), faces)));
         sources_.sources.push_back({highs_.back().get(), castings_.back().get()});
     }
@@ -124,6 +125,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     // Opened before the work, so that a long bake does not fail at its end.
     NormalMapFile file(args, options.width, options.height, depth_);
     const auto map_writers = open_maps(args.high, options);
+    if (!args.high.debug_rays.empty()) const OutputFile writable(args.high.debug_rays);
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
     progress_.start("bake", (options.height + 3) / 4 * (options.rays == 1 ? 1 : 1 + options.rays * options.rays));
@@ -151,8 +153,9 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     if (!args.high.debug_rays.empty())
         write_mesh(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
     watch_.lap("report");
-    Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed};
+    Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed + result.report.unmatched};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
+    if (!args.roughness_map.empty()) out.object["roughness_map"] = args.roughness_map;
     return out;
 }
 

@@ -60,14 +60,18 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
         throw unreadable(file.path(), "has texels of the format " + std::to_string(vulkan) + ", which are not read",
                          mend);
     header.arrays = std::max(1u, word(file, 32));
+    constexpr std::int64_t most_levels = 32;
+    const std::int64_t levels = std::max(1u, word(file, 40)), texels_at = index_at + levels * index_bytes;
+    if (levels > most_levels) throw unreadable(file.path(), "claims more levels than a texture has");
+    if (texels_at > file.size()) throw unreadable(file.path(), "is cut short");
     header.offset = place(file, std::size_t(index_at));
     header.face_bytes = level_bytes(header, 0);
     if (place(file, std::size_t(index_at) + 8) < header.face_bytes)
         throw unreadable(file.path(), "has a level that is smaller than its size says");
-    constexpr std::int64_t most_levels = 32;
-    for (std::int64_t k = 0; k < std::min<std::int64_t>(most_levels, std::max(1u, word(file, 40))); ++k) {
+    for (std::int64_t k = 0; k < levels; ++k) {
         const auto at = std::size_t(index_at + k * index_bytes);
-        if (place(file, at) > file.size() || place(file, at + 8) > file.size() - place(file, at))
+        if (place(file, at) < texels_at || place(file, at) > file.size() ||
+            place(file, at + 8) > file.size() - place(file, at))
             throw unreadable(file.path(), "is cut short");
     }
     if (bottom_up(file)) throw Error(Refusal::unsuitable, file.path() + ": is stored from the bottom up; turn it over");

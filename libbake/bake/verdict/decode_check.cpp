@@ -53,7 +53,7 @@ DecodedError error_of(std::vector<float> values, Decoding decoding) {
 }
 
 Sums compare(const BakeTarget& target, const Image<float>& map, bool directx) {
-    const int step = 1 + int(std::sqrt(double(map.width()) * map.height() / most_texels));
+    const int step = std::max(1, int(std::ceil(std::sqrt(double(map.width()) * map.height() / most_texels))));
     const int rows = (map.height() + step - 1) / step;
     std::vector<Sums> of_row(static_cast<std::size_t>(rows));
     for_rows(rows, 8, [&](std::int64_t begin, std::int64_t end) {
@@ -140,7 +140,7 @@ DecodeReport inspect_decoding(const std::string& map_path, const std::string& me
                               const InspectOptions& options) {
     ImageInfo info;
     const Image<float> colours = read_image(map_path, &info);
-    if (colours.channels() < 2)
+    if (colours.channels() - (info.alpha_channel >= 0) < 2)
         throw Error(Refusal::unsuitable, map_path +
                                              ": has one channel, a normal map has two or three; give the normal map "
                                              "first, then the mesh");

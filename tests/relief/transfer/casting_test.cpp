@@ -208,4 +208,19 @@ TEST_SUITE("stability") {
         CHECK(zero <= 1);
     }
 
+    TEST_CASE("casting: a cage whose faces meet elsewhere is refused") {
+        const Mesh low = unit_plane(0, 2);
+        const MeshSurface surface = make_mesh_surface(low);
+        Mesh cage = unit_plane(0.1, 2);
+        CHECK_NOTHROW(Casting(surface, cage, "cage.obj"));
+        std::rotate(cage.corner_position.begin(), cage.corner_position.begin() + 4, cage.corner_position.end());
+        try {
+            const Casting casting(surface, cage, "cage.obj");
+            FAIL("not refused");
+        } catch (const Error& error) {
+            CHECK(error.refusal == Refusal::unsuitable);
+            CHECK(std::string(error.what()).find("cage.obj: its faces do not meet where") == 0);
+        }
+    }
+
 } // TEST_SUITE

@@ -33,6 +33,7 @@ TEST_SUITE("unit") {
         CHECK(part_key("wheel") == "wheel");
         CHECK(part_key("lowland") == "lowland"); // a word of its own
         CHECK(part_key("low_") == "low_");
+        CHECK(part_key("High") == ""); // low.obj and high.ply
     }
 
     TEST_CASE("match_names: parts of one name, with what hangs on them, and those that are alone") {

@@ -1,5 +1,6 @@
 #include "bake/base/parallel.h"
 #include "bake/relief/transfer/transfer.h"
+#include "bake/relief/transfer/witness.h"
 #include "relief/transfer/transfer_meshes.h"
 
 using namespace bake;
@@ -98,7 +99,8 @@ TEST_SUITE("unit") {
         for (const double z : {0.09, -0.09}) CHECK((job(z, false).hit == 16 && job(z, true).wider == 0));
         for (const double z : {0.19, -0.29}) {
             CHECK(job(z, false).missed == 16);
-            CHECK(job(z, false).rays == 16);
+            // The four centres on the diagonal are tried again a little inside their triangle.
+            CHECK(job(z, false).rays == 16 + 4);
             const TransferReport wider = job(z, true);
             CHECK(wider.hit == 16);
             CHECK(wider.wider == 16);
@@ -226,6 +228,56 @@ TEST_SUITE("unit") {
 } // TEST_SUITE
 
 TEST_SUITE("stability") {
+
+    TEST_CASE("transfer: samples on an edge inside a chart are not taken for samples at its border") {
+        // The same square, cut along one diagonal and along the other; two rays along each side lie on both.
+        Mesh other = unit_plane();
+        std::rotate(other.corner_position.begin(), other.corner_position.begin() + 1, other.corner_position.end());
+        std::rotate(other.corner_uv.begin(), other.corner_uv.begin() + 1, other.corner_uv.end());
+        if (!other.corner_normal.empty())
+            std::rotate(other.corner_normal.begin(), other.corner_normal.begin() + 1, other.corner_normal.end());
+        const auto waves = [] {
+            Mesh mesh = unit_plane(0, 40);
+            mesh.normals.clear(), mesh.corner_normal.clear();
+            for (Vec3f& p : mesh.positions) p.z = 0.02f * std::sin(20 * p.x) * std::cos(17 * p.y);
+            return mesh;
+        };
+        JobOptions options = job_options(16, 16);
+        options.reach = Reach{0.1f, 0.1f, 0};
+        options.transfer.rays = 2;
+        const Job one(unit_plane(), {waves()}, options), two(other, {waves()}, options);
+        CHECK(one.report().rays == 16 * 16 * 4);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x) CHECK(glm::length(one.normal(x, y) - two.normal(x, y)) < 1e-5);
+    }
+
+    TEST_CASE("transfer: meshes that end at the same place miss nothing at the border, whatever the size") {
+        Mesh low = unit_plane();
+        for (Vec2f& uv : low.uvs) uv = 0.1f + 0.777f * uv;
+        for (const int size : {89, 97, 150})
+            CHECK(Job(low, {unit_plane()}, job_options(size, size)).report().missed == 0);
+    }
+
+    TEST_CASE("transfer: parts without a source are flat, not padded, and counted apart") {
+        Mesh low = unit_plane(0, 2); // four faces
+        const BakeTarget target = make_bake_target(low, "low", 16, 16);
+        const HighSurface high(named({unit_plane(0.01)}), Vec3d(0), HighNormals::smooth, 1);
+        const Casting casting(target.surface, CastBy::blend, constant_reach(target.surface, {0.1f, 0.1f, 0}));
+        TransferOptions options = job_options(16, 16).transfer;
+        options.alpha = true;
+        const TransferSources sources{{{&high, &casting}}, {0, no_index, 0, 0}};
+        const Transfer result = transfer(target, sources, options, "low");
+        CHECK(result.report.unmatched == 64);
+        CHECK(result.report.hit == 192);
+        CHECK(result.report.missed == 0);
+        CHECK(missed_texels(target, sources, result, 9).empty());
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                if (result.states.at(x, y) == TexelState::unmatched) {
+                    CHECK(result.map.at(x, y, 2) == 1);
+                    CHECK(result.alpha.at(x, y) == 0);
+                }
+    }
 
     TEST_CASE("transfer: the number of threads does not change a bit of any map or count") {
         const auto run = [](int threads, int rays) {

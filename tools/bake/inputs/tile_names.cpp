@@ -22,7 +22,7 @@ std::vector<int> udim_tiles(const Mesh& mesh, const std::string& path) {
     constexpr int samples = 64; // for overlaps, which are not asked for
     std::vector<int> out;
     for (const UvTile& tile : uv_tiles(mesh, triangulate(mesh), samples).tiles) {
-        if (tile.u < 0 || tile.u > 9 || tile.v < 0 || tile.v > 899)
+        if (tile.u < 0 || tile.u > 9 || tile.v < 0 || 1001 + tile.u + 10 * tile.v > 9999)
             throw Error(Refusal::unsuitable, path + ": has charts in tile " + name(tile) +
                                                  " of its uvs, which has no UDIM number; move them into the tiles "
                                                  "from 1001 on");

@@ -43,6 +43,18 @@ Casting::Casting(const MeshSurface& low, const Mesh& cage, const std::string& pa
     if (cage.face_begin != mesh.face_begin)
         throw Error(Refusal::unsuitable,
                     path + ": has other faces than the low-poly mesh; a cage is that mesh with its faces pushed out");
+    // Corners that meet in the low-poly mesh meet in the cage.
+    const std::vector<std::uint32_t> own = first_equal(mesh.positions), pushed = first_equal(cage.positions);
+    std::vector<std::uint32_t> place(mesh.positions.size(), no_index);
+    for (std::size_t c = 0; c < mesh.corners(); ++c) {
+        std::uint32_t& at = place[own[mesh.corner_position[c]]];
+        const std::uint32_t here = pushed[cage.corner_position[c]];
+        if (at != no_index && at != here)
+            throw Error(Refusal::unsuitable,
+                        path + ": its faces do not meet where those of the low-poly mesh do; a cage is "
+                               "that mesh with its faces pushed out, in the same order");
+        at = here;
+    }
     averaged_.resize(mesh.corners());
     const Vec3f between(cage.origin - mesh.origin);
     for (std::size_t c = 0; c < mesh.corners(); ++c) {

@@ -66,7 +66,7 @@ Mesh debug_rays(const BakeTarget& target, const TransferSources& sources, const 
     out.mesh().origin = target.surface.mesh->origin;
     draw_cage(target, sources, out);
     const int width = result.states.width(), height = result.states.height();
-    const int step = std::max(1, int(std::sqrt(double(width) * height / std::max(1, most))));
+    const int step = std::max(1, int(std::ceil(std::sqrt(double(width) * height / std::max(1, most)))));
     for (int y = step / 2; y < height; y += step)
         for (int x = step / 2; x < width; x += step) {
             const TexelHit& at = target.raster.hits.at(x, y);

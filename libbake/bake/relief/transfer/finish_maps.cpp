@@ -43,6 +43,7 @@ void count_states(Transfer& out, bool tangent) {
     for (int y = 0; y < out.map.height(); ++y)
         for (int x = 0; x < out.map.width(); ++x) switch (out.states.at(x, y)) {
             case TexelState::outside: break;
+            case TexelState::unmatched: ++out.report.unmatched; break;
             case TexelState::hit:
                 ++out.report.hit;
                 out.report.outward += tangent && out.map.at(x, y, 2) <= 0.5f;
@@ -52,15 +53,19 @@ void count_states(Transfer& out, bool tangent) {
             }
 }
 
+/// Whether padding leaves the texel as it is.
+bool is_kept(TexelState state) noexcept { return state == TexelState::hit || state == TexelState::unmatched; }
+
 void pad(Transfer& out, int padding) {
     Image<unsigned char> owned(out.map.width(), out.map.height(), 1);
-    for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = out.states.data()[i] == TexelState::hit;
+    for (std::size_t i = 0; i < owned.size(); ++i) owned.data()[i] = is_kept(out.states.data()[i]);
     for (Image<float>& map : out.details) pad_texels(map, owned, padding);
     if (!out.alpha.empty()) {
         for (std::size_t i = 0; i < owned.size(); ++i) out.alpha.data()[i] = owned.data()[i];
         pad_texels(out.alpha, owned, padding);
         for (std::size_t i = 0; i < owned.size(); ++i)
-            if (is_missed(out.states.data()[i])) out.alpha.data()[i] = 0;
+            if (is_missed(out.states.data()[i]) || out.states.data()[i] == TexelState::unmatched)
+                out.alpha.data()[i] = 0;
     }
     if (padding > 0) out.report.padded = continue_charts(out.map, owned);
     out.report.padded += pad_texels(out.map, owned, padding - 1);

@@ -13,7 +13,7 @@ constexpr double rays_per_triangle = 6;
 
 BvhMesh bvh_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     BvhMesh out;
-    out.positions.reserve(mesh.positions.size() + 1);
+    out.positions.reserve(mesh.positions.size() + 1); // and the one that the Bvh pads them with
     out.positions = mesh.positions;
     out.triangles.resize(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -24,9 +24,8 @@ BvhMesh bvh_mesh(const Mesh& mesh, const std::vector<Triangle>& triangles) {
 } // namespace
 
 std::vector<HighSurface::Part> HighSurface::parts_of(std::vector<HighMesh> meshes, const Vec3d& origin,
-                                                     HighNormals normals) {
+                                                     HighNormals normals, std::uint32_t& number) {
     std::vector<Part> parts;
-    std::uint32_t number = 1;
     for (HighMesh& high : meshes) {
         if (high.mesh.faces() == 0)
             throw Error(Refusal::unsuitable, high.name + ": has no faces; a high-poly mesh needs some");
@@ -52,8 +51,10 @@ Bvh HighSurface::tree_of(const std::vector<Part>& parts, double rays) {
     return Bvh(std::move(meshes), rays > rays_per_triangle * triangles ? BvhTree::fast : BvhTree::quick, true);
 }
 
-HighSurface::HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays)
-    : parts_(parts_of(std::move(meshes), origin, normals)), bvh_(tree_of(parts_, rays)) {
+HighSurface::HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays,
+                         std::uint32_t first_number)
+    : next_number_(first_number), parts_(parts_of(std::move(meshes), origin, normals, next_number_)),
+      bvh_(tree_of(parts_, rays)) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Bounds own = bake::bounds(parts_[i].high.mesh);
         bounds_ = i == 0 ? own : Bounds{glm::min(bounds_.min, own.min), glm::max(bounds_.max, own.max)};

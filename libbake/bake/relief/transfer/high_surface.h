@@ -23,7 +23,8 @@ class HighSurface {
 public:
     /// Positions become relative to `origin`, that of the low-poly mesh. `rays`: how many will be cast, by which the tree is
     /// chosen. Throws Error{Refusal::unsuitable}, which names the mesh, if one has no faces.
-    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays);
+    HighSurface(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals, double rays,
+                std::uint32_t first_number = 1);
 
     /// In it, rays meet both sides.
     const Bvh& bvh() const noexcept { return bvh_; }
@@ -47,8 +48,10 @@ public:
     Vec3f corner_position(std::size_t mesh, std::uint32_t triangle, std::uint32_t k) const noexcept;
     /// As normal(), at a corner.
     Vec3f corner_normal(std::size_t mesh, std::uint32_t triangle, std::uint32_t k) const noexcept;
-    /// Counts meshes, and within each the materials of its faces, from 1 on.
+    /// Counts meshes, and within each the materials of its faces, from `first_number` of the constructor on.
     std::uint32_t part_number(const Hit& hit) const noexcept;
+    /// The first number after those of this surface.
+    std::uint32_t next_number() const noexcept { return next_number_; }
 
 private:
     struct Part {
@@ -57,9 +60,11 @@ private:
         std::vector<Vec3f> normals;     ///< corners; empty for facet normals
         std::uint32_t first_number = 1; ///< of its faces without a material
     };
-    static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals);
+    static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals,
+                                      std::uint32_t& number);
     static Bvh tree_of(const std::vector<Part>& parts, double rays);
 
+    std::uint32_t next_number_;
     std::vector<Part> parts_;
     Bvh bvh_;
     Bounds bounds_;

@@ -42,11 +42,14 @@ private:
     std::vector<Facet> facets_;
 };
 
+/// Whether a point lies on an edge of its triangle.
+inline bool is_on_edge(const TexelHit& at) noexcept { return std::min({at.b1, at.b2, 1 - at.b1 - at.b2}) <= 1e-6f; }
+
 /// Of a texel whose centre lies outside of its chart: the point of the triangle as far from the border as the centre is, on the
 /// other side. Nothing for centres in the chart, and if the triangle is too small. `edge`: the nearest point of the triangle.
 inline std::optional<TexelHit> mirrored_at_border(const BakeTarget& target, const TexelHit& edge, int x, int y,
                                                   int width, int height) noexcept {
-    if (std::min({edge.b1, edge.b2, 1 - edge.b1 - edge.b2}) > 1e-6f) return {}; // inside
+    if (!is_on_edge(edge)) return {};
     const Mesh& mesh = *target.surface.mesh;
     const auto& corner = target.surface.triangles[edge.triangle].corner;
     const auto uv = [&](std::size_t k) { return Vec2d(mesh.uvs[mesh.corner_uv[corner[k]]]); };

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace bake {
@@ -46,6 +47,7 @@ std::string part_key(const std::string& name) {
     std::string key = name;
     for (char& c : key) c = char(std::tolower(static_cast<unsigned char>(c)));
     for (const std::string rank : ranks) {
+        if (key == rank) return ""; // low.obj and high.ply
         if (key.size() <= rank.size() + 1) continue;
         if (key.starts_with(rank) && parts_words(key[rank.size()])) return key.substr(rank.size() + 1);
         if (key.ends_with(rank) && parts_words(key[key.size() - rank.size() - 1]))
@@ -60,17 +62,18 @@ NameMatch match_names(const Mesh& low, const std::string& path, std::vector<High
     std::set<std::string> low_keys, low_names, high_names, alone;
     for (const auto& [name, faces] : low_parts) low_keys.insert(part_key(name)), low_names.insert(name);
     const auto key_of = [&](const std::string& name) {
-        std::string best, key = part_key(name);
-        for (const std::string& low_key : low_keys)
-            if (low_key.size() > best.size() && (key == low_key || key.starts_with(low_key + "_"))) best = low_key;
+        std::optional<std::string> best;
+        const std::string key = part_key(name);
+        for (const std::string& low_key : low_keys) // a key that goes on from another one comes after it
+            if (key == low_key || (!low_key.empty() && key.starts_with(low_key + "_"))) best = low_key;
         return best;
     };
     for (const HighMesh& mesh : high)
         for (const auto& [name, faces] : faces_by_name(mesh.mesh, mesh.name)) {
             high_names.insert(name);
-            const std::string key = key_of(name);
-            if (key.empty()) alone.insert(name);
-            else of_key[key].push_back({face_subset(mesh.mesh, faces), mesh.name});
+            const auto key = key_of(name);
+            if (!key) alone.insert(name);
+            else of_key[*key].push_back({face_subset(mesh.mesh, faces), mesh.name});
         }
     if (of_key.empty())
         throw Error(Refusal::unsuitable, path + ": no part has the name of a high-poly part (" + listed(low_names) +

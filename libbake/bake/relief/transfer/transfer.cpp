@@ -43,8 +43,11 @@ public:
         for (const TransferSource& source : sources.sources) details_.emplace_back(*source.high, options.details);
     }
 
-    /// One ray for each texel of the raster, of those that have none yet if `rest`.
-    void cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress);
+    /// One ray for each texel of the raster. `centres`: it is the raster of the centres, with the texels at borders, and texels that
+    /// have had a ray are left out.
+    void cast_all(const UvRaster& raster, float weight, bool centres, Progress* progress);
+    /// The farthest texel of each band, ordered.
+    std::vector<FarTexel> far() const;
     const Image<float>& weights() const noexcept { return weights_; }
 
 private:
@@ -58,14 +61,15 @@ private:
         void add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept;
     };
     void clear(int y) noexcept;
-    void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts);
+    void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool centres, Counts& counts);
+    void retry_inside(Packet& packet, Counts& counts) const noexcept;
     const TransferSource* source_of(const TexelHit& at) const noexcept {
         return sources_.of(target_.surface.triangles[at.triangle].face);
     }
     void trace(Packet& packet, Counts& counts) const noexcept;
     Vec3f beyond_border(const TransferSource& source, const TexelHit& edge, int x, int y, const Vec3f& at_edge,
                         Counts& counts) const noexcept;
-    void add(const Packet& packet, int lane, float weight, Counts& counts) noexcept;
+    void add(const Packet& packet, int lane, float weight, bool centres, Counts& counts) noexcept;
 
     const BakeTarget& target_;
     const TransferSources& sources_;
@@ -78,6 +82,7 @@ private:
     int pass_ = 0;
     double parallax_ = 0;
     std::int64_t landed_ = 0;
+    std::vector<FarTexel> far_; ///< per band
 };
 
 void Bake::Counts::add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept {
@@ -96,8 +101,18 @@ void Bake::clear(int y) noexcept {
     if (!weights_.empty()) std::fill(weights_.row(y), weights_.row(y + 1), 0.0f);
 }
 
-void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* progress) {
+std::vector<FarTexel> Bake::far() const {
+    std::vector<FarTexel> out;
+    for (const FarTexel& texel : far_)
+        if (texel.height != 0) out.push_back(texel);
+    std::stable_sort(out.begin(), out.end(),
+                     [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
+    return out;
+}
+
+void Bake::cast_all(const UvRaster& raster, float weight, bool centres, Progress* progress) {
     const int bands = (options_.height + block - 1) / block;
+    far_.resize(std::size_t(bands));
     std::vector<Counts> counts(std::size_t(bands), Counts{});
     for_rows(
         bands, 2,
@@ -106,25 +121,26 @@ void Bake::cast_all(const UvRaster& raster, float weight, bool rest, Progress* p
                 const int y = band * block, rows = std::min(block, options_.height - y);
                 for (int i = 0; i < rows && !cleared_; ++i) clear(y + i);
                 for (int x = 0; x < options_.width; x += block)
-                    cast_block(raster, x, y, rows, weight, rest, counts[std::size_t(band)]);
+                    cast_block(raster, x, y, rows, weight, centres, counts[std::size_t(band)]);
             }
         },
         progress);
     cleared_ = true, ++pass_;
     TransferReport& report = out_.report;
-    for (const Counts& c : counts) {
+    for (std::size_t band = 0; band < counts.size(); ++band) {
+        const Counts& c = counts[band];
         report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
         report.nearest = std::min(report.nearest, c.nearest), report.farthest = std::max(report.farthest, c.farthest);
         for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
         parallax_ += c.parallax, landed_ += c.landed;
         report.parallax_max = std::max(report.parallax_max, c.most_parallax);
-        if (c.far.height != 0) out_.far.push_back(c.far);
+        if (std::abs(c.far.height) > std::abs(far_[band].height)) far_[band] = c.far;
     }
     report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
 }
 
 /// Texels of one source at a time.
-void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool rest, Counts& counts) {
+void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool centres, Counts& counts) {
     const int columns = std::min(block, options_.width - x), all = rows * columns;
     PacketMask done = 0;
     for (int first = 0; first < all && done != (PacketMask(1) << all) - 1; ++first) {
@@ -134,10 +150,10 @@ void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weig
             const TexelHit& at = raster.hits.at(at_x, at_y);
             TexelState& state = out_.states.at(at_x, at_y);
             if (done >> i & 1) continue;
-            const bool wanted = at.triangle != no_index && !(rest && state != TexelState::outside);
+            const bool wanted = at.triangle != no_index && !(centres && state != TexelState::outside);
             const TransferSource* const source = wanted ? source_of(at) : nullptr;
             if (!source) {
-                if (wanted) state = TexelState::missed; // a part without a counterpart
+                if (wanted) state = TexelState::unmatched;
                 done |= PacketMask(1) << i;
                 continue;
             }
@@ -153,7 +169,8 @@ void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weig
         if (packet.count == 0) break;
         packet.used = (PacketMask(1) << packet.count) - 1;
         trace(packet, counts);
-        for (int lane = 0; lane < packet.count; ++lane) add(packet, lane, weight, counts);
+        if (centres) retry_inside(packet, counts);
+        for (int lane = 0; lane < packet.count; ++lane) add(packet, lane, weight, centres, counts);
     }
 }
 
@@ -180,7 +197,23 @@ void Bake::trace(Packet& packet, Counts& counts) const noexcept {
     }
 }
 
-void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noexcept {
+/// Where both meshes end at the same place, a ray on the border of a chart can pass beside the high-poly mesh by a rounding. It is
+/// cast again a ten-thousandth of the triangle farther inside.
+void Bake::retry_inside(Packet& packet, Counts& counts) const noexcept {
+    constexpr float inward = 1e-4f;
+    for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
+        TexelHit at = packet.at[lane];
+        if (packet.hits[lane] || !is_on_edge(at)) continue;
+        at.b1 += inward * (1 / 3.f - at.b1), at.b2 += inward * (1 / 3.f - at.b2);
+        const Cast cast = packet.source->casting->at(at);
+        const Hit hit = packet.source->high->land(ray_of(cast, 1, 1));
+        ++counts.rays;
+        if (!hit) continue;
+        packet.at[lane] = at, packet.cast[lane] = cast, packet.hits[lane] = hit, packet.start[lane] = cast.reach.front;
+    }
+}
+
+void Bake::add(const Packet& packet, int lane, float weight, bool centres, Counts& counts) noexcept {
     const auto i = std::size_t(lane);
     const HighSurface& high = *packet.source->high;
     const TexelHit& at = packet.at[i];
@@ -198,7 +231,7 @@ void Bake::add(const Packet& packet, int lane, float weight, Counts& counts) noe
         ++counts.degenerate;
         return;
     }
-    t = beyond_border(*packet.source, at, packet.x[i], packet.y[i], t, counts);
+    if (centres) t = beyond_border(*packet.source, at, packet.x[i], packet.y[i], t, counts);
     const Cast& cast = packet.cast[i];
     const double height = double(packet.start[i] - hit.t);
     counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
@@ -267,11 +300,10 @@ Transfer transfer(const BakeTarget& target, const TransferSources& sources, cons
                 bake.cast_all(samples, float(u.weight * v.weight), false, progress);
             }
     }
-    // Texels of which no sample lies in a chart have a triangle at their border.
-    bake.cast_all(target.raster, 1, options.rays > 1, progress);
+    // With several rays, what is left are texels of which no sample lies in a chart.
+    bake.cast_all(target.raster, 1, true, progress);
     if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
-    std::stable_sort(out.far.begin(), out.far.end(),
-                     [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
+    out.far = bake.far();
     out.report.border = target.raster.border;
     finish_maps(out, bake.weights(), options);
     return out;

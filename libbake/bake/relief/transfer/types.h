@@ -19,24 +19,27 @@ struct TransferOptions {
 };
 
 enum class TexelState : unsigned char {
-    outside, ///< of the charts, or without a tangent space
-    hit,     ///< a normal of its own
-    missed,  ///< its rays find nothing
-    behind,  ///< its rays find nothing but the back of triangles
+    outside,   ///< of the charts, or without a tangent space
+    hit,       ///< a normal of its own
+    missed,    ///< its rays find nothing
+    unmatched, ///< of a part of the low-poly mesh that no high-poly part belongs to: flat, and not padded
+    behind,    ///< its rays find nothing but the back of triangles
 };
 
 inline bool is_missed(TexelState state) noexcept { return state == TexelState::missed || state == TexelState::behind; }
 
-/// What became of texels and rays.
+/// How many texels and rays found what.
 struct TransferReport {
-    std::int64_t rays = 0;    ///< cast, with those of the second try
-    std::int64_t hit = 0;     ///< texels in charts with a normal of their own
-    std::int64_t missed = 0;  ///< texels whose rays find nothing, or nothing but backs
-    std::int64_t behind = 0;  ///< of these, texels whose rays find the back of triangles
-    std::int64_t wider = 0;   ///< rays that found something in the second try only
-    std::int64_t outward = 0; ///< texels whose normal points into the low-poly mesh: out of range in tangent space
+    std::int64_t rays = 0;      ///< cast, with those of the second try
+    std::int64_t hit = 0;       ///< texels in charts with a normal of their own
+    std::int64_t missed = 0;    ///< texels whose rays find nothing, or nothing but backs
+    std::int64_t behind = 0;    ///< of these, texels whose rays find the back of triangles
+    std::int64_t unmatched = 0; ///< texels of parts without a counterpart
+    std::int64_t wider = 0;     ///< rays that found something in the second try only
+    std::int64_t outward = 0;   ///< texels whose normal points into the low-poly mesh: out of range in tangent space
     std::int64_t border = 0, degenerate = 0, padded = 0, empty = 0; ///< as NormalMapReport
-    /// Of the rays that land, by where they do: from the envelope (0) to where they end (the last).
+    /// Of the rays that land, by where they do: from the envelope (0) to where they end (the last). Those of the second try count in
+    /// the first and the last.
     std::array<std::int64_t, 16> lengths{};
     double parallax_mean = 0,
            parallax_max = 0;          ///< texels by which detail moves sideways, as the cast leans from the facet

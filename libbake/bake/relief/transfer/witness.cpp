@@ -13,7 +13,7 @@ Witness witness_at(const BakeTarget& target, const TransferSources& sources, int
     const double b[3] = {1.0 - double(at.b1) - double(at.b2), double(at.b1), double(at.b2)};
     for (std::size_t k = 0; k < 3; ++k) out.uv += b[k] * Vec2d(mesh.uvs[mesh.corner_uv[triangle.corner[k]]]);
     out.face = triangle.face;
-    if (const TransferSource* const source = sources.of(out.face)) out.cast = source->casting->at(at);
+    out.cast = sources.of(out.face)->casting->at(at); // texels of parts without a source are no witnesses
     return out;
 }
 
@@ -41,8 +41,7 @@ std::vector<Witness> missed_texels(const BakeTarget& target, const TransferSourc
             if (target.raster.hits.at(x, y).triangle == no_index) continue; // a sample beside the centre was in a chart
             out.push_back(witness_at(target, sources, x, y));
             out.back().state = state;
-            if (const TransferSource* const source = sources.of(out.back().face))
-                set_nearest(out.back(), *source->high);
+            set_nearest(out.back(), *sources.of(out.back().face)->high);
         }
     return out;
 }

@@ -14,7 +14,7 @@ struct Witness {
     /// Of a miss: the corner of the high-poly meshes that is nearest to the low-poly mesh there, and its distance.
     Vec3f nearest{0};
     double distance = 0;
-    std::string mesh; ///< that has the corner; empty for a part without a counterpart
+    std::string mesh; ///< that has the corner
 };
 
 /// The first `most` misses in the order of texels.
