@@ -26,8 +26,9 @@ Texels texels_of(TexelFormat format) {
     return {141, 1, 4, 16, bc5_model, {red, green}};
 }
 
+/// Little endian; bytes beyond the eighth are 0.
 void append(std::string& to, std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) to += char(value >> 8 * i);
+    for (int i = 0; i < bytes; ++i) to += i < 8 ? char(value >> 8 * i) : char(0);
 }
 
 void pad(std::string& to, std::size_t alignment) { to.resize((to.size() + alignment - 1) / alignment * alignment); }
