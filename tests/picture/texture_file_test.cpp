@@ -176,6 +176,7 @@ TEST_SUITE("unit") {
         CHECK(changed(28, 1).find("volume") != std::string::npos);
         CHECK(changed(36, 6).find("cube map") != std::string::npos);
         CHECK(changed(44, 2).find("supercompressed") != std::string::npos);
+        CHECK(changed(52, 4).find("no descriptor of its data format") != std::string::npos);
         CHECK(changed(whole.find("rd", 200) + 1, 'u').find("from the bottom up") != std::string::npos);
         CHECK(changed(80, '\xff').find("cut short") != std::string::npos);
         CHECK(changed(87, '\x7f').find("cut short") != std::string::npos); // beyond any file

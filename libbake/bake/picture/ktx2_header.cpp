@@ -47,6 +47,14 @@ bool bottom_up(const PictureFile& file) {
 
 } // namespace
 
+/// The descriptor says what the channels mean; the specification wants one of at least a basic block in every file.
+void check_descriptor(const PictureFile& file) {
+    constexpr std::uint32_t least = 4 + 24; // its own size, and a basic block without samples
+    const std::uint32_t at = word(file, 48), size = word(file, 52);
+    if (size < least || word(file, at) != size)
+        throw unreadable(file.path(), "has no descriptor of its data format, which KTX2 requires", mend);
+}
+
 DdsHeader read_ktx2_header(const PictureFile& file) {
     if (std::int64_t(file.head().size()) < index_at + index_bytes) throw unreadable(file.path(), "is cut short");
     DdsHeader header;
@@ -74,6 +82,7 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
             place(file, at + 8) > file.size() - place(file, at))
             throw unreadable(file.path(), "is cut short");
     }
+    check_descriptor(file);
     if (bottom_up(file)) throw Error(Refusal::unsuitable, file.path() + ": is stored from the bottom up; turn it over");
     return header;
 }
