@@ -37,8 +37,7 @@ struct DecodeReport {
     std::int64_t texels = 0;          ///< that were compared
     std::vector<DecodedError> errors; ///< in the order of all_decodings, without the first
     SeamDisagreement seams;
-    double relief_deg =
-        0; ///< mean angle between the map's normals and those of the mesh: what there is to be got wrong
+    double relief_deg = 0; ///< mean angle between the map's normals and those of the mesh, to compare the errors with
     Findings findings;
 };
 

@@ -10,10 +10,11 @@ namespace bake {
 
 class Progress;
 
-/// A texel that is missed has the value of the nearest one that is not, if that is at most `padding` texels away, else the flat
-/// normal. The average of several rays is over the part of the texel that lies in
-/// charts, by Gauss and Legendre's rule in each direction: an average over a smooth surface is exact to the degree 2 rays - 1.
-/// `target` has the size and the tile of the options. The result does not depend on the number of threads.
+/// A texel that finds nothing is filled like those outside of the charts: in the first ring around texels with detail by linear
+/// continuation, up to `padding` texels away by the nearest one, else with the flat normal. Several rays are averaged over the part
+/// of the texel that lies in charts. They are the points of Gauss and Legendre's rule along both sides, so that the mean of a
+/// polynomial of degree 2 * rays - 1 along each side is exact. `target` has the size and the tile of the options. The result does
+/// not depend on the number of threads.
 Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
                   const std::string& path, Progress* progress = nullptr);
 /// From one source.
