@@ -72,21 +72,26 @@ Vec3f without_dust(const Vec3f& direction) noexcept {
 }
 
 /// Rays of a packet for Embree, with -1 in `valid` for each that takes part. The others are filled in as well, because
-/// Embree computes with them.
+/// Embree computes with them. The first loop has no branches, so that several rays are converted at once.
 PacketMask to_embree(std::span<const Ray, packet_size> rays, PacketMask active, float scale, RTCRay16& out,
                      int* valid) noexcept {
+    for (int i = 0; i < packet_size; ++i) {
+        const Ray& ray = rays[std::size_t(i)];
+        const Vec3f direction = without_dust(ray.direction);
+        out.org_x[i] = scale * ray.origin.x, out.org_y[i] = scale * ray.origin.y, out.org_z[i] = scale * ray.origin.z;
+        out.dir_x[i] = direction.x, out.dir_y[i] = direction.y, out.dir_z[i] = direction.z;
+        out.tnear[i] = std::max(0.0f, scale * ray.t_min), out.tfar[i] = scale * ray.t_max;
+        out.time[i] = 0, out.mask[i] = 0xffffffffu, out.id[i] = 0, out.flags[i] = 0;
+    }
     PacketMask used = 0;
     for (int i = 0; i < packet_size; ++i) {
-        const Ray given = scaled(rays[std::size_t(i)], scale);
-        const bool take = (active >> i & 1) && usable(rays[std::size_t(i)]) && usable(given);
-        const Ray& ray = take ? given : Ray{Vec3f(0), Vec3f(0, 0, 1), 0, 0};
+        const Ray& ray = rays[std::size_t(i)];
+        const bool take = (active >> i & 1) && usable(ray) && (scale == 1 || usable(scaled(ray, scale)));
         valid[i] = take ? -1 : 0;
         used |= PacketMask(take) << i;
-        out.org_x[i] = ray.origin.x, out.org_y[i] = ray.origin.y, out.org_z[i] = ray.origin.z;
-        const Vec3f direction = without_dust(ray.direction);
-        out.dir_x[i] = direction.x, out.dir_y[i] = direction.y, out.dir_z[i] = direction.z;
-        out.tnear[i] = std::max(0.0f, ray.t_min), out.tfar[i] = ray.t_max;
-        out.time[i] = 0, out.mask[i] = 0xffffffffu, out.id[i] = 0, out.flags[i] = 0;
+        if (take) continue;
+        out.org_x[i] = out.org_y[i] = out.org_z[i] = out.dir_x[i] = out.dir_y[i] = 0, out.dir_z[i] = 1;
+        out.tnear[i] = out.tfar[i] = 0;
     }
     return used;
 }
@@ -131,8 +136,8 @@ struct Bvh::Impl {
         const Impl* impl;
     };
     static void skip_backs(const RTCFilterFunctionNArguments* args) noexcept;
-    void intersect(std::span<const Ray, packet_size> rays, PacketMask active, std::span<Hit, packet_size> hits,
-                   RTCFilterFunctionN filter) const noexcept;
+    PacketMask intersect(std::span<const Ray, packet_size> rays, PacketMask active, std::span<Hit, packet_size> hits,
+                         RTCFilterFunctionN filter) const noexcept;
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -239,23 +244,33 @@ bool Bvh::occluded(const Ray& ray) const noexcept {
     return query.tfar < 0; // Embree sets tfar to -infinity if the ray is occluded
 }
 
-/// `filter`: asked about each triangle, or null. Hits of rays that are not active stay.
-void Bvh::Impl::intersect(std::span<const Ray, packet_size> rays, PacketMask active, std::span<Hit, packet_size> hits,
-                          RTCFilterFunctionN filter) const noexcept {
+/// `filter`: asked about each triangle, or null. Hits of rays that are not active stay. Returns the rays that hit the back of a
+/// triangle; only where a ray is parallel to one does that need more digits than Embree's own normal has.
+PacketMask Bvh::Impl::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
+                                std::span<Hit, packet_size> hits, RTCFilterFunctionN filter) const noexcept {
+    constexpr float parallel = 1e-3f;
     alignas(64) int valid[packet_size];
     alignas(64) RTCRayHit16 query;
     for (int i = 0; i < packet_size; ++i) {
         query.hit.geomID[i] = query.hit.primID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         if (active >> i & 1) hits[std::size_t(i)] = {};
     }
-    if (to_embree(rays, active, scale, query.ray, valid) == 0) return;
+    if (to_embree(rays, active, scale, query.ray, valid) == 0) return 0;
     Asked asked{packet_context(tree), this};
     asked.context.filter = filter;
     rtcIntersect16(valid, scene, &asked.context, &query);
-    for (int i = 0; i < packet_size; ++i)
-        if (valid[i] && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-            hits[std::size_t(i)] = {query.ray.tfar[i] * unscale, query.hit.geomID[i], query.hit.primID[i],
-                                    query.hit.u[i], query.hit.v[i]};
+    PacketMask behind = 0;
+    for (int i = 0; i < packet_size; ++i) {
+        if (!valid[i] || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        const Hit& hit = hits[std::size_t(i)] = {query.ray.tfar[i] * unscale, query.hit.geomID[i], query.hit.primID[i],
+                                                 query.hit.u[i], query.hit.v[i]};
+        const Vec3f n(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]);
+        const Vec3f& d = rays[std::size_t(i)].direction;
+        const float along = glm::dot(n, d);
+        const bool sure = along * along > parallel * parallel * glm::dot(n, n) * glm::dot(d, d);
+        if (sure ? along > 0 : meshes[hit.mesh].is_behind(hit.triangle, d)) behind |= PacketMask(1) << i;
+    }
+    return behind;
 }
 
 void Bvh::Impl::skip_backs(const RTCFilterFunctionNArguments* args) noexcept {
@@ -290,11 +305,8 @@ PacketMask Bvh::occluded(std::span<const Ray, packet_size> rays, PacketMask acti
 void Bvh::intersect_fronts(std::span<const Ray, packet_size> rays, PacketMask active,
                            std::span<Hit, packet_size> hits) const noexcept {
     // Most rays meet a front first. A filter that is asked about each triangle costs them more than the second try of the others.
-    intersect(rays, active, hits);
-    PacketMask behind = 0;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (hits[i] && impl_->meshes[hits[i].mesh].is_behind(hits[i].triangle, rays[i].direction))
-            behind |= PacketMask(1) << i;
+    std::fill(hits.begin(), hits.end(), Hit{});
+    const PacketMask behind = impl_->intersect(rays, active, hits, nullptr);
     if (behind != 0) impl_->intersect(rays, behind, hits, Impl::skip_backs);
 }
 
