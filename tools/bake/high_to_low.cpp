@@ -128,7 +128,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     if (!args.high.debug_rays.empty()) const OutputFile writable(args.high.debug_rays);
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
-    progress_.start("bake", (options.height + 3) / 4 * (options.rays == 1 ? 1 : 1 + options.rays * options.rays));
+    progress_.start("bake", (options.height + PlaceRaster::band_rows - 1) / PlaceRaster::band_rows);
     const Transfer result = transfer(target, sources_, options, args.mesh, &progress_);
     progress_.finish();
     watch_.lap("bake");

@@ -3,275 +3,187 @@
 #include "bake/base/progress.h"
 #include "bake/relief/transfer/finish_maps.h"
 #include "bake/relief/transfer/gauss_legendre.h"
-#include "bake/relief/transfer/map_frame.h"
+#include "bake/relief/transfer/texel_caster.h"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace bake {
 namespace {
 
-constexpr int block = 4; ///< texels wide and high that are cast together, as one packet
-static_assert(block * block == packet_size);
-constexpr float wider_front = 2, wider_back = 3; ///< reaches of the second try, as multiples of the first
+constexpr int band_rows = PlaceRaster::band_rows;
 
-/// Texels that are cast together.
-struct Packet {
-    std::array<TexelHit, packet_size> at;
-    std::array<int, packet_size> x, y;
-    std::array<Cast, packet_size> cast;
-    std::array<Ray, packet_size> rays;
-    std::array<Hit, packet_size> hits;
-    std::array<float, packet_size> start; ///< of the ray, above the low-poly mesh
-    PacketMask used = 0;
-    int count = 0;
-    const TransferSource* source = nullptr; ///< of all of them
+/// Of a rule of Gauss and Legendre in turn with the next, for one wave that is at least a texel long: the difference between the
+/// two is at least five times the error of the second. A fifth part of safety is kept.
+constexpr double differences_per_error = 4;
+
+struct Place {
+    Vec2d at; ///< in the texel
+    float weight;
 };
 
-Ray ray_of(const Cast& cast, float front, float back) noexcept {
-    Ray ray{cast.start - (front - 1) * cast.reach.front * cast.inward, cast.inward};
-    ray.t_max = front * cast.reach.front + back * cast.reach.back;
-    return ray;
+/// Gauss and Legendre's points in both directions.
+std::vector<Place> rule_of(int rays) {
+    std::vector<Place> rule;
+    const std::vector<QuadraturePoint> points = gauss_legendre(rays);
+    for (const QuadraturePoint& v : points)
+        for (const QuadraturePoint& u : points) rule.push_back({{u.at, v.at}, float(u.weight * v.weight)});
+    return rule;
 }
 
-/// Sums over the samples of texels, until they are averaged.
+/// With an error that is asked for, rules of more and more rays; else one; none for one ray, which is that of the centres.
+std::vector<std::vector<Place>> rules_of(const TransferOptions& options) {
+    std::vector<std::vector<Place>> rules;
+    if (options.max_error_deg > 0)
+        for (const int rays : {1, 2, 3, 4, 6, 8, 12})
+            if (rays < options.rays) rules.push_back(rule_of(rays));
+    if (options.rays > 1) rules.push_back(rule_of(options.rays));
+    return rules;
+}
+
+/// Texels of a band of rows, while it is cast.
+struct Band {
+    int y, rows; ///< the first of them, and how many
+    std::vector<unsigned char> open; ///< per texel: it needs the rays of the next rule
+    std::vector<Vec3f> mean;         ///< per texel: of the rule before; zero where it has none
+    CastCounts counts;
+    RayPacket packet;
+};
+
+/// Calls work(x, y) for each texel of the band, y from its first row on, block by block.
+template <class Work> void for_blocks(int width, int rows, int block, Work&& work) {
+    for (int top = 0; top < rows; top += block)
+        for (int left = 0; left < width; left += block)
+            for (int y = top; y < std::min(top + block, rows); ++y)
+                for (int x = left; x < std::min(left + block, width); ++x) work(x, y);
+}
+
 class Bake {
 public:
-    Bake(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options, Transfer& out)
-        : target_(target), sources_(sources), options_(options), facets_(target, options.width, options.height),
-          out_(out), weights_(options.rays > 1 && !out.details.empty() ? Image<float>(options.width, options.height, 1)
-                                                                       : Image<float>()) {
-        for (const TransferSource& source : sources.sources) details_.emplace_back(*source.high, options.details);
+    Bake(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
+         const std::string& path, Transfer& out)
+        : target_(target), options_(options), out_(out), rules_(rules_of(options)),
+          weights_(!rules_.empty() && !options.details.maps.empty() ? Image<float>(options.width, options.height, 1)
+                                                                    : Image<float>()),
+          caster_(target, sources, options, out, weights_) {
+        if (rules_.empty()) return;
+        charts_.emplace(place_charts(*target.surface.mesh, target.surface.triangles, options.tile,
+                                     std::max(options.width, options.height), path));
+        raster_.emplace(*charts_->mesh, *charts_->triangles, options.width, options.height);
     }
-
-    /// One ray for each texel of the raster. `centres`: it is the raster of the centres, with the texels at borders, and texels that
-    /// have had a ray are left out.
-    void cast_all(const UvRaster& raster, float weight, bool centres, Progress* progress);
-    /// The farthest texel of each band, ordered.
-    std::vector<FarTexel> far() const;
-    const Image<float>& weights() const noexcept { return weights_; }
+    void run(Progress* progress);
 
 private:
-    struct Counts {
-        std::int64_t rays = 0, wider = 0, degenerate = 0;
-        double nearest = INFINITY, farthest = -INFINITY;
-        std::array<std::int64_t, std::tuple_size_v<decltype(TransferReport::lengths)>> lengths{};
-        double parallax = 0, most_parallax = 0;
-        std::int64_t landed = 0;
-        FarTexel far;
-        void add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept;
-    };
-    void clear(int y) noexcept;
-    void cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool centres, Counts& counts);
-    void retry_inside(Packet& packet, Counts& counts) const noexcept;
-    const TransferSource* source_of(const TexelHit& at) const noexcept {
-        return sources_.of(target_.surface.triangles[at.triangle].face);
-    }
-    void trace(Packet& packet, Counts& counts) const noexcept;
-    Vec3f beyond_border(const TransferSource& source, const TexelHit& edge, int x, int y, const Vec3f& at_edge,
-                        Counts& counts) const noexcept;
-    void add(const Packet& packet, int lane, float weight, bool centres, Counts& counts) noexcept;
+    void cast_band(Band& band);
+    void cast_rule(const std::vector<Place>& rule, int first_number, Band& band);
+    void cast_centres(Band& band);
+    void reopen(Band& band);
 
     const BakeTarget& target_;
-    const TransferSources& sources_;
     const TransferOptions& options_;
-    std::vector<DetailProbe> details_; ///< per source
-    Facets facets_;
     Transfer& out_;
-    Image<float> weights_; ///< with several rays
-    bool cleared_ = false;
-    int pass_ = 0;
-    double parallax_ = 0;
-    std::int64_t landed_ = 0;
-    std::vector<FarTexel> far_; ///< per band
+    std::vector<std::vector<Place>> rules_;
+    Image<float> weights_; ///< sums of the rays' weights, for other maps than the normal map
+    TexelCaster caster_;
+    std::optional<PlacedCharts> charts_;
+    std::optional<PlaceRaster> raster_;
 };
 
-void Bake::Counts::add(const Cast& cast, double height, double parallax_here, int x, int y) noexcept {
-    nearest = std::min(nearest, height), farthest = std::max(farthest, height);
-    const double length = double(cast.reach.front) + double(cast.reach.back);
-    const double at = length > 0 ? (double(cast.reach.front) - height) / length * double(lengths.size()) : 0;
-    ++lengths[std::size_t(std::clamp(at, 0.0, double(lengths.size() - 1)))];
-    parallax += parallax_here, most_parallax = std::max(most_parallax, parallax_here), ++landed;
-    if (std::abs(height) > std::abs(far.height)) far = {height, x, y};
-}
-
-void Bake::clear(int y) noexcept {
-    std::fill(out_.map.row(y), out_.map.row(y + 1), 0.0f);
-    for (Image<float>& map : out_.details) std::fill(map.row(y), map.row(y + 1), 0.0f);
-    std::fill(out_.states.row(y), out_.states.row(y + 1), TexelState::outside);
-    if (!weights_.empty()) std::fill(weights_.row(y), weights_.row(y + 1), 0.0f);
-}
-
-std::vector<FarTexel> Bake::far() const {
-    std::vector<FarTexel> out;
-    for (const FarTexel& texel : far_)
-        if (texel.height != 0) out.push_back(texel);
-    std::stable_sort(out.begin(), out.end(),
-                     [](const FarTexel& a, const FarTexel& b) { return std::abs(a.height) > std::abs(b.height); });
-    return out;
-}
-
-void Bake::cast_all(const UvRaster& raster, float weight, bool centres, Progress* progress) {
-    const int bands = (options_.height + block - 1) / block;
-    far_.resize(std::size_t(bands));
-    std::vector<Counts> counts(std::size_t(bands), Counts{});
+void Bake::run(Progress* progress) {
+    const int bands = (options_.height + band_rows - 1) / band_rows;
+    std::vector<CastCounts> counts(std::size_t(bands), CastCounts{});
     for_rows(
-        bands, 2,
+        bands, 1,
         [&](std::int64_t begin, std::int64_t end) {
-            for (auto band = int(begin); band < int(end); ++band) {
-                const int y = band * block, rows = std::min(block, options_.height - y);
-                for (int i = 0; i < rows && !cleared_; ++i) clear(y + i);
-                for (int x = 0; x < options_.width; x += block)
-                    cast_block(raster, x, y, rows, weight, centres, counts[std::size_t(band)]);
+            for (auto b = int(begin); b < int(end); ++b) {
+                Band band;
+                band.y = b * band_rows, band.rows = std::min(band_rows, options_.height - band.y);
+                cast_band(band);
+                counts[std::size_t(b)] = band.counts;
             }
         },
         progress);
-    cleared_ = true, ++pass_;
     TransferReport& report = out_.report;
-    for (std::size_t band = 0; band < counts.size(); ++band) {
-        const Counts& c = counts[band];
+    double parallax = 0;
+    std::int64_t landed = 0;
+    for (const CastCounts& c : counts) {
         report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
         report.nearest = std::min(report.nearest, c.nearest), report.farthest = std::max(report.farthest, c.farthest);
         for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
-        parallax_ += c.parallax, landed_ += c.landed;
+        parallax += c.parallax, landed += c.landed;
         report.parallax_max = std::max(report.parallax_max, c.most_parallax);
-        if (std::abs(c.far.height) > std::abs(far_[band].height)) far_[band] = c.far;
     }
-    report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
+    report.parallax_mean = landed > 0 ? parallax / double(landed) : 0;
+    if (landed == 0) report.nearest = report.farthest = 0;
+    out_.far = caster_.far();
+    finish_maps(out_, weights_, options_);
 }
 
-/// Texels of one source at a time.
-void Bake::cast_block(const UvRaster& raster, int x, int y, int rows, float weight, bool centres, Counts& counts) {
-    const int columns = std::min(block, options_.width - x), all = rows * columns;
-    PacketMask done = 0;
-    for (int first = 0; first < all && done != (PacketMask(1) << all) - 1; ++first) {
-        Packet packet;
-        for (int i = first; i < all; ++i) {
-            const int at_x = x + i % columns, at_y = y + i / columns;
-            const TexelHit& at = raster.hits.at(at_x, at_y);
-            TexelState& state = out_.states.at(at_x, at_y);
-            if (done >> i & 1) continue;
-            const bool wanted = at.triangle != no_index && !(centres && state != TexelState::outside);
-            const TransferSource* const source = wanted ? source_of(at) : nullptr;
-            if (!source) {
-                if (wanted) state = TexelState::unmatched;
-                done |= PacketMask(1) << i;
-                continue;
-            }
-            if (packet.count > 0 && source != packet.source) continue;
-            done |= PacketMask(1) << i;
-            packet.source = source;
-            const auto lane = std::size_t(packet.count++);
-            packet.at[lane] = at, packet.x[lane] = at_x, packet.y[lane] = at_y;
-            packet.cast[lane] = source->casting->at(at);
-            packet.rays[lane] = ray_of(packet.cast[lane], 1, 1);
-            packet.start[lane] = packet.cast[lane].reach.front;
-        }
-        if (packet.count == 0) break;
-        packet.used = (PacketMask(1) << packet.count) - 1;
-        trace(packet, counts);
-        if (centres) retry_inside(packet, counts);
-        for (int lane = 0; lane < packet.count; ++lane) add(packet, lane, weight, centres, counts);
+void Bake::cast_band(Band& band) {
+    for (int y = band.y; y < band.y + band.rows; ++y)
+        for (int x = 0; x < options_.width; ++x) caster_.clear(x, y);
+    const std::size_t texels = std::size_t(band.rows) * std::size_t(options_.width);
+    const TexelHit* const centres = target_.raster.hits.row(band.y);
+    if (!rules_.empty()) band.open.resize(texels);
+    for (std::size_t i = 0; i < band.open.size(); ++i) band.open[i] = centres[i].triangle != no_index;
+    if (rules_.size() > 1) band.mean.assign(texels, Vec3f(0));
+    int number = 0;
+    for (const std::vector<Place>& rule : rules_) {
+        if (&rule != rules_.data()) reopen(band);
+        cast_rule(rule, number, band);
+        number += int(rule.size());
     }
+    cast_centres(band);
 }
 
-void Bake::trace(Packet& packet, Counts& counts) const noexcept {
-    const HighSurface& high = *packet.source->high;
-    high.land(packet.rays, packet.used, packet.hits);
-    counts.rays += packet.count;
-    if (!options_.try_wider) return;
-    PacketMask missed = 0;
-    for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
-        if (packet.hits[lane]) continue;
-        missed |= PacketMask(1) << lane;
-        packet.rays[lane] = ray_of(packet.cast[lane], wider_front, wider_back);
-        packet.start[lane] *= wider_front;
+/// Rays to the open texels, in packets of neighbours.
+void Bake::cast_rule(const std::vector<Place>& rule, int first_number, Band& band) {
+    const std::size_t width = std::size_t(options_.width), texels = band.open.size();
+    if (std::find(band.open.begin(), band.open.end(), 1) == band.open.end()) return;
+    std::vector<TexelHit> hits(texels * std::min<std::size_t>(rule.size(), packet_size));
+    for (std::size_t begin = 0; begin < rule.size(); begin += packet_size) {
+        const std::size_t places = std::min<std::size_t>(packet_size, rule.size() - begin);
+        for (std::size_t i = 0; i < places; ++i)
+            raster_->band(band.y / band_rows, rule[begin + i].at, {hits.data() + i * texels, texels});
+        const int block = places == 1 ? 4 : places <= 4 ? 2 : 1; // texels along its sides
+        const auto cast_texel = [&](int x, int y) {
+            const std::size_t texel = std::size_t(y) * width + std::size_t(x);
+            if (!band.open[texel]) return;
+            for (std::size_t i = 0; i < places; ++i)
+                if (const TexelHit& at = hits[i * texels + texel]; at.triangle != no_index) {
+                    TexelSample sample{at, x, band.y + y, rule[begin + i].weight, first_number + int(begin + i), false};
+                    if (!charts_->source.empty()) sample.at.triangle = charts_->source[at.triangle];
+                    caster_.add(sample, band.packet, band.counts);
+                }
+        };
+        for_blocks(options_.width, band.rows, block, cast_texel);
     }
-    if (missed == 0) return;
-    std::array<Hit, packet_size> found;
-    high.land(packet.rays, missed, found);
-    for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
-        if (!(missed >> lane & 1)) continue;
-        ++counts.rays;
-        packet.hits[lane] = found[lane];
-        counts.wider += bool(found[lane]);
-    }
+    caster_.flush(band.packet, band.counts);
 }
 
-/// Where both meshes end at the same place, a ray on the border of a chart can pass beside the high-poly mesh by a rounding. It is
-/// cast again a ten-thousandth of the triangle farther inside.
-void Bake::retry_inside(Packet& packet, Counts& counts) const noexcept {
-    constexpr float inward = 1e-4f;
-    for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
-        TexelHit at = packet.at[lane];
-        if (packet.hits[lane] || !is_on_edge(at)) continue;
-        at.b1 += inward * (1 / 3.f - at.b1), at.b2 += inward * (1 / 3.f - at.b2);
-        const Cast cast = packet.source->casting->at(at);
-        const Hit hit = packet.source->high->land(ray_of(cast, 1, 1));
-        ++counts.rays;
-        if (!hit) continue;
-        packet.at[lane] = at, packet.cast[lane] = cast, packet.hits[lane] = hit, packet.start[lane] = cast.reach.front;
+/// Leaves open what the last two rules do not agree on, as if it had no ray yet.
+void Bake::reopen(Band& band) {
+    const double angle = std::min(180.0, differences_per_error * options_.max_error_deg) * std::numbers::pi / 180;
+    const auto agreed = float(2 * std::sin(angle / 2)); // as a chord, which keeps the digits of small angles
+    for (std::size_t i = 0; i < band.open.size(); ++i) {
+        if (!band.open[i]) continue;
+        const int x = int(i) % options_.width, y = band.y + int(i) / options_.width;
+        const float* const sum = &out_.map.at(x, y);
+        const Vec3f mean = unit_or_zero(Vec3f(sum[0], sum[1], sum[2]));
+        band.open[i] = !(mean != Vec3f(0) && band.mean[i] != Vec3f(0) && glm::length(mean - band.mean[i]) <= agreed);
+        band.mean[i] = mean;
+        if (band.open[i]) caster_.clear(x, y);
     }
 }
 
-void Bake::add(const Packet& packet, int lane, float weight, bool centres, Counts& counts) noexcept {
-    const auto i = std::size_t(lane);
-    const HighSurface& high = *packet.source->high;
-    const TexelHit& at = packet.at[i];
-    const Hit& hit = packet.hits[i];
-    TexelState& state = out_.states.at(packet.x[i], packet.y[i]);
-    if (!hit) {
-        if (state != TexelState::outside) return;
-        state = high.bvh().occluded(packet.rays[i]) ? TexelState::behind : TexelState::missed;
-        return;
-    }
-    const Vec3f normal = high.normal(hit);
-    const MapFrame frame(target_, at, options_.space);
-    Vec3f t = frame.in_map(normal);
-    if (t == Vec3f(0)) {
-        ++counts.degenerate;
-        return;
-    }
-    if (centres) t = beyond_border(*packet.source, at, packet.x[i], packet.y[i], t, counts);
-    const Cast& cast = packet.cast[i];
-    const double height = double(packet.start[i] - hit.t);
-    counts.add(cast, height, std::abs(height) * facets_.texels_per_height(at.triangle, cast.inward), packet.x[i],
-               packet.y[i]);
-    const bool first = state != TexelState::hit;
-    state = TexelState::hit;
-    float* sum = &out_.map.at(packet.x[i], packet.y[i]);
-    for (int c = 0; c < 3; ++c) sum[c] += weight * t[c];
-    if (out_.details.empty()) return;
-    if (!weights_.empty()) weights_.at(packet.x[i], packet.y[i]) += weight;
-    const std::uint64_t seed =
-        std::uint64_t(pass_) << 40 ^ std::uint64_t(packet.y[i]) << 20 ^ std::uint64_t(packet.x[i]);
-    std::array<float, 4 * std::size(all_detail_maps)> values;
-    details_[std::size_t(packet.source - sources_.sources.data())].at({cast, hit, normal, seed}, values);
-    for (std::size_t m = 0; m < out_.details.size(); ++m) {
-        const DetailMap map = options_.details.maps[m];
-        float* to = &out_.details[m].at(packet.x[i], packet.y[i]);
-        const float* from = &values[4 * m];
-        if (map == DetailMap::id) { // colours of several meshes have no mean
-            if (first) std::copy_n(from, 3, to);
-            continue;
-        }
-        Vec3f value(from[0], channels(map) == 3 ? from[1] : 0, channels(map) == 3 ? from[2] : 0);
-        if (map == DetailMap::bent_normal) value = frame.in_map(value);
-        for (int c = 0; c < channels(map); ++c) to[c] += weight * value[c];
-    }
-}
-
-/// The value for a texel whose centre lies beyond the border of a chart, continued linearly from the nearest point of the chart and
-/// from the point as far inside: what a bilinear filter reads on the border is then what was hit there, on both sides of a seam.
-Vec3f Bake::beyond_border(const TransferSource& source, const TexelHit& edge, int x, int y, const Vec3f& at_edge,
-                          Counts& counts) const noexcept {
-    constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
-    const auto inside = mirrored_at_border(target_, edge, x, y, options_.width, options_.height);
-    if (!inside) return at_edge;
-    const Hit hit = source.high->land(ray_of(source.casting->at(*inside), 1, 1));
-    ++counts.rays;
-    if (!hit) return at_edge;
-    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(source.high->normal(hit));
-    return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
+void Bake::cast_centres(Band& band) {
+    for_blocks(options_.width, band.rows, 4, [&](int x, int y) {
+        const TexelHit& at = target_.raster.hits.at(x, band.y + y);
+        if (at.triangle != no_index && out_.states.at(x, band.y + y) == TexelState::outside)
+            caster_.add({at, x, band.y + y, 1, 0, true}, band.packet, band.counts);
+    });
+    caster_.flush(band.packet, band.counts);
 }
 
 } // namespace
@@ -290,22 +202,8 @@ Transfer transfer(const BakeTarget& target, const TransferSources& sources, cons
     if (options.alpha) out.alpha = Image<float>(options.width, options.height, 1);
     out.states = Image<TexelState>(options.width, options.height, 1);
     out.report.nearest = INFINITY, out.report.farthest = -INFINITY;
-    Bake bake(target, sources, options, out);
-    if (options.rays > 1) {
-        const std::vector<QuadraturePoint> rule = gauss_legendre(options.rays);
-        for (const QuadraturePoint& v : rule)
-            for (const QuadraturePoint& u : rule) {
-                const UvRaster samples = chart_raster(*target.surface.mesh, target.surface.triangles, options.width,
-                                                      options.height, options.tile, path, {{u.at, v.at}, false});
-                bake.cast_all(samples, float(u.weight * v.weight), false, progress);
-            }
-    }
-    // With several rays, what is left are texels of which no sample lies in a chart.
-    bake.cast_all(target.raster, 1, true, progress);
-    if (out.report.farthest < out.report.nearest) out.report.nearest = out.report.farthest = 0;
-    out.far = bake.far();
     out.report.border = target.raster.border;
-    finish_maps(out, bake.weights(), options);
+    Bake(target, sources, options, path, out).run(progress);
     return out;
 }
 

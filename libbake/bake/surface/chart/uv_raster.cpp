@@ -12,7 +12,7 @@ namespace {
 
 using namespace texel_grid;
 
-constexpr int band_rows = 16;
+constexpr int band_rows = PlaceRaster::band_rows;
 
 struct BandTotals {
     std::int64_t covered = 0, border = 0, overlapped = 0;
@@ -22,7 +22,7 @@ struct BandTotals {
 struct RasterBand {
     const TexelGrid& grid;
     int begin, end; ///< rows
-    Image<TexelHit>& hits;
+    TexelHit* first; ///< texel of the band
     std::size_t words; ///< per row
     std::vector<std::uint64_t> covered, owned, shared, bordered;
     std::vector<double> distance; ///< squared, of bordered texels
@@ -34,11 +34,12 @@ struct RasterBand {
     std::vector<Owned> waiting; ///< spans of the current face: triangles of one face do not overlap
     std::uint32_t face = no_index;
 
-    RasterBand(const TexelGrid& g, int begin_row, Image<TexelHit>& out)
-        : grid(g), begin(begin_row), end(std::min(g.height, begin_row + band_rows)), hits(out),
+    RasterBand(const TexelGrid& g, int begin_row, TexelHit* hits)
+        : grid(g), begin(begin_row), end(std::min(g.height, begin_row + band_rows)), first(hits),
           words((std::size_t(g.width) + 63) / 64), covered(words * (end - begin)), owned(covered.size()),
           shared(covered.size()), bordered(covered.size()) {}
 
+    TexelHit* hits(int y) const noexcept { return first + std::size_t(grid.width) * std::size_t(y - begin); }
     std::uint64_t* row(std::vector<std::uint64_t>& bits, int y) const { return bits.data() + words * (y - begin); }
 };
 
@@ -62,7 +63,7 @@ void fill(RasterBand& band, const TexelTriangle<I>& shape, std::uint32_t triangl
         at[corner] = double(edge.side(I(span.first) * step + half, I(y) * step + half)) * shape.inverse_area;
         slope[corner] = -double(edge.dy) * double(step) * shape.inverse_area;
     }
-    TexelHit* out = band.hits.row(y);
+    TexelHit* out = band.hits(y);
     std::uint64_t* covered = band.row(band.covered, y);
     const auto put = [&](int i) {
         const double n = i - span.first;
@@ -136,7 +137,7 @@ template <class I> void fill_border(RasterBand& band, const TexelTriangle<I>& sh
                 if (bordered >> bit & 1 && !(point.distance < distance)) continue;
                 bordered |= std::uint64_t(1) << bit;
                 distance = point.distance;
-                band.hits.row(y)[i] = {triangle, point.b1, point.b2};
+                band.hits(y)[i] = {triangle, point.b1, point.b2};
             }
         });
     }
@@ -149,9 +150,9 @@ std::int64_t ones(const std::vector<std::uint64_t>& bits) noexcept {
 }
 
 BandTotals raster_band(const Mesh& mesh, const std::vector<Triangle>& triangles, std::span<const std::uint32_t> mine,
-                       const TexelGrid& grid, int begin_row, bool border, Image<TexelHit>& hits) {
+                       const TexelGrid& grid, int begin_row, bool border, TexelHit* hits) {
     RasterBand band(grid, begin_row, hits);
-    for (int y = band.begin; y < band.end; ++y) std::fill_n(hits.row(y), grid.width, TexelHit{no_index, 0, 0});
+    for (int y = band.begin; y < band.end; ++y) std::fill_n(band.hits(y), grid.width, TexelHit{no_index, 0, 0});
     const auto for_shapes = [&](auto&& work) {
         for (const std::uint32_t t : mine) {
             const GridTriangle corners = corners_of(mesh, triangles[t], grid);
@@ -240,13 +241,10 @@ BandTriangles band_triangles(const std::vector<TriangleExtent>& extents, int ban
 
 } // namespace
 
-UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
-                   const UvRasterOptions& options) {
+UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height) {
     UvRaster out;
     if (width < 1 || height < 1) return out;
-    TexelGrid grid(width, height);
-    grid.moved_x = std::llround((0.5 - options.place.x) * double(grid.step));
-    grid.moved_y = std::llround((0.5 - options.place.y) * double(grid.step));
+    const TexelGrid grid(width, height);
     out.hits = Image<TexelHit>(width, height, 1);
     const std::vector<TriangleExtent> extents = extents_of(mesh, triangles, grid);
     count_faces(triangles, extents, out);
@@ -257,7 +255,7 @@ UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int
         for (std::int64_t b = begin; b < end; ++b) {
             const std::span<const std::uint32_t> own(of_band.triangle.data() + of_band.begin[b],
                                                      of_band.begin[b + 1] - of_band.begin[b]);
-            totals[b] = raster_band(mesh, triangles, own, grid, int(b) * band_rows, options.border, out.hits);
+            totals[b] = raster_band(mesh, triangles, own, grid, int(b) * band_rows, true, out.hits.row(int(b) * band_rows));
         }
     });
     for (const BandTotals& total : totals) {
@@ -266,6 +264,23 @@ UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int
         out.overlapped += total.overlapped;
     }
     return out;
+}
+
+PlaceRaster::PlaceRaster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height)
+    : mesh_(mesh), triangles_(triangles), width_(width), height_(height) {
+    // A triangle touches every texel of which it holds a place.
+    const std::vector<TriangleExtent> extents = extents_of(mesh, triangles, TexelGrid(width, height));
+    BandTriangles of_band = band_triangles(extents, (height + band_rows - 1) / band_rows);
+    begin_ = std::move(of_band.begin), triangle_ = std::move(of_band.triangle);
+    begin_.pop_back(); // a place that is of use while they are sorted
+}
+
+void PlaceRaster::band(int band, const Vec2d& place, std::span<TexelHit> hits) const {
+    TexelGrid grid(width_, height_);
+    grid.moved_x = std::llround((0.5 - place.x) * double(grid.step));
+    grid.moved_y = std::llround((0.5 - place.y) * double(grid.step));
+    const std::size_t begin = begin_[std::size_t(band)], end = begin_[std::size_t(band) + 1];
+    raster_band(mesh_, triangles_, {triangle_.data() + begin, end - begin}, grid, band * band_rows, false, hits.data());
 }
 
 } // namespace bake

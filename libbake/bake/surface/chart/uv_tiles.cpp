@@ -132,16 +132,16 @@ double clash_of(const Mesh& mesh, const std::vector<Triangle>& triangles, int sa
     return raster.covered > 0 ? double(raster.overlapped) / double(raster.covered) : 0;
 }
 
-/// The raster of one tile: uvs are moved so that the tile becomes the unit square.
-UvRaster raster_tile(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
-                     const UvTile& tile, const UvRasterOptions& options) {
-    if (tile == UvTile{}) return uv_raster(mesh, triangles, width, height, options);
-    Mesh charts;
-    charts.face_begin = mesh.face_begin;
-    charts.corner_uv = mesh.corner_uv;
-    for (const Vec2f& uv : mesh.uvs) charts.uvs.push_back(Vec2f(Vec2d(uv) - Vec2d(tile.u, tile.v)));
-    return uv_raster(charts, triangles, width, height, options);
+/// The uvs of a mesh, moved so that the tile becomes the unit square.
+std::unique_ptr<const Mesh> moved_charts(const Mesh& mesh, const UvTile& tile) {
+    auto charts = std::make_unique<Mesh>();
+    charts->face_begin = mesh.face_begin;
+    charts->corner_uv = mesh.corner_uv;
+    for (const Vec2f& uv : mesh.uvs) charts->uvs.push_back(Vec2f(Vec2d(uv) - Vec2d(tile.u, tile.v)));
+    return charts;
 }
+
+UvTile tile_of(int udim) noexcept { return {(udim - 1001) % 10, (udim - 1001) / 10}; }
 
 /// Counts the faces of the tile, which it returns, and the others; those that end at the border of the tile are outside.
 std::int64_t count_faces(const Mesh& mesh, const UvTile& tile, UvRaster& out) {
@@ -156,16 +156,6 @@ std::int64_t count_faces(const Mesh& mesh, const UvTile& tile, UvRaster& out) {
         out.crossing_faces += inside && range.first != range.last;
     }
     return inside_faces;
-}
-
-UvRaster raster_modulo_1(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height,
-                         const UvRasterOptions& options) {
-    const FoldedCharts folded = fold_faces(mesh, triangles);
-    UvRaster out = uv_raster(folded.mesh, folded.triangles, width, height, options);
-    for (std::size_t i = 0; i < out.hits.size(); ++i)
-        if (TexelHit& hit = out.hits.data()[i]; hit.triangle != no_index) hit.triangle = folded.source[hit.triangle];
-    out.outside_faces = out.crossing_faces = 0; // the part of a face that one copy leaves out is in another
-    return out;
 }
 
 } // namespace
@@ -228,30 +218,49 @@ UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int s
     return out;
 }
 
-UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height, int tile,
-                      const std::string& path, const UvRasterOptions& options) {
-    UvRaster out;
+PlacedCharts place_charts(const Mesh& mesh, const std::vector<Triangle>& triangles, int tile, int samples,
+                          const std::string& path) {
+    PlacedCharts out{&mesh, &triangles, {}, {}, nullptr, nullptr};
+    const auto move_to = [&](const UvTile& from) {
+        if (from == UvTile{}) return;
+        out.own_mesh = moved_charts(mesh, from), out.mesh = out.own_mesh.get();
+    };
     if (tile != 0) {
-        const UvTile wanted{(tile - 1001) % 10, (tile - 1001) / 10};
-        out = raster_tile(mesh, triangles, width, height, wanted, options);
-        if (count_faces(mesh, wanted, out) == 0)
-            throw Error(Refusal::unsuitable, path + ": no face has area in tile " + std::to_string(tile) +
-                                                 " of its uvs; name another one (`tile`)");
+        move_to(tile_of(tile));
         return out;
     }
-    const UvTiles tiles = uv_tiles(mesh, triangles, std::max(width, height));
-    switch (tiles.placement) {
-    case ChartPlacement::as_they_are: out = uv_raster(mesh, triangles, width, height, options); break;
-    case ChartPlacement::one_tile: out = raster_tile(mesh, triangles, width, height, tiles.tiles[0], options); break;
-    case ChartPlacement::modulo_1: out = raster_modulo_1(mesh, triangles, width, height, options); break;
-    case ChartPlacement::several:
+    const UvTiles tiles = uv_tiles(mesh, triangles, samples);
+    if (tiles.placement == ChartPlacement::several)
         throw Error(Refusal::unsuitable,
                     path + ": its charts lie in several tiles of the uvs (" + names(tiles.tiles) +
                         ") and overlap modulo 1; name the tile to bake (`tile`), or write <UDIM> in "
                         "the name of the map for one map per tile");
+    if (tiles.placement == ChartPlacement::one_tile) move_to(tiles.tiles[0]);
+    if (tiles.placement == ChartPlacement::modulo_1) {
+        FoldedCharts folded = fold_faces(mesh, triangles);
+        out.own_mesh = std::make_unique<const Mesh>(std::move(folded.mesh)), out.mesh = out.own_mesh.get();
+        out.own_triangles = std::make_unique<const std::vector<Triangle>>(std::move(folded.triangles));
+        out.triangles = out.own_triangles.get(), out.source = std::move(folded.source);
     }
     if (tiles.placement != ChartPlacement::as_they_are) out.tiles = names(tiles.tiles);
-    if (options.border && out.covered + out.border == 0)
+    return out;
+}
+
+UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height, int tile,
+                      const std::string& path) {
+    const PlacedCharts charts = place_charts(mesh, triangles, tile, std::max(width, height), path);
+    UvRaster out = uv_raster(*charts.mesh, *charts.triangles, width, height);
+    out.tiles = charts.tiles;
+    if (!charts.source.empty()) {
+        for (std::size_t i = 0; i < out.hits.size(); ++i)
+            if (TexelHit& hit = out.hits.data()[i]; hit.triangle != no_index)
+                hit.triangle = charts.source[hit.triangle];
+        out.outside_faces = out.crossing_faces = 0; // the part of a face that one copy leaves out is in another
+    }
+    if (tile != 0 && count_faces(mesh, tile_of(tile), out) == 0)
+        throw Error(Refusal::unsuitable, path + ": no face has area in tile " + std::to_string(tile) +
+                                             " of its uvs; name another one (`tile`)");
+    if (tile == 0 && out.covered + out.border == 0)
         throw Error(Refusal::unsuitable, path + ": no face has area in its uvs; unwrap the mesh");
     return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include "bake/surface/chart/uv_raster.h"
 #include <compare>
+#include <memory>
 #include <utility>
 
 namespace bake {
@@ -44,11 +45,24 @@ struct UvTiles {
 /// Overlaps are measured with `samples` samples along a tile's side, at least 64 and at most 1024.
 UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int samples);
 
-/// As uv_raster(), of all charts modulo 1. Where charts leak a little over the border of their tile and overlap others, those
-/// in the unit square win. With `tile`, a UDIM number, only the charts of that tile are rastered; 0: all of them. `path` is for messages.
-/// Throws Error{Refusal::unsuitable}, which names the tiles, for charts whose placement is `several` if no tile is given, and
-/// for a mesh of which nothing lies in the tile.
+/// Charts that are moved into the unit square, for a raster.
+struct PlacedCharts {
+    const Mesh* mesh; ///< the given one, or own_mesh
+    const std::vector<Triangle>* triangles;
+    std::vector<std::uint32_t> source; ///< the given triangle that each one is a copy of; empty: the same ones
+    std::string tiles;                 ///< in which the charts lie, if not in the unit square alone
+    std::unique_ptr<const Mesh> own_mesh; ///< uvs alone
+    std::unique_ptr<const std::vector<Triangle>> own_triangles;
+};
+/// Of all charts modulo 1; with `tile`, a UDIM number, the charts of that tile. Where charts leak a little over the border of
+/// their tile and overlap others, those in the unit square come first. The mesh must outlive the result. `path` is for
+/// messages, `samples` as for uv_tiles(). Throws Error{Refusal::unsuitable}, which names the tiles, for charts whose placement is
+/// `several` if no tile is given.
+PlacedCharts place_charts(const Mesh& mesh, const std::vector<Triangle>& triangles, int tile, int samples,
+                          const std::string& path);
+
+/// As uv_raster(), of charts that place_charts() has moved; refuses what that does, and a mesh of which nothing lies in the tile.
 UvRaster chart_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int width, int height, int tile,
-                      const std::string& path, const UvRasterOptions& options = {});
+                      const std::string& path);
 
 } // namespace bake
