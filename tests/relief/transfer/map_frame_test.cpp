@@ -31,9 +31,10 @@ TEST_SUITE("unit") {
             const auto& n = sphere.target.surface.n;
             const Vec3f normal =
                 glm::normalize((1 - at.b1 - at.b2) * n[corner[0]] + at.b1 * n[corner[1]] + at.b2 * n[corner[2]]);
-            const MapFrame tangent(sphere.target, at, Space::tangent), object(sphere.target, at, Space::object);
-            CHECK(glm::length(tangent.in_map(normal) - Vec3f(0, 0, 1)) < 1e-6f);
-            CHECK((object.in_map(normal) == normal));
+            const MapFrame tangent(sphere.target, at.triangle, Space::tangent),
+                object(sphere.target, at.triangle, Space::object);
+            CHECK(glm::length(tangent.in_map(normal, at) - Vec3f(0, 0, 1)) < 1e-6f);
+            CHECK((object.in_map(normal, at) == normal));
         }
     }
 
@@ -45,7 +46,8 @@ TEST_SUITE("unit") {
         const Target mirrored(turned, 8, 8);
         const Vec3f n = glm::normalize(Vec3f(0.3f, 0.5f, 1));
         const auto in = [&](const Target& t) {
-            return MapFrame(t.target, t.target.raster.hits.at(3, 4), Space::tangent).in_map(n);
+            const TexelHit& at = t.target.raster.hits.at(3, 4);
+            return MapFrame(t.target, at.triangle, Space::tangent).in_map(n, at);
         };
         CHECK(glm::length(in(plane)-n) < 1e-6f);
         CHECK(glm::length(in(mirrored)-Vec3f(-n.x, n.y, n.z)) < 1e-6f);
@@ -54,8 +56,8 @@ TEST_SUITE("unit") {
     TEST_CASE("map_frame: a frame without volume gives zero") {
         Target plane(unit_plane(), 8, 8);
         for (Vec4f& tangent : plane.target.tangents) tangent = Vec4f(0, 0, 1, 1);
-        CHECK(
-            (MapFrame(plane.target, plane.target.raster.hits.at(3, 4), Space::tangent).in_map({0, 0, 1}) == Vec3f(0)));
+        const TexelHit& at = plane.target.raster.hits.at(3, 4);
+        CHECK((MapFrame(plane.target, at.triangle, Space::tangent).in_map({0, 0, 1}, at) == Vec3f(0)));
     }
 
     TEST_CASE(

@@ -84,22 +84,39 @@ float Casting::averaged_share(const Vec3f& p, float width) const noexcept {
     return 1 - x * x * (3 - 2 * x);
 }
 
-Cast Casting::at(const TexelHit& at) const noexcept {
-    const auto& corner = low_.triangles[at.triangle].corner;
-    const Mesh& mesh = *low_.mesh;
-    const auto position = [&](std::size_t k) { return mesh.corner_position[corner[k]]; };
-    const Vec3f p = mixed(mesh.positions[position(0)], mesh.positions[position(1)], mesh.positions[position(2)], at);
-    Vec3f d = mixed(averaged_[corner[0]], averaged_[corner[1]], averaged_[corner[2]], at);
+/// What rays from a triangle are mixed from.
+struct Casting::Corners {
+    std::array<Vec3f, 3> p, d, own;
+    std::array<Reach, 3> reach;
+    bool blends; ///< own and d differ
+};
+
+Casting::Corners Casting::corners_of(std::uint32_t triangle) const noexcept {
+    Corners out{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t corner = low_.triangles[triangle].corner[k];
+        const std::uint32_t position = low_.mesh->corner_position[corner];
+        out.p[k] = low_.mesh->positions[position], out.d[k] = averaged_[corner];
+        if (!cage_) out.reach[k] = reach_[position];
+        if (own_.empty()) continue;
+        out.own[k] = own_[corner];
+        out.blends |= out.own[k] != out.d[k];
+    }
+    return out;
+}
+
+Cast Casting::at(const Corners& corners, const TexelHit& at) const noexcept {
+    const Vec3f p = mixed(corners.p[0], corners.p[1], corners.p[2], at);
+    Vec3f d = mixed(corners.d[0], corners.d[1], corners.d[2], at);
     if (cage_) {
         const float front = glm::length(d);
         return {p + d, -unit_or_zero(d), {front, front, 0}};
     }
-    const auto& r0 = reach_[position(0)];
-    const auto &r1 = reach_[position(1)], &r2 = reach_[position(2)];
+    const auto& [r0, r1, r2] = corners.reach;
     const Reach reach{mixed(r0.front, r1.front, r2.front, at), mixed(r0.back, r1.back, r2.back, at),
                       mixed(r0.blend, r1.blend, r2.blend, at)};
-    if (!own_.empty()) {
-        const Vec3f own = mixed(own_[corner[0]], own_[corner[1]], own_[corner[2]], at);
+    if (corners.blends) {
+        const Vec3f own = mixed(corners.own[0], corners.own[1], corners.own[2], at);
         if (own != d) {
             const float share = averaged_share(p, reach.blend);
             d = share * unit_or_zero(d) + (1 - share) * unit_or_zero(own);
@@ -107,6 +124,13 @@ Cast Casting::at(const TexelHit& at) const noexcept {
     }
     d = unit_or_zero(d);
     return {p + reach.front * d, -d, reach};
+}
+
+Cast Casting::at(const TexelHit& at) const noexcept { return this->at(corners_of(at.triangle), at); }
+
+void Casting::at(std::span<const TexelHit> points, std::span<Cast> casts) const noexcept {
+    const Corners corners = corners_of(points[0].triangle);
+    for (std::size_t i = 0; i < points.size(); ++i) casts[i] = at(corners, points[i]);
 }
 
 Vec3f Casting::envelope(std::uint32_t corner) const noexcept {

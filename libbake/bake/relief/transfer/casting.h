@@ -8,6 +8,7 @@
 #include "bake/surface/chart/mesh_surface.h"
 #include "bake/surface/chart/uv_raster.h"
 #include <memory>
+#include <span>
 
 namespace bake {
 
@@ -44,6 +45,8 @@ public:
     Casting(const MeshSurface& low, const Mesh& cage, const std::string& path);
 
     Cast at(const TexelHit& at) const noexcept;
+    /// The same for several points of one triangle.
+    void at(std::span<const TexelHit> points, std::span<Cast> casts) const noexcept;
     /// The corner of the envelope: the start of a ray there.
     Vec3f envelope(std::uint32_t corner) const noexcept;
     float most_front() const noexcept { return most_front_; }
@@ -52,6 +55,9 @@ public:
     std::size_t hard_edges() const noexcept { return hard_edges_; }
 
 private:
+    struct Corners;
+    Corners corners_of(std::uint32_t triangle) const noexcept;
+    Cast at(const Corners& corners, const TexelHit& at) const noexcept;
     void set_hard_edges(const std::vector<std::array<std::uint32_t, 2>>& edges);
     float averaged_share(const Vec3f& p, float width) const noexcept;
 

@@ -65,25 +65,27 @@ inline std::optional<TexelHit> mirrored_at_border(const BakeTarget& target, cons
     return TexelHit{edge.triangle, float(b1), float(b2)};
 }
 
-/// The frame of a texel's normals.
+/// Frames of the normals on a triangle.
 class MapFrame {
 public:
-    MapFrame(const BakeTarget& target, const TexelHit& at, Space space) noexcept : space_(space) {
+    MapFrame(const BakeTarget& target, std::uint32_t triangle, Space space) noexcept : space_(space) {
         if (space == Space::object) return;
-        const auto& corner = target.surface.triangles[at.triangle].corner;
-        const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
+        const auto& corner = target.surface.triangles[triangle].corner;
         for (std::size_t k = 0; k < 3; ++k)
-            tangent_ += b[k] * Vec3f(target.tangents[corner[k]]), n_ += b[k] * target.surface.n[corner[k]];
+            tangent_[k] = Vec3f(target.tangents[corner[k]]), n_[k] = target.surface.n[corner[k]];
         sign_ = target.tangents[corner[0]].w;
     }
-    /// Zero for a frame without volume.
-    Vec3f in_map(const Vec3f& normal) const noexcept {
-        return space_ == Space::object ? normal : to_tangent_space(normal, tangent_, n_, sign_);
+    /// `at`: on the triangle. Zero for a frame without volume.
+    Vec3f in_map(const Vec3f& normal, const TexelHit& at) const noexcept {
+        if (space_ == Space::object) return normal;
+        const float b0 = 1 - at.b1 - at.b2;
+        return to_tangent_space(normal, b0 * tangent_[0] + at.b1 * tangent_[1] + at.b2 * tangent_[2],
+                                b0 * n_[0] + at.b1 * n_[1] + at.b2 * n_[2], sign_);
     }
 
 private:
     Space space_;
-    Vec3f tangent_{0}, n_{0};
+    std::array<Vec3f, 3> tangent_, n_; ///< of the corners; not set in object space
     float sign_ = 1;
 };
 

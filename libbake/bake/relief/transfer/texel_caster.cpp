@@ -6,12 +6,21 @@ namespace bake {
 namespace {
 
 constexpr float wider_front = 2, wider_back = 3; ///< reaches of the second try, as multiples of the first
-constexpr int far_rows = 4;                      ///< so many rows have one texel in TexelCaster::far(); divides those of a task
+constexpr int far_rows = 4; ///< so many rows have one texel in TexelCaster::far(); divides those of a task
 
 Ray ray_of(const Cast& cast, float front, float back) noexcept {
     Ray ray{cast.start - (front - 1) * cast.reach.front * cast.inward, cast.inward};
     ray.t_max = front * cast.reach.front + back * cast.reach.back;
     return ray;
+}
+
+/// Calls work(begin, end) for the lanes that stand on one triangle in turn.
+template <class Work> void for_runs(const RayPacket& packet, Work&& work) {
+    const auto count = std::size_t(packet.count);
+    for (std::size_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin + 1; end < count && packet.at[end].triangle == packet.at[begin].triangle;) ++end;
+        work(begin, end);
+    }
 }
 
 } // namespace
@@ -39,26 +48,34 @@ void TexelCaster::clear(int x, int y) noexcept {
     out_.states.at(x, y) = TexelState::outside;
 }
 
-void TexelCaster::add(const TexelSample& sample, RayPacket& packet, CastCounts& counts) noexcept {
-    const TransferSource* const source = sources_.of(target_.surface.triangles[sample.at.triangle].face);
+void TexelCaster::add(const TexelSample& sample, const TexelHit& at, RayPacket& packet, CastCounts& counts) noexcept {
+    const TransferSource* const source = sources_.of(target_.surface.triangles[at.triangle].face);
     if (!source) {
         out_.states.at(sample.x, sample.y) = TexelState::unmatched;
         return;
     }
     if (packet.count == packet_size || (packet.count > 0 && source != packet.source)) flush(packet, counts);
-    const auto lane = std::size_t(packet.count++);
     packet.source = source;
-    packet.sample[lane] = sample;
-    packet.cast[lane] = source->casting->at(sample.at);
-    packet.rays[lane] = ray_of(packet.cast[lane], 1, 1);
-    packet.start[lane] = packet.cast[lane].reach.front;
+    packet.sample[std::size_t(packet.count)] = sample, packet.at[std::size_t(packet.count)] = at;
+    ++packet.count;
 }
 
 void TexelCaster::flush(RayPacket& packet, CastCounts& counts) noexcept {
     if (packet.count == 0) return;
+    const auto count = std::size_t(packet.count);
+    for_runs(packet, [&](std::size_t begin, std::size_t end) {
+        packet.source->casting->at({&packet.at[begin], end - begin}, {&packet.cast[begin], end - begin});
+    });
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        packet.rays[lane] = ray_of(packet.cast[lane], 1, 1);
+        packet.start[lane] = packet.cast[lane].reach.front;
+    }
     trace(packet, counts);
     retry_inside(packet, counts);
-    for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) land(packet, lane, counts);
+    for_runs(packet, [&](std::size_t begin, std::size_t end) {
+        const MapFrame frame(target_, packet.at[begin].triangle, options_.space);
+        for (std::size_t lane = begin; lane < end; ++lane) land(packet, lane, frame, counts);
+    });
     packet.count = 0;
 }
 
@@ -90,19 +107,19 @@ void TexelCaster::trace(RayPacket& packet, CastCounts& counts) const noexcept {
 void TexelCaster::retry_inside(RayPacket& packet, CastCounts& counts) const noexcept {
     constexpr float inward = 1e-4f;
     for (std::size_t lane = 0; lane < std::size_t(packet.count); ++lane) {
-        TexelHit at = packet.sample[lane].at;
+        TexelHit at = packet.at[lane];
         if (packet.hits[lane] || !packet.sample[lane].centre || !is_on_edge(at)) continue;
         at.b1 += inward * (1 / 3.f - at.b1), at.b2 += inward * (1 / 3.f - at.b2);
         const Cast cast = packet.source->casting->at(at);
         const Hit hit = packet.source->high->land(ray_of(cast, 1, 1));
         ++counts.rays;
         if (!hit) continue;
-        packet.sample[lane].at = at, packet.cast[lane] = cast, packet.hits[lane] = hit;
+        packet.at[lane] = at, packet.cast[lane] = cast, packet.hits[lane] = hit;
         packet.start[lane] = cast.reach.front;
     }
 }
 
-void TexelCaster::land(const RayPacket& packet, std::size_t lane, CastCounts& counts) noexcept {
+void TexelCaster::land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, CastCounts& counts) noexcept {
     const TexelSample& sample = packet.sample[lane];
     const HighSurface& high = *packet.source->high;
     TexelState& state = out_.states.at(sample.x, sample.y);
@@ -112,13 +129,12 @@ void TexelCaster::land(const RayPacket& packet, std::size_t lane, CastCounts& co
         return;
     }
     const Vec3f normal = high.normal(packet.hits[lane]);
-    const MapFrame frame(target_, sample.at, options_.space);
-    Vec3f t = frame.in_map(normal);
+    Vec3f t = frame.in_map(normal, packet.at[lane]);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;
     }
-    if (sample.centre) t = beyond_border(*packet.source, sample, t, counts);
+    if (sample.centre) t = beyond_border(packet, lane, frame, t, counts);
     count(packet, lane, counts);
     float* sum = &out_.map.at(sample.x, sample.y);
     for (int c = 0; c < 3; ++c) sum[c] += sample.weight * t[c];
@@ -145,7 +161,7 @@ void TexelCaster::add_details(const RayPacket& packet, std::size_t lane, const V
             continue;
         }
         Vec3f value(from[0], channels(map) == 3 ? from[1] : 0, channels(map) == 3 ? from[2] : 0);
-        if (map == DetailMap::bent_normal) value = frame.in_map(value);
+        if (map == DetailMap::bent_normal) value = frame.in_map(value, packet.at[lane]);
         for (int c = 0; c < channels(map); ++c) to[c] += sample.weight * value[c];
     }
 }
@@ -154,7 +170,7 @@ void TexelCaster::count(const RayPacket& packet, std::size_t lane, CastCounts& c
     const TexelSample& sample = packet.sample[lane];
     const Cast& cast = packet.cast[lane];
     const double height = double(packet.start[lane] - packet.hits[lane].t);
-    const double aside = std::abs(height) * facets_.texels_per_height(sample.at.triangle, cast.inward);
+    const double aside = std::abs(height) * facets_.texels_per_height(packet.at[lane].triangle, cast.inward);
     counts.nearest = std::min(counts.nearest, height), counts.farthest = std::max(counts.farthest, height);
     const double length = double(cast.reach.front) + double(cast.reach.back), bins = double(counts.lengths.size());
     const double at = length > 0 ? (double(cast.reach.front) - height) / length * bins : 0;
@@ -166,15 +182,18 @@ void TexelCaster::count(const RayPacket& packet, std::size_t lane, CastCounts& c
 
 /// The value for a texel whose centre lies beyond the border of a chart, continued linearly from the nearest point of the chart and
 /// from the point as far inside: what a bilinear filter reads on the border is then what was hit there, on both sides of a seam.
-Vec3f TexelCaster::beyond_border(const TransferSource& source, const TexelSample& edge, const Vec3f& at_edge,
+Vec3f TexelCaster::beyond_border(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& at_edge,
                                  CastCounts& counts) const noexcept {
     constexpr float alike = 0.87f; // cosine: beyond 30 degrees there is something else inside
-    const auto inside = mirrored_at_border(target_, edge.at, edge.x, edge.y, options_.width, options_.height);
+    const TexelSample& sample = packet.sample[lane];
+    const auto inside =
+        mirrored_at_border(target_, packet.at[lane], sample.x, sample.y, options_.width, options_.height);
     if (!inside) return at_edge;
-    const Hit hit = source.high->land(ray_of(source.casting->at(*inside), 1, 1));
+    const HighSurface& high = *packet.source->high;
+    const Hit hit = high.land(ray_of(packet.source->casting->at(*inside), 1, 1));
     ++counts.rays;
     if (!hit) return at_edge;
-    const Vec3f t = MapFrame(target_, *inside, options_.space).in_map(source.high->normal(hit));
+    const Vec3f t = frame.in_map(high.normal(hit), *inside);
     return glm::dot(t, at_edge) > alike ? unit_or_zero(2.0f * at_edge - t) : at_edge;
 }
 

@@ -13,9 +13,8 @@ struct CastCounts {
     std::array<std::int64_t, std::tuple_size_v<decltype(TransferReport::lengths)>> lengths{};
 };
 
-/// A ray that stands for part of a texel.
+/// What a ray in a texel stands for.
 struct TexelSample {
-    TexelHit at;
     int x, y;
     float weight;
     int number;  ///< of the sample in its texel
@@ -25,6 +24,7 @@ struct TexelSample {
 /// Rays that are cast together, all to the same source.
 struct RayPacket {
     std::array<TexelSample, packet_size> sample;
+    std::array<TexelHit, packet_size> at;
     std::array<Cast, packet_size> cast;
     std::array<Ray, packet_size> rays;
     std::array<Hit, packet_size> hits;
@@ -40,7 +40,7 @@ public:
     TexelCaster(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options, Transfer& out,
                 Image<float>& weights);
     /// Casts the packet first if it is full or has another source. Marks texels without a source.
-    void add(const TexelSample& sample, RayPacket& packet, CastCounts& counts) noexcept;
+    void add(const TexelSample& sample, const TexelHit& at, RayPacket& packet, CastCounts& counts) noexcept;
     /// Casts what is in the packet.
     void flush(RayPacket& packet, CastCounts& counts) noexcept;
     /// The texel is as if no ray had been cast.
@@ -51,9 +51,9 @@ public:
 private:
     void trace(RayPacket& packet, CastCounts& counts) const noexcept;
     void retry_inside(RayPacket& packet, CastCounts& counts) const noexcept;
-    Vec3f beyond_border(const TransferSource& source, const TexelSample& edge, const Vec3f& at_edge,
+    Vec3f beyond_border(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& at_edge,
                         CastCounts& counts) const noexcept;
-    void land(const RayPacket& packet, std::size_t lane, CastCounts& counts) noexcept;
+    void land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, CastCounts& counts) noexcept;
     void add_details(const RayPacket& packet, std::size_t lane, const Vec3f& normal, const MapFrame& frame,
                      bool first) noexcept;
     void count(const RayPacket& packet, std::size_t lane, CastCounts& counts) noexcept;

@@ -44,9 +44,10 @@ std::vector<std::vector<Place>> rules_of(const TransferOptions& options) {
 
 /// Texels of a band of rows, while it is cast.
 struct Band {
-    int y, rows; ///< the first of them, and how many
+    int y = 0, rows = 0;             ///< the first of them, and how many
     std::vector<unsigned char> open; ///< per texel: it needs the rays of the next rule
     std::vector<Vec3f> mean;         ///< per texel: of the rule before; zero where it has none
+    std::vector<TexelHit> hits;      ///< per place of a rule and texel
     CastCounts counts;
     RayPacket packet;
 };
@@ -91,29 +92,26 @@ private:
 };
 
 void Bake::run(Progress* progress) {
-    const int bands = (options_.height + band_rows - 1) / band_rows;
-    std::vector<CastCounts> counts(std::size_t(bands), CastCounts{});
-    for_rows(
-        bands, 1,
-        [&](std::int64_t begin, std::int64_t end) {
-            for (auto b = int(begin); b < int(end); ++b) {
-                Band band;
-                band.y = b * band_rows, band.rows = std::min(band_rows, options_.height - band.y);
-                cast_band(band);
-                counts[std::size_t(b)] = band.counts;
-            }
-        },
-        progress);
     TransferReport& report = out_.report;
     double parallax = 0;
     std::int64_t landed = 0;
-    for (const CastCounts& c : counts) {
-        report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
-        report.nearest = std::min(report.nearest, c.nearest), report.farthest = std::max(report.farthest, c.farthest);
-        for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
-        parallax += c.parallax, landed += c.landed;
-        report.parallax_max = std::max(report.parallax_max, c.most_parallax);
-    }
+    std::vector<Band> slots(static_cast<std::size_t>(slot_count()));
+    in_order((options_.height + band_rows - 1) / band_rows,
+             [&](std::int64_t b, int slot) {
+                 Band& band = slots[std::size_t(slot)];
+                 band.y = int(b) * band_rows, band.rows = std::min(band_rows, options_.height - band.y);
+                 cast_band(band);
+             },
+             [&](std::int64_t, int slot) {
+                 const CastCounts& c = slots[std::size_t(slot)].counts;
+                 report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
+                 report.nearest = std::min(report.nearest, c.nearest);
+                 report.farthest = std::max(report.farthest, c.farthest);
+                 for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
+                 parallax += c.parallax, landed += c.landed;
+                 report.parallax_max = std::max(report.parallax_max, c.most_parallax);
+                 if (progress) progress->add(1);
+             });
     report.parallax_mean = landed > 0 ? parallax / double(landed) : 0;
     if (landed == 0) report.nearest = report.farthest = 0;
     out_.far = caster_.far();
@@ -128,6 +126,7 @@ void Bake::cast_band(Band& band) {
     if (!rules_.empty()) band.open.resize(texels);
     for (std::size_t i = 0; i < band.open.size(); ++i) band.open[i] = centres[i].triangle != no_index;
     if (rules_.size() > 1) band.mean.assign(texels, Vec3f(0));
+    band.counts = {};
     int number = 0;
     for (const std::vector<Place>& rule : rules_) {
         if (&rule != rules_.data()) reopen(band);
@@ -141,20 +140,21 @@ void Bake::cast_band(Band& band) {
 void Bake::cast_rule(const std::vector<Place>& rule, int first_number, Band& band) {
     const std::size_t width = std::size_t(options_.width), texels = band.open.size();
     if (std::find(band.open.begin(), band.open.end(), 1) == band.open.end()) return;
-    std::vector<TexelHit> hits(texels * std::min<std::size_t>(rule.size(), packet_size));
+    band.hits.resize(texels * std::min<std::size_t>(rule.size(), packet_size));
     for (std::size_t begin = 0; begin < rule.size(); begin += packet_size) {
         const std::size_t places = std::min<std::size_t>(packet_size, rule.size() - begin);
         for (std::size_t i = 0; i < places; ++i)
-            raster_->band(band.y / band_rows, rule[begin + i].at, {hits.data() + i * texels, texels});
+            raster_->band(band.y / band_rows, rule[begin + i].at, {band.hits.data() + i * texels, texels});
         const int block = places == 1 ? 4 : places <= 4 ? 2 : 1; // texels along its sides
         const auto cast_texel = [&](int x, int y) {
             const std::size_t texel = std::size_t(y) * width + std::size_t(x);
             if (!band.open[texel]) return;
             for (std::size_t i = 0; i < places; ++i)
-                if (const TexelHit& at = hits[i * texels + texel]; at.triangle != no_index) {
-                    TexelSample sample{at, x, band.y + y, rule[begin + i].weight, first_number + int(begin + i), false};
-                    if (!charts_->source.empty()) sample.at.triangle = charts_->source[at.triangle];
-                    caster_.add(sample, band.packet, band.counts);
+                if (const TexelHit& at = band.hits[i * texels + texel]; at.triangle != no_index) {
+                    TexelHit given = at;
+                    if (!charts_->source.empty()) given.triangle = charts_->source[at.triangle];
+                    caster_.add({x, band.y + y, rule[begin + i].weight, first_number + int(begin + i), false}, given,
+                                band.packet, band.counts);
                 }
         };
         for_blocks(options_.width, band.rows, block, cast_texel);
@@ -181,7 +181,7 @@ void Bake::cast_centres(Band& band) {
     for_blocks(options_.width, band.rows, 4, [&](int x, int y) {
         const TexelHit& at = target_.raster.hits.at(x, band.y + y);
         if (at.triangle != no_index && out_.states.at(x, band.y + y) == TexelState::outside)
-            caster_.add({at, x, band.y + y, 1, 0, true}, band.packet, band.counts);
+            caster_.add({x, band.y + y, 1, 0, true}, at, band.packet, band.counts);
     });
     caster_.flush(band.packet, band.counts);
 }

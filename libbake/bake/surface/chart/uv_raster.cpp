@@ -21,8 +21,8 @@ struct BandTotals {
 /// The state of the texels of a band, one bit each.
 struct RasterBand {
     const TexelGrid& grid;
-    int begin, end; ///< rows
-    TexelHit* first; ///< texel of the band
+    int begin, end;    ///< rows
+    TexelHit* first;   ///< texel of the band
     std::size_t words; ///< per row
     std::vector<std::uint64_t> covered, owned, shared, bordered;
     std::vector<double> distance; ///< squared, of bordered texels
@@ -255,7 +255,8 @@ UvRaster uv_raster(const Mesh& mesh, const std::vector<Triangle>& triangles, int
         for (std::int64_t b = begin; b < end; ++b) {
             const std::span<const std::uint32_t> own(of_band.triangle.data() + of_band.begin[b],
                                                      of_band.begin[b + 1] - of_band.begin[b]);
-            totals[b] = raster_band(mesh, triangles, own, grid, int(b) * band_rows, true, out.hits.row(int(b) * band_rows));
+            totals[b] =
+                raster_band(mesh, triangles, own, grid, int(b) * band_rows, true, out.hits.row(int(b) * band_rows));
         }
     });
     for (const BandTotals& total : totals) {

@@ -49,8 +49,8 @@ UvTiles uv_tiles(const Mesh& mesh, const std::vector<Triangle>& triangles, int s
 struct PlacedCharts {
     const Mesh* mesh; ///< the given one, or own_mesh
     const std::vector<Triangle>* triangles;
-    std::vector<std::uint32_t> source; ///< the given triangle that each one is a copy of; empty: the same ones
-    std::string tiles;                 ///< in which the charts lie, if not in the unit square alone
+    std::vector<std::uint32_t> source;    ///< the given triangle that each one is a copy of; empty: the same ones
+    std::string tiles;                    ///< in which the charts lie, if not in the unit square alone
     std::unique_ptr<const Mesh> own_mesh; ///< uvs alone
     std::unique_ptr<const std::vector<Triangle>> own_triangles;
 };
