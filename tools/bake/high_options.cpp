@@ -1,4 +1,5 @@
 #include "high_options.h"
+#include "bake/base/text.h"
 #include "inputs/choice.h"
 #include "inputs/file_kind.h"
 #include "inputs/name_list.h"
@@ -27,11 +28,17 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_length_option(sub, "--extrude", args.extrude, "Rays start this far outside of the first mesh [automatic]");
     add_length_option(sub, "--max-distance", args.max_distance,
                       "Length of the rays [with --extrude twice that, else automatic]");
-    add_integer_option(sub, "--rays", args.rays, 1, 16, "Rays along each side of a texel, K x K in all")
-        ->default_str(std::to_string(args.rays));
-    add_choice<HighNormals>(sub, "--high-normals", args.normals,
-                            {{"smooth", HighNormals::smooth}, {"facet", HighNormals::facet}},
-                            "Normals of the meshes of --high");
+    add_integer_option(sub, "--rays", args.rays, 1, 16,
+                       format("Rays along each side of a texel, K x K in all; with --max-error-deg at most [%d; with "
+                              "--max-error-deg %d]",
+                              default_rays, most_rays_by_default));
+    add_number_option(sub, "--max-error-deg", args.max_error_deg, 1e-4, 180,
+                      "Rays are added to a texel until its mean is known to so many degrees [all texels get K x K]");
+    add_choice<HighNormals>(
+        sub, "--high-normals", args.normals,
+        {{"smooth", HighNormals::smooth}, {"curved", HighNormals::curved}, {"facet", HighNormals::facet}},
+        "Normals of the meshes of --high: as they are shaded, with the curvature between corners, or of "
+        "facets");
     add_choice<CastBy>(
         sub, "--cast", args.cast, {{"blend", CastBy::blend}, {"averaged", CastBy::averaged}, {"face", CastBy::face}},
         "Directions of rays: averaged at hard edges and perpendicular elsewhere, averaged, or of facets");
@@ -55,8 +62,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
     for (const char* flag :
-         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
-          "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
+         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--max-error-deg", "--high-normals",
+          "--cast", "--maps", "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 
@@ -67,6 +74,9 @@ void complete(const HighArgs& args) {
         throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
     if (!args.cage.empty()) expect_mesh(args.cage);
+    if (args.max_error_deg && args.rays == 1)
+        throw usage(
+            "--max-error-deg: adds rays to texels, and --rays 1 allows one alone; leave out --rays or give more");
     if (!args.cage.empty() && (args.extrude || args.max_distance))
         throw usage("--cage: brings its own distances; leave out --extrude and --max-distance");
     if (args.max_distance && !args.extrude)

@@ -9,7 +9,8 @@ struct HighArgs {
     std::vector<std::string> paths;
     std::string cage;
     std::optional<Length> extrude, max_distance;
-    int rays = 1; ///< along each side of a texel
+    std::optional<int> rays;             ///< along each side of a texel
+    std::optional<double> max_error_deg; ///< of the mean over a texel
     HighNormals normals = HighNormals::smooth;
     CastBy cast = CastBy::blend;
     bool strict = false, alpha = false, match_names = false;
@@ -21,6 +22,8 @@ struct HighArgs {
 
     bool given() const noexcept { return !paths.empty(); }
 };
+
+inline constexpr int default_rays = 1, most_rays_by_default = 8; ///< without and with an error that is asked for
 
 void add_high_options(CLI::App& sub, HighArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other.

@@ -73,6 +73,9 @@ std::string to_text(const HighReport& report) {
                options.space == Space::tangent ? "tangent" : "object",
                options.directx ? "down (DirectX)" : "up (OpenGL)", totals.triangles, static_cast<long long>(r.rays),
                source_of_reach(report.args.high), double(totals.front), double(totals.back));
+    if (options.max_error_deg > 0 && r.hit > 0)
+        text += format("\n%.3g rays for each texel of the charts, up to %d, for means to %.3g deg",
+                       double(r.rays) / double(r.hit + r.missed), options.rays * options.rays, options.max_error_deg);
     text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
                    "left flat",
                    share(r.hit + r.missed + r.unmatched, texels), share(r.missed, r.hit + r.missed + r.unmatched),
@@ -113,6 +116,7 @@ nlohmann::json to_json(const HighReport& report) {
             {"reach", {{"front", totals.front}, {"back", totals.back}}},
             {"hard_edges", totals.hard_edges},
             {"rays", r.rays},
+            {"max_error_deg", options.max_error_deg > 0 ? nlohmann::json(options.max_error_deg) : nlohmann::json()},
             {"ray_lengths", r.lengths},
             {"heights", {r.nearest, r.farthest}},
             {"parallax_texels", {{"mean", r.parallax_mean}, {"max", r.parallax_max}}},

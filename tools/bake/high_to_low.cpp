@@ -5,7 +5,10 @@
 #include "high_report.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
+#include "render_progress.h"
+#include "ticker.h"
 #include <algorithm>
+#include <chrono>
 
 namespace bake {
 namespace {
@@ -17,7 +20,9 @@ TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
     TransferOptions options;
     std::tie(options.width, options.height) = args.size.value_or(std::pair(default_size, default_size));
     options.space = args.space, options.directx = args.directx;
-    options.padding = args.padding, options.tile = args.tile, options.rays = args.high.rays;
+    options.padding = args.padding, options.tile = args.tile;
+    options.max_error_deg = args.high.max_error_deg.value_or(0);
+    options.rays = args.high.rays.value_or(args.high.max_error_deg ? most_rays_by_default : default_rays);
     options.alpha = args.high.alpha;
     options.details.maps = args.high.maps, options.details.sky_rays = args.high.sky_rays;
     if (args.high.sky_distance)
@@ -37,6 +42,18 @@ std::vector<std::unique_ptr<ImageWriter>> open_maps(const HighArgs& args, const 
                                                         WriteOptions{.depth = Depth::float32, .channels = names}));
     }
     return writers;
+}
+
+/// "bake 37 %, 12.3 M rays/s, 4 s left", told anew by each call.
+std::function<std::string()> progress_text(const TransferProgress& progress, int rows) {
+    const auto start = std::chrono::steady_clock::now();
+    return [&progress, rows, start] {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double share = double(progress.rows) / rows / progress.passes;
+        std::string line = format("bake %.0f %%, %.2f M rays/s", 100 * share,
+                                  seconds > 0 ? double(progress.rays) / seconds * 1e-6 : 0);
+        return share > 0 ? line + format(", %.0f s left", seconds / share - seconds) : line;
+    };
 }
 
 /// Of all kinds, to choose the tree by.
@@ -71,9 +88,9 @@ Casting make_casting(const NormalMapArgs& args, const MeshSurface& low, const Hi
 class HighBake {
 public:
     HighBake(const NormalMapArgs& args, Depth depth, const Mesh& low, std::vector<HighMesh> meshes, Progress& progress,
-             Stopwatch& watch)
+             Stopwatch& watch, bool visible)
         : args_(args), depth_(depth), low_(low), options_(options_of(args, low)), progress_(progress), watch_(watch),
-          surface_(make_mesh_surface(low, {.derivatives = false})) {
+          visible_(visible), surface_(make_mesh_surface(low, {.derivatives = false})) {
         if (!args.high.match_names) {
             add_source(std::move(meshes));
         } else {
@@ -112,6 +129,7 @@ private:
     TransferOptions options_;
     Progress& progress_;
     Stopwatch& watch_;
+    bool visible_; ///< whether progress is shown
     MeshSurface surface_;
     std::vector<std::unique_ptr<HighSurface>> highs_;
     std::vector<std::unique_ptr<Casting>> castings_;
@@ -128,9 +146,12 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     if (!args.high.debug_rays.empty()) const OutputFile writable(args.high.debug_rays);
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
-    progress_.start("bake", (options.height + PlaceRaster::band_rows - 1) / PlaceRaster::band_rows);
-    const Transfer result = transfer(target, sources_, options, args.mesh, &progress_);
-    progress_.finish();
+    const Transfer result = [&] {
+        progress_.finish();
+        TransferProgress progress;
+        const Ticker ticker(visible_, progress_text(progress, options.height));
+        return transfer(target, sources_, options, args.mesh, &progress);
+    }();
     watch_.lap("bake");
     const auto stored = file.write(result.map, result.alpha);
     for (std::size_t m = 0; m < map_writers.size(); ++m) {
@@ -184,7 +205,7 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     take_notes(args.mesh, low);
     for (const HighMesh& high : meshes) take_notes(high.name, high.mesh);
     watch.lap("read");
-    HighBake bake(args, depth, low, std::move(meshes), progress, watch);
+    HighBake bake(args, depth, low, std::move(meshes), progress, watch, is_visible(common));
     const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
     std::string text;
     std::int64_t missed = 0;

@@ -32,7 +32,8 @@ std::vector<HighSurface::Part> HighSurface::parts_of(std::vector<HighMesh> meshe
         move_origin(high.mesh, origin);
         Part part;
         part.triangles = triangulate(high.mesh);
-        if (normals == HighNormals::smooth) part.normals = corner_normals(high.mesh, part.triangles);
+        if (normals != HighNormals::facet) part.normals = corner_normals(high.mesh, part.triangles);
+        if (normals == HighNormals::curved) part.edges = edge_normals(high.mesh, part.triangles, part.normals);
         part.first_number = number;
         number += std::uint32_t(high.mesh.materials.size()) + 1;
         part.high = std::move(high);
@@ -101,9 +102,10 @@ Vec3f HighSurface::normal(const Hit& hit) const noexcept {
     const Part& part = parts_[hit.mesh];
     if (part.normals.empty()) return facet_normal(hit.mesh, hit.triangle);
     const auto& corner = part.triangles[hit.triangle].corner;
-    const Vec3f n = unit_or_zero((1 - hit.b1 - hit.b2) * part.normals[corner[0]] + hit.b1 * part.normals[corner[1]] +
-                                 hit.b2 * part.normals[corner[2]]);
-    return n == Vec3f(0) ? facet_normal(hit.mesh, hit.triangle) : n;
+    const std::array<Vec3f, 3> n{part.normals[corner[0]], part.normals[corner[1]], part.normals[corner[2]]};
+    const Vec3f out = part.edges.empty() ? unit_or_zero((1 - hit.b1 - hit.b2) * n[0] + hit.b1 * n[1] + hit.b2 * n[2])
+                                         : curved_normal(n, part.edges[hit.triangle], hit.b1, hit.b2);
+    return out == Vec3f(0) ? facet_normal(hit.mesh, hit.triangle) : out;
 }
 
 } // namespace bake

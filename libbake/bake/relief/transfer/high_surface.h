@@ -2,12 +2,14 @@
 #pragma once
 #include "bake/mesh/triangulate.h"
 #include "bake/ray/bvh.h"
+#include "bake/relief/transfer/edge_normals.h"
 #include <string>
 
 namespace bake {
 
 enum class HighNormals {
     smooth, ///< interpolated from the corners, as the mesh is shaded
+    curved, ///< the same with the curvature between corners, nearer to the smooth surface that the mesh stands for
     facet,  ///< of the triangle that was hit
 };
 
@@ -58,6 +60,7 @@ private:
         HighMesh high;
         std::vector<Triangle> triangles;
         std::vector<Vec3f> normals;     ///< corners; empty for facet normals
+        std::vector<EdgeNormals> edges; ///< triangles; empty unless normals are curved
         std::uint32_t first_number = 1; ///< of its faces without a material
     };
     static std::vector<Part> parts_of(std::vector<HighMesh> meshes, const Vec3d& origin, HighNormals normals,

@@ -1,6 +1,5 @@
 #include "bake/relief/transfer/transfer.h"
 #include "bake/base/parallel.h"
-#include "bake/base/progress.h"
 #include "bake/relief/transfer/finish_maps.h"
 #include "bake/relief/transfer/gauss_legendre.h"
 #include "bake/relief/transfer/texel_caster.h"
@@ -14,9 +13,16 @@ namespace {
 
 constexpr int band_rows = PlaceRaster::band_rows;
 
-/// Of a rule of Gauss and Legendre in turn with the next, for one wave that is at least a texel long: the difference between the
-/// two is at least five times the error of the second. A fifth part of safety is kept.
-constexpr double differences_per_error = 4;
+/// How many times larger than the error of the second the difference between two rules in turn is, at least, for a wave in any
+/// direction: for radon_rule() and the centre if the wave is a texel long, for the others if it is 1.5 texels long.
+constexpr double differences_of_centre = 15, differences_of_rules = 2.5;
+
+/// How many times larger the error of one ray is than second differences of its neighbours tell, at most, for waves that are two
+/// texels long.
+constexpr float curvature_safety = 2.2f;
+
+/// Length of the chord of an angle between unit vectors; it keeps the digits of small angles.
+double chord_of(double degrees) noexcept { return 2 * std::sin(std::min(180.0, degrees) * std::numbers::pi / 360); }
 
 struct Place {
     Vec2d at; ///< in the texel
@@ -32,22 +38,35 @@ std::vector<Place> rule_of(int rays) {
     return rule;
 }
 
-/// With an error that is asked for, rules of more and more rays; else one; none for one ray, which is that of the centres.
+/// Seven points, exact for polynomials of the degree 5. Radon, Zur mechanischen Kubatur, Monatshefte für Mathematik 52, 1948.
+std::vector<Place> radon_rule() {
+    const double far = std::sqrt(14.0 / 15) / 2, wide = std::sqrt(3.0 / 5) / 2, narrow = std::sqrt(1.0 / 3) / 2;
+    std::vector<Place> rule{{{0.5, 0.5}, 2 / 7.f}};
+    for (const double side : {-1, 1}) {
+        rule.push_back({{0.5, 0.5 + side * far}, 5 / 63.f});
+        for (const double other : {-1, 1}) rule.push_back({{0.5 + side * wide, 0.5 + other * narrow}, 5 / 36.f});
+    }
+    return rule;
+}
+
+/// What follows on one ray for each texel: nothing, the rule of all texels, or with an error that is asked for rules of more and
+/// more rays, each for what the rules before it do not agree on.
 std::vector<std::vector<Place>> rules_of(const TransferOptions& options) {
     std::vector<std::vector<Place>> rules;
-    if (options.max_error_deg > 0)
-        for (const int rays : {1, 2, 3, 4, 6, 8, 12})
+    if (options.max_error_deg > 0) {
+        if (options.rays > 2) rules.push_back(radon_rule());
+        for (const int rays : {4, 8})
             if (rays < options.rays) rules.push_back(rule_of(rays));
+    }
     if (options.rays > 1) rules.push_back(rule_of(options.rays));
     return rules;
 }
 
 /// Texels of a band of rows, while it is cast.
 struct Band {
-    int y = 0, rows = 0;             ///< the first of them, and how many
-    std::vector<unsigned char> open; ///< per texel: it needs the rays of the next rule
-    std::vector<Vec3f> mean;         ///< per texel: of the rule before; zero where it has none
-    std::vector<TexelHit> hits;      ///< per place of a rule and texel
+    int y = 0, rows = 0;        ///< the first of them, and how many
+    std::vector<Vec3f> mean;    ///< per texel: of the rule before; zero where it has none
+    std::vector<TexelHit> hits; ///< per place of a rule and texel
     CastCounts counts;
     RayPacket packet;
 };
@@ -67,19 +86,24 @@ public:
         : target_(target), options_(options), out_(out), rules_(rules_of(options)),
           weights_(!rules_.empty() && !options.details.maps.empty() ? Image<float>(options.width, options.height, 1)
                                                                     : Image<float>()),
-          caster_(target, sources, options, out, weights_) {
+          caster_(target, sources, options, out, weights_), slots_(static_cast<std::size_t>(slot_count())) {
         if (rules_.empty()) return;
         charts_.emplace(place_charts(*target.surface.mesh, target.surface.triangles, options.tile,
                                      std::max(options.width, options.height), path));
         raster_.emplace(*charts_->mesh, *charts_->triangles, options.width, options.height);
+        open_ = Image<unsigned char>(options.width, options.height, 1);
+        for (std::size_t i = 0; i < open_.size(); ++i)
+            open_.data()[i] = target.raster.hits.data()[i].triangle != no_index;
     }
-    void run(Progress* progress);
+    void run(TransferProgress* progress);
 
 private:
-    void cast_band(Band& band);
+    template <class Work> void for_bands(Work&& work, TransferProgress* progress);
+    void cast_rules(Band& band);
     void cast_rule(const std::vector<Place>& rule, int first_number, Band& band);
     void cast_centres(Band& band);
-    void reopen(Band& band);
+    void open_by_centres();
+    void reopen(Band& band, std::size_t rules);
 
     const BakeTarget& target_;
     const TransferOptions& options_;
@@ -89,92 +113,140 @@ private:
     TexelCaster caster_;
     std::optional<PlacedCharts> charts_;
     std::optional<PlaceRaster> raster_;
+    Image<unsigned char> open_; ///< texels that need the rays of the next rule
+    std::vector<Band> slots_;
+    double parallax_ = 0; ///< sum over the rays that landed
+    std::int64_t landed_ = 0;
 };
 
-void Bake::run(Progress* progress) {
+/// Adds up what the bands count, in order.
+template <class Work> void Bake::for_bands(Work&& work, TransferProgress* progress) {
     TransferReport& report = out_.report;
-    double parallax = 0;
-    std::int64_t landed = 0;
-    std::vector<Band> slots(static_cast<std::size_t>(slot_count()));
     in_order((options_.height + band_rows - 1) / band_rows,
              [&](std::int64_t b, int slot) {
-                 Band& band = slots[std::size_t(slot)];
+                 Band& band = slots_[std::size_t(slot)];
                  band.y = int(b) * band_rows, band.rows = std::min(band_rows, options_.height - band.y);
-                 cast_band(band);
+                 band.counts = {};
+                 work(band);
              },
              [&](std::int64_t, int slot) {
-                 const CastCounts& c = slots[std::size_t(slot)].counts;
+                 const CastCounts& c = slots_[std::size_t(slot)].counts;
                  report.rays += c.rays, report.wider += c.wider, report.degenerate += c.degenerate;
                  report.nearest = std::min(report.nearest, c.nearest);
                  report.farthest = std::max(report.farthest, c.farthest);
                  for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
-                 parallax += c.parallax, landed += c.landed;
+                 parallax_ += c.parallax, landed_ += c.landed;
                  report.parallax_max = std::max(report.parallax_max, c.most_parallax);
-                 if (progress) progress->add(1);
+                 if (progress) progress->rows += slots_[std::size_t(slot)].rows, progress->rays += c.rays;
              });
-    report.parallax_mean = landed > 0 ? parallax / double(landed) : 0;
-    if (landed == 0) report.nearest = report.farthest = 0;
+}
+
+void Bake::run(TransferProgress* progress) {
+    const bool adaptive = options_.max_error_deg > 0 && !rules_.empty();
+    if (progress) progress->passes = adaptive ? 2 : 1;
+    for_bands(
+        [&](Band& band) {
+            for (int y = band.y; y < band.y + band.rows; ++y)
+                for (int x = 0; x < options_.width; ++x) caster_.clear(x, y);
+            if (!adaptive) cast_rules(band);
+            cast_centres(band);
+        },
+        progress);
+    if (adaptive) {
+        open_by_centres();
+        for_bands(
+            [&](Band& band) {
+                cast_rules(band);
+                cast_centres(band);
+            },
+            progress);
+    }
+    TransferReport& report = out_.report;
+    report.parallax_mean = landed_ > 0 ? parallax_ / double(landed_) : 0;
+    if (landed_ == 0) report.nearest = report.farthest = 0;
     out_.far = caster_.far();
     finish_maps(out_, weights_, options_);
 }
 
-void Bake::cast_band(Band& band) {
-    for (int y = band.y; y < band.y + band.rows; ++y)
-        for (int x = 0; x < options_.width; ++x) caster_.clear(x, y);
-    const std::size_t texels = std::size_t(band.rows) * std::size_t(options_.width);
-    const TexelHit* const centres = target_.raster.hits.row(band.y);
-    if (!rules_.empty()) band.open.resize(texels);
-    for (std::size_t i = 0; i < band.open.size(); ++i) band.open[i] = centres[i].triangle != no_index;
-    if (rules_.size() > 1) band.mean.assign(texels, Vec3f(0));
-    band.counts = {};
-    int number = 0;
-    for (const std::vector<Place>& rule : rules_) {
-        if (&rule != rules_.data()) reopen(band);
-        cast_rule(rule, number, band);
-        number += int(rule.size());
+void Bake::cast_rules(Band& band) {
+    const bool adaptive = options_.max_error_deg > 0;
+    if (adaptive) band.mean.assign(std::size_t(band.rows) * std::size_t(options_.width), Vec3f(0));
+    int number = 1;
+    for (std::size_t i = 0; i < rules_.size(); ++i) {
+        if (adaptive) reopen(band, i);
+        cast_rule(rules_[i], number, band);
+        number += int(rules_[i].size());
     }
-    cast_centres(band);
 }
 
 /// Rays to the open texels, in packets of neighbours.
 void Bake::cast_rule(const std::vector<Place>& rule, int first_number, Band& band) {
-    const std::size_t width = std::size_t(options_.width), texels = band.open.size();
-    if (std::find(band.open.begin(), band.open.end(), 1) == band.open.end()) return;
+    const std::size_t width = std::size_t(options_.width), texels = width * std::size_t(band.rows);
+    const unsigned char* const open = open_.row(band.y);
+    if (std::find(open, open + texels, 1) == open + texels) return;
     band.hits.resize(texels * std::min<std::size_t>(rule.size(), packet_size));
     for (std::size_t begin = 0; begin < rule.size(); begin += packet_size) {
         const std::size_t places = std::min<std::size_t>(packet_size, rule.size() - begin);
         for (std::size_t i = 0; i < places; ++i)
             raster_->band(band.y / band_rows, rule[begin + i].at, {band.hits.data() + i * texels, texels});
-        const int block = places == 1 ? 4 : places <= 4 ? 2 : 1; // texels along its sides
         const auto cast_texel = [&](int x, int y) {
             const std::size_t texel = std::size_t(y) * width + std::size_t(x);
-            if (!band.open[texel]) return;
-            for (std::size_t i = 0; i < places; ++i)
-                if (const TexelHit& at = band.hits[i * texels + texel]; at.triangle != no_index) {
-                    TexelHit given = at;
-                    if (!charts_->source.empty()) given.triangle = charts_->source[at.triangle];
-                    caster_.add({x, band.y + y, rule[begin + i].weight, first_number + int(begin + i), false}, given,
-                                band.packet, band.counts);
-                }
+            if (!open[texel]) return;
+            for (std::size_t i = 0; i < places; ++i) {
+                TexelHit at = band.hits[i * texels + texel];
+                if (at.triangle == no_index) continue;
+                if (!charts_->source.empty()) at.triangle = charts_->source[at.triangle];
+                caster_.add({x, band.y + y, rule[begin + i].weight, first_number + int(begin + i), false}, at,
+                            band.packet, band.counts);
+            }
         };
-        for_blocks(options_.width, band.rows, block, cast_texel);
+        for_blocks(options_.width, band.rows, places <= 4 ? 2 : 1, cast_texel);
     }
     caster_.flush(band.packet, band.counts);
 }
 
-/// Leaves open what the last two rules do not agree on, as if it had no ray yet.
-void Bake::reopen(Band& band) {
-    const double angle = std::min(180.0, differences_per_error * options_.max_error_deg) * std::numbers::pi / 180;
-    const auto agreed = float(2 * std::sin(angle / 2)); // as a chord, which keeps the digits of small angles
-    for (std::size_t i = 0; i < band.open.size(); ++i) {
-        if (!band.open[i]) continue;
-        const int x = int(i) % options_.width, y = band.y + int(i) / options_.width;
-        const float* const sum = &out_.map.at(x, y);
-        const Vec3f mean = unit_or_zero(Vec3f(sum[0], sum[1], sum[2]));
-        band.open[i] = !(mean != Vec3f(0) && band.mean[i] != Vec3f(0) && glm::length(mean - band.mean[i]) <= agreed);
-        band.mean[i] = mean;
-        if (band.open[i]) caster_.clear(x, y);
-    }
+/// Leaves open what the mean over the texel may be far from after one ray, by the second differences of the normals of neighbours:
+/// a texel that has no neighbour on one side, too.
+void Bake::open_by_centres() {
+    const auto allowed = float(chord_of(options_.max_error_deg));
+    const auto normal = [&](int x, int y) {
+        if (x < 0 || y < 0 || x >= options_.width || y >= options_.height) return Vec3f(0);
+        const float* const n = &out_.map.at(x, y);
+        return out_.states.at(x, y) == TexelState::hit ? Vec3f(n[0], n[1], n[2]) : Vec3f(0);
+    };
+    for_rows(options_.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (int y = int(begin); y < int(end); ++y)
+            for (int x = 0; x < options_.width; ++x) {
+                if (!open_.at(x, y)) continue;
+                const Vec3f here = normal(x, y);
+                float error = 0;
+                for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}}) {
+                    const Vec3f before = normal(x - dx, y - dy), after = normal(x + dx, y + dy);
+                    const bool known = here != Vec3f(0) && before != Vec3f(0) && after != Vec3f(0);
+                    error += known ? glm::length(before + after - 2.0f * here) / 24 : INFINITY;
+                }
+                open_.at(x, y) = !(error * curvature_safety <= allowed);
+            }
+    });
+}
+
+/// Of the open texels, closes those on which the last two of `rules` rules agree, the ray of the centre being the first. The others
+/// are then as if they had no ray yet.
+void Bake::reopen(Band& band, std::size_t rules) {
+    const double differences = rules == 1 ? differences_of_centre : differences_of_rules;
+    const auto agreed = float(chord_of(differences * options_.max_error_deg));
+    for (int y = 0; y < band.rows; ++y)
+        for (int x = 0; x < options_.width; ++x) {
+            unsigned char& open = open_.at(x, band.y + y);
+            if (!open) continue;
+            const float* const sum = &out_.map.at(x, band.y + y);
+            const bool beyond = rules == 0 && is_on_edge(target_.raster.hits.at(x, band.y + y)); // perhaps
+            const Vec3f mean = beyond ? Vec3f(0) : unit_or_zero(Vec3f(sum[0], sum[1], sum[2]));
+            Vec3f& before = band.mean[std::size_t(y) * std::size_t(options_.width) + std::size_t(x)];
+            if (mean != Vec3f(0) && before != Vec3f(0) && glm::length(mean - before) <= agreed) open = 0;
+            else caster_.clear(x, band.y + y);
+            before = mean;
+        }
 }
 
 void Bake::cast_centres(Band& band) {
@@ -189,12 +261,12 @@ void Bake::cast_centres(Band& band) {
 } // namespace
 
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
-                  const TransferOptions& options, const std::string& path, Progress* progress) {
+                  const TransferOptions& options, const std::string& path, TransferProgress* progress) {
     return transfer(target, {{{&high, &casting}}, {}}, options, path, progress);
 }
 
 Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
-                  const std::string& path, Progress* progress) {
+                  const std::string& path, TransferProgress* progress) {
     Transfer out;
     out.map = Image<float>(options.width, options.height, 3);
     for (const DetailMap map : options.details.maps)

@@ -5,10 +5,16 @@
 // point of the low-poly mesh that the ray goes through, is the texel.
 #pragma once
 #include "bake/relief/transfer/types.h"
+#include <atomic>
 
 namespace bake {
 
-class Progress;
+/// How far a bake is; may be read from any thread while it runs.
+struct TransferProgress {
+    std::atomic<int> passes{1};        ///< over the map
+    std::atomic<std::int64_t> rows{0}; ///< of the map, in all passes
+    std::atomic<std::int64_t> rays{0};
+};
 
 /// A texel that finds nothing is filled like those outside of the charts: in the first ring around texels with detail by linear
 /// continuation, up to `padding` texels away by the nearest one, else with the flat normal. Several rays are averaged over the part
@@ -16,9 +22,9 @@ class Progress;
 /// polynomial of degree 2 * rays - 1 along each side is exact. `target` has the size and the tile of the options. The result does
 /// not depend on the number of threads.
 Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
-                  const std::string& path, Progress* progress = nullptr);
+                  const std::string& path, TransferProgress* progress = nullptr);
 /// From one source.
 Transfer transfer(const BakeTarget& target, const HighSurface& high, const Casting& casting,
-                  const TransferOptions& options, const std::string& path, Progress* progress = nullptr);
+                  const TransferOptions& options, const std::string& path, TransferProgress* progress = nullptr);
 
 } // namespace bake

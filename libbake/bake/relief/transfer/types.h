@@ -13,10 +13,11 @@ struct TransferOptions {
     int padding = 16;     ///< texels filled beyond the charts' borders
     int tile = 0;         ///< as NormalMapOptions
     int rays = 1;         ///< along each side of a texel, from 1 to 16
-    /// Above 0: texels get fewer rays than these where a few of them give the mean to within so many degrees. Estimated from
-    /// how far rules of ever more rays differ, so that detail that lies between the first five rays can be missed.
+    /// Above 0: texels get fewer rays than these where a few of them give the mean to within so many degrees. The error of one ray
+    /// is estimated from the neighbours, that of several from how far rules of ever more rays differ. Detail that is shorter than
+    /// two texels and lies between the rays can be missed.
     double max_error_deg = 0;
-    bool alpha = false;   ///< whether Transfer::alpha is wanted
+    bool alpha = false; ///< whether Transfer::alpha is wanted
     DetailOptions details;
     bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
 };
