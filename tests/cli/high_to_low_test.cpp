@@ -241,6 +241,7 @@ TEST_SUITE("cli") {
                                     {"--max-distance", "1"},
                                     {"--rays", "2"},
                                     {"--high-normals", "facet"},
+                                    {"--max-error-deg", "1"},
                                     {"--cast", "face"},
                                     {"--maps", "height"},
                                     {"--maps-out", "m"},

@@ -51,17 +51,24 @@ template <class Point> Mesh grid(int columns, int rows, bool inward, const Point
     return mesh;
 }
 
-bake::Transfer baked(const Mesh& low, std::vector<Mesh> meshes, int size, int rays, std::vector<DetailMap> maps = {},
-                     float reach = 0.05f) {
+struct Manner {
+    int rays = 1;
+    bake::HighNormals normals = bake::HighNormals::smooth;
+    double max_error_deg = 0;
+};
+
+bake::Transfer baked(const Mesh& low, std::vector<Mesh> meshes, int size, const Manner& manner,
+                     std::vector<DetailMap> maps = {}, float reach = 0.05f) {
     const bake::BakeTarget target = bake::make_bake_target(low, "low", size, size);
     std::vector<bake::HighMesh> named;
     for (Mesh& mesh : meshes) named.push_back({std::move(mesh), "high"});
-    const bake::HighSurface high(std::move(named), low.origin, bake::HighNormals::smooth, double(size) * size);
+    const bake::HighSurface high(std::move(named), low.origin, manner.normals, double(size) * size);
     const bake::Casting casting(target.surface, bake::CastBy::blend,
                                 bake::constant_reach(target.surface, {reach, reach}));
     bake::TransferOptions options;
     options.width = options.height = size;
-    options.rays = rays, options.padding = 0, options.details.maps = std::move(maps);
+    options.rays = manner.rays, options.max_error_deg = manner.max_error_deg, options.padding = 0;
+    options.details.maps = std::move(maps);
     options.details.sky_rays = 1024;
     return bake::transfer(target, high, casting, options, "low");
 }
@@ -94,7 +101,7 @@ template <class SkyAt> void check_sky(Mesh high, double from, double to, const S
     constexpr int size = 8;
     std::vector<Mesh> meshes;
     meshes.push_back(std::move(high));
-    const bake::Transfer found = baked(rectangle({from, -0.1}, {to, 0.1}, 0), std::move(meshes), size, 1,
+    const bake::Transfer found = baked(rectangle({from, -0.1}, {to, 0.1}, 0), std::move(meshes), size, {},
                                        {DetailMap::ambient_occlusion, DetailMap::bent_normal}, 0.01f);
     REQUIRE(found.report.hit == size * size);
     for (int x = 0; x < size; ++x) {
@@ -113,6 +120,47 @@ template <class SkyAt> void check_sky(Mesh high, double from, double to, const S
 
 TEST_SUITE("oracle") {
 
+    TEST_CASE("transfer: curved normals of the high-poly mesh leave a tenth of the error, and several rays then less "
+              "than one") {
+        const TorusRelief relief{.A = 0.01, .k = 6, .m = 3};
+        const LowTorus low(32, 16);
+        const GaussRule rule(8);
+        constexpr int size = 64;
+        const auto one_ray = [&](double u, double v) { return one_ray_normal(low, relief, u, v); };
+        const auto box = [&](double u, double v) {
+            return box_normal(low, relief, rule, u, v, 1.0 / size, 1.0 / size);
+        };
+        const auto map = [&](int rays, bake::HighNormals normals) {
+            return baked(low.mesh(), {relief_mesh(relief, 150, 75)}, size, {rays, normals}).map;
+        };
+        const Image<float> one = map(1, bake::HighNormals::curved), many = map(4, bake::HighNormals::curved);
+        CHECK(mean_angle(one, one_ray) < 0.1 * mean_angle(map(1, bake::HighNormals::smooth), one_ray));
+        CHECK(mean_angle(many, box) < 0.1 * mean_angle(one, box));
+    }
+
+    TEST_CASE(
+        "transfer: with an error that is asked for, half the rays of 4 x 4 give the mean of waves of few texels, one "
+        "ray that of long ones") {
+        // 64 texels: a wave is 2.7 texels long, as in the reference job for aliasing, or 16.
+        const LowTorus low(32, 16);
+        const GaussRule rule(8);
+        constexpr int size = 64;
+        for (const auto& [k, m, most_rays] : {std::tuple(24, 12, 8.5), {4, 2, 3.0}}) {
+            const TorusRelief relief{.A = 0.002, .k = k, .m = m};
+            const auto box = [&](double u, double v) {
+                return box_normal(low, relief, rule, u, v, 1.0 / size, 1.0 / size);
+            };
+            const auto found = [&](double error) {
+                return baked(low.mesh(), {relief_mesh(relief, 480, 240)}, size, {4, bake::HighNormals::smooth, error});
+            };
+            const bake::Transfer all = found(0), some = found(0.2);
+            CHECK(all.report.rays == size * size * 16);
+            CHECK(double(some.report.rays) < most_rays * size * size);
+            CHECK(some.report.hit == size * size);
+            CHECK(mean_angle(some.map, box) < (k == 24 ? 1.1 * mean_angle(all.map, box) : 0.1));
+        }
+    }
+
     TEST_CASE(
         "transfer: the only error of a map is that of the high-poly mesh's interpolated normals, of second order") {
         const TorusRelief relief{.A = 0.01, .k = 6, .m = 3};
@@ -124,7 +172,7 @@ TEST_SUITE("oracle") {
             return box_normal(low, relief, rule, u, v, 1.0 / size, 1.0 / size);
         };
         const auto error = [&](int columns, int rays) {
-            const bake::Transfer found = baked(low.mesh(), {relief_mesh(relief, columns, columns / 2)}, size, rays);
+            const bake::Transfer found = baked(low.mesh(), {relief_mesh(relief, columns, columns / 2)}, size, {rays});
             CHECK(found.report.hit == size * size);
             return rays == 1 ? mean_angle(found.map, one_ray) : mean_angle(found.map, box);
         };
@@ -135,7 +183,7 @@ TEST_SUITE("oracle") {
         CHECK(fine_box < 0.01);
         CHECK(coarse_box / fine_box == doctest::Approx(4).epsilon(0.1));
         // One ray is not the mean of a texel with a tenth of a wave.
-        CHECK(mean_angle(baked(low.mesh(), {relief_mesh(relief, 300, 150)}, size, 1).map, box) > 5 * fine_box);
+        CHECK(mean_angle(baked(low.mesh(), {relief_mesh(relief, 300, 150)}, size, {}).map, box) > 5 * fine_box);
     }
 
     TEST_CASE("transfer: occlusion and bent normals of a groove, of a wall and under an overhang") {
@@ -158,7 +206,7 @@ TEST_SUITE("oracle") {
         std::vector<Mesh> shell;
         shell.push_back(ball(1, false)), shell.push_back(ball(0.7, true));
         const bake::Transfer found =
-            baked(rectangle({-0.3, -0.3}, {0.3, 0.3}, 1), std::move(shell), 16, 1, {DetailMap::thickness}, 0.2f);
+            baked(rectangle({-0.3, -0.3}, {0.3, 0.3}, 1), std::move(shell), 16, {}, {DetailMap::thickness}, 0.2f);
         CHECK(found.report.hit == 256);
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 16; ++x)
@@ -168,7 +216,7 @@ TEST_SUITE("oracle") {
     TEST_CASE("transfer: mean curvature of a torus") {
         const LowTorus low(32, 16);
         constexpr int size = 24;
-        const bake::Transfer found = baked(low.mesh(), {torus_mesh(512, 256)}, size, 1, {DetailMap::mean_curvature});
+        const bake::Transfer found = baked(low.mesh(), {torus_mesh(512, 256)}, size, {}, {DetailMap::mean_curvature});
         CHECK(found.report.hit == size * size);
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
@@ -189,7 +237,7 @@ TEST_SUITE("oracle") {
         });
         const Vec2d to = Vec2d(box.half) - 0.2 * box.radius;
         constexpr int size = 40;
-        const bake::Transfer found = baked(rectangle(-to, to, box.half.z), {high}, size, 1, {DetailMap::height}, 0.2f);
+        const bake::Transfer found = baked(rectangle(-to, to, box.half.z), {high}, size, {}, {DetailMap::height}, 0.2f);
         int bevelled = 0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {

@@ -55,13 +55,19 @@ std::vector<EdgeNormals> edge_normals(const Mesh& mesh, const std::vector<Triang
     const Numbered ends = ends_of(mesh, normals);
     const auto position = [&](std::uint32_t c) -> const Vec3f& { return mesh.positions[mesh.corner_position[c]]; };
     std::vector<Fit> fits(ends.first.size());
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t from : t.corner) {
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+        const std::uint32_t begin = mesh.face_begin[f], count = mesh.face_begin[f + 1] - begin;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t from = begin + i;
             const Frame frame(normals[from]);
-            for (const std::uint32_t to : t.corner)
-                if (to != from)
-                    fits[ends.number[from]].add(frame, position(to) - position(from), normals[to] - normals[from]);
+            // All corners of a quad: how it is cut into triangles must not matter. Of large faces the next ones.
+            for (const std::uint32_t step : {1u, 2u, count - 1}) {
+                if (step >= count || (step == 2 && count != 4)) continue;
+                const std::uint32_t to = begin + (i + step) % count;
+                fits[ends.number[from]].add(frame, position(to) - position(from), normals[to] - normals[from]);
+            }
         }
+    }
     std::vector<EdgeNormals> out(triangles.size());
     for_rows(std::int64_t(triangles.size()), 4096, [&](std::int64_t begin, std::int64_t end) {
         for (auto t = std::size_t(begin); t < std::size_t(end); ++t)
