@@ -1,6 +1,7 @@
 // bake normal-map into DDS and KTX2, from outside.
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
+#include "oracle/surfaces.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -109,6 +110,34 @@ TEST_SUITE("cli") {
         const double truth = std::pow(std::pow(0.2, 4) + uu - u * u + vv - v * v, 0.25);
         CHECK(double(static_cast<unsigned char>(bytes.back())) / 255 == doctest::Approx(truth).epsilon(0.01));
     }
+    TEST_CASE("normal-map --dither: stores 8 bits whose means are those of the map, and says what that costs") {
+        const Folder folder;
+        write_waves(folder);
+        bake_map(folder, {"h.exr", "--amplitude", "0.02", "-o", "n.exr", "--depth", "float"});
+        const Image<float> exact = read_image(folder / "n.exr");
+        for (const char* name : {"n.png", "n.tif", "n.dds", "n.ktx2"}) {
+            CAPTURE(name);
+            const json said =
+                bake_map(folder, {"h.exr", "--amplitude", "0.02", "-o", name, "--depth", "8", "--dither"});
+            const double cost = said["stored"]["mean_deg"], rounding = said["stored"]["undithered"]["mean_deg"];
+            CHECK(cost > 1.2 * rounding);
+            CHECK(cost < 2 * rounding);
+            CHECK(rounding == doctest::Approx(0.18).epsilon(0.2));
+            const Image<float> stored = read_image(folder / name);
+            double sum[3] = {}, angle = 0;
+            for (std::size_t i = 0; i < 64 * 64; ++i) {
+                const auto colour = [i](const Image<float>& map) { // textures have four channels
+                    const float* const rgb = map.data() + i * std::size_t(map.channels());
+                    return Vec3d(rgb[0], rgb[1], rgb[2]);
+                };
+                const Vec3d a = colour(stored), b = colour(exact);
+                for (int c = 0; c < 3; ++c) sum[c] += a[c] - b[c];
+                angle += oracle::angle_deg(2.0 * a - 1.0, 2.0 * b - 1.0) / (64 * 64);
+            }
+            for (const double s : sum) CHECK(std::abs(s) * 255 / (64 * 64) < 0.02);
+            CHECK(angle == doctest::Approx(cost).epsilon(0.01));
+        }
+    }
     TEST_CASE("normal-map: what textures cannot hold is refused before any work") {
         const Folder folder;
         const auto refused = [&](std::vector<std::string> options, const std::string& named) {
@@ -124,6 +153,8 @@ TEST_SUITE("cli") {
         refused({"-o", "n.png", "--roughness", "0.5"}, "--roughness");
         refused({"-o", "n.png", "--roughness-map", "r.dds", "--roughness", "1.5"}, "--roughness");
         refused({"-o", "n.dds", "--roughness-map", "n.dds"}, "n.dds");
+        refused({"-o", "n.png", "--dither"}, "--dither: is for maps of 8 bits");
+        refused({"-o", "n.dds", "--dither"}, "--dither: is for maps of 8 bits");
         refused({"-o", "n.jpg"}, ".dds or .ktx2");
     }
     TEST_CASE("normal-map: a texture's bytes do not depend on the number of threads") {

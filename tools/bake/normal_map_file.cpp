@@ -1,5 +1,6 @@
 #include "normal_map_file.h"
 #include "bake/picture/texture_file.h"
+#include "bake/relief/map/dither.h"
 #include "bake/relief/map/normal_mips.h"
 #include <algorithm>
 
@@ -14,19 +15,29 @@ Image<float> as_colours(const Image<float>& normals) {
 }
 
 StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
-                             Depth depth) {
+                             Depth depth, bool dither) {
     const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
                                : depth == Depth::u16 ? TexelFormat::rgba16
                                                      : TexelFormat::bc5;
     const bool blocks = format == TexelFormat::bc5;
     std::vector<TextureLevel> levels;
     for (const NormalLevel& mip : mips)
-        levels.push_back(blocks ? pack_level(mip.normal, format) : pack_level(as_colours(mip.normal), format));
+        levels.push_back(blocks   ? pack_level(mip.normal, format)
+                         : dither ? pack_level(dithered(as_colours(mip.normal)), format)
+                                  : pack_level(as_colours(mip.normal), format));
     const TextureContainer container = *texture_container(path);
     write_texture(out, container, format, levels);
     const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
     out.commit();
-    return {int(levels.size()), blocks, error};
+    StoredNormalMap stored{int(levels.size()), blocks, error, {}};
+    if (dither) stored.undithered = stored_error(rounded(as_colours(mips[0].normal)), mips[0].normal);
+    return stored;
+}
+
+StoredNormalMap dithered_picture(const Image<float>& map, const Image<float>& pattern) {
+    Image<float> normals(map.width(), map.height(), 3);
+    for (std::size_t i = 0; i < map.size(); ++i) normals.data()[i] = 2 * map.data()[i] - 1;
+    return {0, false, stored_error(pattern, normals), stored_error(rounded(map), normals)};
 }
 
 void write_roughness(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
@@ -53,16 +64,24 @@ void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<
 
 std::string to_text(const StoredNormalMap& stored) {
     const StoredError& error = stored.error;
-    return format("%d mips; largest level as it is read back: mean %.4f, p95 %.4f, max %.4f, rms %.4f deg", stored.mips,
-                  error.mean_deg, error.p95_deg, error.max_deg, error.rms_deg);
+    std::string text = stored.mips > 0 ? format("%d mips; largest level as it is read back", stored.mips) : "dithered";
+    text += format(": mean %.4f, p95 %.4f, max %.4f, rms %.4f deg", error.mean_deg, error.p95_deg, error.max_deg,
+                   error.rms_deg);
+    if (stored.undithered)
+        text += format("; without --dither mean %.4f, max %.4f deg", stored.undithered->mean_deg,
+                       stored.undithered->max_deg);
+    return text;
 }
 
 nlohmann::json to_json(const StoredNormalMap& stored) {
-    return {{"mips", stored.mips},
-            {"mean_deg", stored.error.mean_deg},
-            {"p95_deg", stored.error.p95_deg},
-            {"max_deg", stored.error.max_deg},
-            {"rms_deg", stored.error.rms_deg}};
+    nlohmann::json out = {{"mips", stored.mips},
+                          {"mean_deg", stored.error.mean_deg},
+                          {"p95_deg", stored.error.p95_deg},
+                          {"max_deg", stored.error.max_deg},
+                          {"rms_deg", stored.error.rms_deg}};
+    if (stored.undithered)
+        out["undithered"] = {{"mean_deg", stored.undithered->mean_deg}, {"max_deg", stored.undithered->max_deg}};
+    return out;
 }
 
 NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
@@ -75,16 +94,20 @@ NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, D
 }
 
 std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, const Image<float>& alpha) {
+    std::optional<StoredNormalMap> stored;
     if (picture_) {
-        if (alpha.empty()) picture_->write(map.data(), map.height());
-        else write_with_alpha(*picture_, map, alpha);
+        const Image<float> pattern = args_.dither ? dithered(map) : Image<float>();
+        const Image<float>& colours = args_.dither ? pattern : map;
+        if (alpha.empty()) picture_->write(colours.data(), map.height());
+        else write_with_alpha(*picture_, colours, alpha);
         picture_->finish();
+        if (args_.dither) stored = dithered_picture(map, pattern);
     }
-    if (!texture_ && !roughness_) return {};
+    if (!texture_ && !roughness_) return stored;
     const std::vector<NormalLevel> mips = normal_mips(map, args_.directx);
     if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
-    if (!texture_) return {};
-    return write_levels(*texture_, args_.out, mips, depth_);
+    if (!texture_) return stored;
+    return write_levels(*texture_, args_.out, mips, depth_, args_.dither);
 }
 
 } // namespace bake

@@ -8,9 +8,10 @@
 namespace bake {
 
 struct StoredNormalMap {
-    int mips = 0;
+    int mips = 0;        ///< of a texture
     bool blocks = false; ///< bc5
-    StoredError error;   ///< of the largest level, read from the file
+    StoredError error;   ///< of the largest level, read from the file; of a picture under --dither, of what it stores
+    std::optional<StoredError> undithered; ///< under --dither: what rounding alone would leave
 };
 
 /// "11 mips; ..."
@@ -21,7 +22,7 @@ class NormalMapFile {
 public:
     /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it.
     NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth);
-    /// Writes and completes them. Says how a texture was stored; nothing for a picture. `alpha`: the fourth channel of a picture
+    /// Writes and completes them. Says how a texture or a dithered picture was stored; nothing for another picture. `alpha`: the fourth channel of a picture
     /// under --alpha.
     std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});
 

@@ -30,6 +30,8 @@ void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
                           {"float", MapDepth::float32},
                           {"bc5", MapDepth::bc5}},
                          "auto: 16 for .png, half for .exr, float for .tif, bc5 for .dds and .ktx2");
+    sub.add_flag("--dither", args.dither,
+                 "Round to 8 bits in a pattern, so that slow gradients keep their mean; prints what it costs");
     CLI::Option* const map =
         sub.add_option("--roughness-map", args.roughness_map,
                        "Roughness to write beside it (.dds, .ktx2): what each level of mips loses of the relief");
@@ -51,9 +53,7 @@ Depth texture_depth(const NormalMapArgs& args) {
     return Depth::float32;
 }
 
-} // namespace
-
-Depth resolve_map_depth(const NormalMapArgs& args) {
+Depth file_depth(const NormalMapArgs& args) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     if (!args.roughness_map.empty()) {
         if (!texture_container(args.roughness_map))
@@ -73,6 +73,15 @@ Depth resolve_map_depth(const NormalMapArgs& args) {
     case MapDepth::bc5: break;
     }
     throw usage(args.out + ": pictures are not stored in blocks; write .dds or .ktx2 for bc5");
+}
+
+} // namespace
+
+Depth resolve_map_depth(const NormalMapArgs& args) {
+    const Depth depth = file_depth(args);
+    if (args.dither && depth != Depth::u8)
+        throw Error(Refusal::usage, "--dither: is for maps of 8 bits; give --depth 8 or leave it out");
+    return depth;
 }
 
 void complete(NormalMapArgs& args, const std::string& verb) {

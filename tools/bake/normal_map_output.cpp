@@ -6,7 +6,7 @@ namespace bake {
 
 void set_stored(NormalMapResult& result, std::optional<StoredNormalMap> stored) {
     result.stored = stored;
-    if (!stored || !stored->blocks) return;
+    if (!stored || !(stored->blocks || stored->undithered)) return;
     ErrorBudget& budget = result.budget; // of a file that stores floats: its total is 1.5 times the root of all squares
     budget.encoding_deg = stored->error.rms_deg;
     budget.total_deg = std::min(180.0, std::hypot(budget.total_deg, 1.5 * budget.encoding_deg));
