@@ -7,14 +7,14 @@
 namespace bake {
 namespace {
 
+/// One per triangle.
 std::vector<Vec3f> facet_normals(const MeshSurface& low) {
-    std::vector<Vec3f> out(low.mesh->corners(), Vec3f(0));
+    std::vector<Vec3f> out;
     for (const Triangle& t : low.triangles) {
         const auto at = [&](std::size_t k) {
             return Vec3d(low.mesh->positions[low.mesh->corner_position[t.corner[k]]]);
         };
-        const Vec3f n(unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0))));
-        for (const std::uint32_t corner : t.corner) out[corner] = n;
+        out.emplace_back(unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0))));
     }
     return out;
 }
@@ -27,7 +27,10 @@ template <class T> T mixed(const T& a, const T& b, const T& c, const TexelHit& a
 
 Casting::Casting(const MeshSurface& low, CastBy by, std::vector<Reach> reach) : low_(low), reach_(std::move(reach)) {
     if (by == CastBy::face) {
-        averaged_ = facet_normals(low);
+        facets_ = facet_normals(low);
+        averaged_.resize(low.mesh->corners()); // of a face with several triangles the last
+        for (std::size_t t = 0; t < facets_.size(); ++t)
+            for (const std::uint32_t corner : low.triangles[t].corner) averaged_[corner] = facets_[t];
     } else {
         HardEdges hard = bake::hard_edges(*low.mesh, low.triangles, low.n);
         averaged_ = std::move(hard.averaged);
@@ -89,7 +92,8 @@ Cast Casting::at(const TexelHit& at) const noexcept {
     const Mesh& mesh = *low_.mesh;
     const auto position = [&](std::size_t k) { return mesh.corner_position[corner[k]]; };
     const Vec3f p = mixed(mesh.positions[position(0)], mesh.positions[position(1)], mesh.positions[position(2)], at);
-    Vec3f d = mixed(averaged_[corner[0]], averaged_[corner[1]], averaged_[corner[2]], at);
+    Vec3f d = facets_.empty() ? mixed(averaged_[corner[0]], averaged_[corner[1]], averaged_[corner[2]], at)
+                              : facets_[at.triangle];
     if (cage_) {
         const float front = glm::length(d);
         return {p + d, -unit_or_zero(d), {front, front, 0}};

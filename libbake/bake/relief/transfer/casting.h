@@ -59,6 +59,7 @@ private:
     bool cage_ = false;
     std::vector<Vec3f> averaged_; ///< corners; of a cage: to its position
     std::vector<Vec3f> own_;      ///< corners; empty: as averaged_
+    std::vector<Vec3f> facets_;   ///< triangles, whose directions are these; empty: those of the corners
     std::vector<Reach> reach_;    ///< positions
     std::unique_ptr<TriangleTree> edges_;
     std::size_t hard_edges_ = 0;
