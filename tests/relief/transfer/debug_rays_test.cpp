@@ -76,7 +76,7 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("debug_rays: the cage hides less than a tenth of what is inside, on a fine mesh too") {
-        const Job job(unit_plane(0, 24), {half_plane()}, job_options(8, 8));
+        const Job job(unit_plane(0, 96), {half_plane()}, job_options(8, 8));
         const Mesh mesh = debug_rays(job.target, job.sources(), job.result, {}, 1);
         double seen = 0; // from above: half of the area of the rods' front and back
         for (std::size_t f = 0; f < mesh.faces(); ++f) {
@@ -86,7 +86,7 @@ TEST_SUITE("unit") {
             };
             seen += std::abs(glm::cross(at(2) - at(0), at(3) - at(1)).z) / 2 / 2;
         }
-        CHECK(faces_of(mesh, 0) == 3 * 2 * 24 * 25);
+        CHECK(faces_of(mesh, 0) == 3 * 2 * 96 * 97);
         CHECK(seen > 0.01);
         CHECK(seen < 0.1);
     }
