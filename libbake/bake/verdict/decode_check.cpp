@@ -137,7 +137,7 @@ Vec3f decoded(const BakeTarget& target, const TexelHit& at, const Vec3f& t, Deco
 }
 
 DecodeReport inspect_decoding(const std::string& map_path, const std::string& mesh_path, bool directx,
-                              const InspectOptions& options) {
+                              const InspectOptions& options, int tile) {
     ImageInfo info;
     const Image<float> colours = read_image(map_path, &info);
     if (colours.channels() - (info.alpha_channel >= 0) < 2)
@@ -147,10 +147,14 @@ DecodeReport inspect_decoding(const std::string& map_path, const std::string& me
     if (!std::all_of(colours.data(), colours.data() + colours.size(), [](float v) { return v - v == 0; }))
         throw Error(Refusal::unsuitable, map_path + ": has NaN or Inf values; export it again");
     const Mesh mesh = read_mesh(mesh_path, options.read);
-    const BakeTarget target = make_bake_target(mesh, mesh_path, colours.width(), colours.height());
+    const BakeTarget target = make_bake_target(mesh, mesh_path, colours.width(), colours.height(), tile);
     const Image<float> map = decode_normals(colours, guess_normal_values(colours, info));
-    DecodeReport report{
-        .file = map_path, .mesh = mesh_path, .width = map.width(), .height = map.height(), .directx = directx};
+    DecodeReport report{.file = map_path,
+                        .mesh = mesh_path,
+                        .width = map.width(),
+                        .height = map.height(),
+                        .tile = tile,
+                        .directx = directx};
     const Sums sums = compare(target, map, directx);
     report.texels = std::int64_t(sums.errors.size());
     if (report.texels > 0) report.relief_deg = sums.relief / double(report.texels);
@@ -161,7 +165,7 @@ DecodeReport inspect_decoding(const std::string& map_path, const std::string& me
     }
     Image<float> encoded(map.width(), map.height(), 3);
     for (std::size_t i = 0; i < encoded.size(); ++i) encoded.data()[i] = 0.5f * map.data()[i] + 0.5f;
-    report.seams = seam_disagreement(target, encoded, Space::tangent, directx);
+    report.seams = seam_disagreement(target, encoded, Space::tangent, directx, tile);
     judge(report);
     for (const std::string& line : info.notes) report.findings.notes.push_back(map_path + ": " + line);
     for (const std::string& line : mesh.notes) report.findings.notes.push_back(mesh_path + ": " + line);
@@ -172,6 +176,7 @@ std::string to_text(const DecodeReport& report) {
     std::string text = printable(report.file + " on " + report.mesh) + "\n";
     text += row("map", format("%d x %d, green %s; %lld texels compared", report.width, report.height,
                               report.directx ? "down" : "up", static_cast<long long>(report.texels)));
+    if (report.tile != 0) text += row("tile", std::to_string(report.tile));
     text += row("relief", format("the map tilts normals by %.3g deg in the mean", report.relief_deg));
     text += row("seen right", "MikkTSpace, green " + std::string(report.directx ? "down" : "up") + ": " +
                                   viewers_of(Decoding::mikktspace, report.directx));
@@ -194,21 +199,22 @@ std::string to_json(const DecodeReport& report) {
                           {"mean_deg", e.mean},
                           {"p95_deg", e.percentile_95},
                           {"max_deg", e.max}});
-    const Json json = {{"file", report.file},
-                       {"mesh", report.mesh},
-                       {"kind", "decoding"},
-                       {"size", {report.width, report.height}},
-                       {"green", report.directx ? "down" : "up"},
-                       {"texels", report.texels},
-                       {"relief_deg", report.relief_deg},
-                       {"decodings", errors},
-                       {"seams",
-                        {{"edges", report.seams.seams},
-                         {"mean_deg", report.seams.mean},
-                         {"p95_deg", report.seams.percentile_95},
-                         {"max_deg", report.seams.max}}},
-                       {"warnings", report.findings.warnings},
-                       {"notes", report.findings.notes}};
+    Json json = {{"file", report.file},
+                 {"mesh", report.mesh},
+                 {"kind", "decoding"},
+                 {"size", {report.width, report.height}},
+                 {"green", report.directx ? "down" : "up"},
+                 {"texels", report.texels},
+                 {"relief_deg", report.relief_deg},
+                 {"decodings", errors},
+                 {"seams",
+                  {{"edges", report.seams.seams},
+                   {"mean_deg", report.seams.mean},
+                   {"p95_deg", report.seams.percentile_95},
+                   {"max_deg", report.seams.max}}},
+                 {"warnings", report.findings.warnings},
+                 {"notes", report.findings.notes}};
+    if (report.tile != 0) json["tile"] = report.tile;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -33,6 +33,7 @@ struct DecodedError {
 struct DecodeReport {
     std::string file, mesh;
     int width = 0, height = 0;
+    int tile = 0;                     ///< UDIM number of the tile of the charts; 0: all charts, modulo 1
     bool directx = false;             ///< which green was taken for right
     std::int64_t texels = 0;          ///< that were compared
     std::vector<DecodedError> errors; ///< in the order of all_decodings, without the first
@@ -41,10 +42,10 @@ struct DecodeReport {
     Findings findings;
 };
 
-/// `directx`: the map was made with green down. Throws as read_image() and read_mesh(), and Error{Refusal::unsuitable} for a mesh
+/// `directx`: the map was made with green down. `tile`: UDIM number of the tile that it was baked for; 0: all charts, modulo 1. Throws as read_image() and read_mesh(), and Error{Refusal::unsuitable} for a mesh
 /// without uvs and a picture with one channel or values that are not finite.
 DecodeReport inspect_decoding(const std::string& map_path, const std::string& mesh_path, bool directx,
-                              const InspectOptions& options = {});
+                              const InspectOptions& options = {}, int tile = 0);
 
 std::string to_text(const DecodeReport& report);
 std::string to_json(const DecodeReport& report);

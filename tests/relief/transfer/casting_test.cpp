@@ -130,6 +130,22 @@ TEST_SUITE("unit") {
             CHECK(oracle::angle_deg(-Vec3d(casting.at(at).inward), glm::cross(p(1) - p(0), p(2) - p(0))) < 1e-3);
     }
 
+    TEST_CASE("casting: by face, each triangle of a quad that is not planar has its own direction") {
+        Mesh mesh = unit_plane();
+        mesh.positions[0].z = 0.5f;
+        const MeshSurface surface = make_mesh_surface(mesh);
+        REQUIRE(surface.triangles.size() == 2);
+        const Casting casting(surface, CastBy::face, constant_reach(surface, reach));
+        for (std::uint32_t t = 0; t < 2; ++t) {
+            const auto p = [&](std::size_t k) {
+                return mesh.positions[mesh.corner_position[surface.triangles[t].corner[k]]];
+            };
+            const Vec3f n = glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));
+            for (const float b1 : {0.0f, 0.2f, 0.9f}) CHECK(glm::length(casting.at({t, b1, 0.05f}).inward + n) < 1e-6f);
+        }
+        CHECK(glm::length(casting.at({0, 0.2f, 0.2f}).inward - casting.at({1, 0.2f, 0.2f}).inward) > 0.1f);
+    }
+
     TEST_CASE("casting: the envelope's corners are where the rays of the corners start; the farthest reach is told") {
         const LowBox box;
         std::vector<Reach> reaches = constant_reach(box.surface, reach);

@@ -20,7 +20,7 @@ std::size_t faces_of(const Mesh& mesh, std::uint32_t material) {
 
 TEST_SUITE("unit") {
 
-    TEST_CASE("debug_rays: the envelope's triangles, needles of four triangles, and the witnesses that are misses") {
+    TEST_CASE("debug_rays: the envelope's edges, needles of four triangles, and the witnesses that are misses") {
         const Job job(unit_plane(), {half_plane()}, job_options(32, 32));
         std::vector<Witness> witnesses = missed_texels(job.target, job.sources(), job.result, 5);
         REQUIRE(witnesses.size() == 5);
@@ -29,18 +29,19 @@ TEST_SUITE("unit") {
         check_sound(polygons(mesh.positions, {}));
         REQUIRE((mesh.materials == std::vector<std::string>{"cage", "rays", "misses"}));
         REQUIRE(mesh.face_material.size() == mesh.faces());
-        CHECK(faces_of(mesh, 0) == 2);
+        CHECK(faces_of(mesh, 0) == 3 * 4);      // a prism without ends on each edge, none on the diagonal
         CHECK(faces_of(mesh, 1) == 4 * 64 / 2); // of half of the map's 8 x 8 chosen texels
         CHECK(faces_of(mesh, 2) == 4 * 5);
         // Corners of the envelope lie where rays start; needles of hits end on the high-poly mesh.
-        for (std::uint32_t f = 0; f < 2; ++f)
-            for (int k = 0; k < 3; ++k)
-                CHECK((mesh.positions[mesh.corner_position[mesh.face_begin[f] + std::size_t(k)]].z ==
-                       job.casting.most_front()));
-        CHECK(glm::length(mesh.positions[1] - mesh.positions[0]) == doctest::Approx(1));
-        CHECK(glm::length(mesh.positions[2] - mesh.positions[1]) == doctest::Approx(1));
-        for (std::size_t f = 2; f < mesh.faces(); ++f) {
-            if (mesh.face_material[f] != 1 || f % 4 == 2) continue; // the first of a needle's four is its base
+        for (std::uint32_t f = 0; f < 12; ++f)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const Vec3f& p = mesh.positions[mesh.corner_position[mesh.face_begin[f] + k]];
+                const float x = std::abs(p.x - 0.5f), y = std::abs(p.y - 0.5f);
+                CHECK(p.z == doctest::Approx(job.casting.most_front()).epsilon(0.1));
+                CHECK(std::max(x, y) == doctest::Approx(0.5).epsilon(0.005)); // thin, and on the border
+            }
+        for (std::size_t f = 12; f < mesh.faces(); ++f) {
+            if (mesh.face_material[f] != 1 || f % 4 == 0) continue; // the first of a needle's four is its base
             CHECK(mesh.positions[mesh.corner_position[mesh.face_begin[f] + 2]].z ==
                   doctest::Approx(0.02).epsilon(1e-4));
         }
@@ -72,6 +73,22 @@ TEST_SUITE("unit") {
         const Mesh mesh = debug_rays(job.target, job.sources(), job.result, {}, 10);
         CHECK((mesh.origin == low.origin));
         CHECK(bounds(mesh).max.x < 2);
+    }
+
+    TEST_CASE("debug_rays: the cage hides less than a tenth of what is inside, on a fine mesh too") {
+        const Job job(unit_plane(0, 96), {half_plane()}, job_options(8, 8));
+        const Mesh mesh = debug_rays(job.target, job.sources(), job.result, {}, 1);
+        double seen = 0; // from above: half of the area of the rods' front and back
+        for (std::size_t f = 0; f < mesh.faces(); ++f) {
+            if (mesh.face_material[f] != 0) continue;
+            const auto at = [&](std::size_t k) {
+                return Vec3d(mesh.positions[mesh.corner_position[mesh.face_begin[f] + k]]);
+            };
+            seen += std::abs(glm::cross(at(2) - at(0), at(3) - at(1)).z) / 2 / 2;
+        }
+        CHECK(faces_of(mesh, 0) == 3 * 2 * 96 * 97);
+        CHECK(seen > 0.01);
+        CHECK(seen < 0.1);
     }
 
 } // TEST_SUITE

@@ -3,18 +3,19 @@
 #include "bake/mesh/weld.h"
 #include "bake/relief/transfer/hard_edges.h"
 #include <algorithm>
+#include <cmath>
 
 namespace bake {
 namespace {
 
+/// One per triangle.
 std::vector<Vec3f> facet_normals(const MeshSurface& low) {
-    std::vector<Vec3f> out(low.mesh->corners(), Vec3f(0));
+    std::vector<Vec3f> out;
     for (const Triangle& t : low.triangles) {
         const auto at = [&](std::size_t k) {
             return Vec3d(low.mesh->positions[low.mesh->corner_position[t.corner[k]]]);
         };
-        const Vec3f n(unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0))));
-        for (const std::uint32_t corner : t.corner) out[corner] = n;
+        out.emplace_back(unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0))));
     }
     return out;
 }
@@ -26,8 +27,12 @@ template <class T> T mixed(const T& a, const T& b, const T& c, const TexelHit& a
 } // namespace
 
 Casting::Casting(const MeshSurface& low, CastBy by, std::vector<Reach> reach) : low_(low), reach_(std::move(reach)) {
-    if (by == CastBy::face) {
-        averaged_ = facet_normals(low);
+    facets_ = facet_normals(low);
+    by_face_ = by == CastBy::face;
+    if (by_face_) {
+        averaged_.resize(low.mesh->corners()); // of a face with several triangles the last
+        for (std::size_t t = 0; t < facets_.size(); ++t)
+            for (const std::uint32_t corner : low.triangles[t].corner) averaged_[corner] = facets_[t];
     } else {
         HardEdges hard = bake::hard_edges(*low.mesh, low.triangles, low.n);
         averaged_ = std::move(hard.averaged);
@@ -96,7 +101,8 @@ Casting::Corners Casting::corners_of(std::uint32_t triangle) const noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t corner = low_.triangles[triangle].corner[k];
         const std::uint32_t position = low_.mesh->corner_position[corner];
-        out.p[k] = low_.mesh->positions[position], out.d[k] = averaged_[corner];
+        out.p[k] = low_.mesh->positions[position];
+        out.d[k] = by_face_ ? facets_[triangle] : averaged_[corner];
         if (!cage_) out.reach[k] = reach_[position];
         if (own_.empty()) continue;
         out.own[k] = own_[corner];
@@ -131,6 +137,19 @@ Cast Casting::at(const TexelHit& at) const noexcept { return this->at(corners_of
 void Casting::at(std::span<const TexelHit> points, std::span<Cast> casts) const noexcept {
     const Corners corners = corners_of(points[0].triangle);
     for (std::size_t i = 0; i < points.size(); ++i) casts[i] = at(corners, points[i]);
+}
+
+std::optional<Cast> Casting::facing(const TexelHit& at) const noexcept {
+    constexpr float least = 0.17f;
+    if (cage_) return {};
+    Cast cast = this->at(at);
+    const Vec3f n = facets_[at.triangle], d = -cast.inward;
+    const float cosine = glm::dot(d, n);
+    if (!(cosine < least) || n == Vec3f(0)) return {};
+    const Vec3f turned = unit_or_zero(least * n + std::sqrt(1 - least * least) * unit_or_zero(d - cosine * n));
+    cast.start += cast.reach.front * (turned - d);
+    cast.inward = -turned;
+    return cast;
 }
 
 Vec3f Casting::envelope(std::uint32_t corner) const noexcept {

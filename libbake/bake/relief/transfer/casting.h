@@ -8,6 +8,7 @@
 #include "bake/surface/chart/mesh_surface.h"
 #include "bake/surface/chart/uv_raster.h"
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace bake {
@@ -47,6 +48,9 @@ public:
     Cast at(const TexelHit& at) const noexcept;
     /// The same for several points of one triangle.
     void at(std::span<const TexelHit> points, std::span<Cast> casts) const noexcept;
+    /// Where a direction leans from the triangle's normal by more than 80 degrees, or sees the triangle from behind, as smooth normals
+    /// of strongly bent faces do: the cast turned towards that normal, 80 degrees off it. Nothing elsewhere, and of a cage.
+    std::optional<Cast> facing(const TexelHit& at) const noexcept;
     /// The corner of the envelope: the start of a ray there.
     Vec3f envelope(std::uint32_t corner) const noexcept;
     float most_front() const noexcept { return most_front_; }
@@ -65,6 +69,8 @@ private:
     bool cage_ = false;
     std::vector<Vec3f> averaged_; ///< corners; of a cage: to its position
     std::vector<Vec3f> own_;      ///< corners; empty: as averaged_
+    std::vector<Vec3f> facets_;   ///< triangles; none for a cage
+    bool by_face_ = false;        ///< directions are those of facets_
     std::vector<Reach> reach_;    ///< positions
     std::unique_ptr<TriangleTree> edges_;
     std::size_t hard_edges_ = 0;

@@ -99,7 +99,20 @@ void TexelCaster::trace(RayPacket& packet, CastCounts& counts) const noexcept {
         ++counts.rays;
         packet.hits[lane] = found[lane];
         counts.wider += bool(found[lane]);
+        if (!found[lane]) turn_to_facet(packet, lane, counts);
     }
+}
+
+/// A ray that finds nothing because it sees the low-poly mesh from behind is cast again from the front.
+void TexelCaster::turn_to_facet(RayPacket& packet, std::size_t lane, CastCounts& counts) const noexcept {
+    const std::optional<Cast> cast = packet.source->casting->facing(packet.at[lane]);
+    if (!cast) return;
+    const Ray ray = ray_of(*cast, 1, 1);
+    const Hit hit = packet.source->high->land(ray);
+    ++counts.rays;
+    if (!hit) return;
+    packet.cast[lane] = *cast, packet.rays[lane] = ray, packet.hits[lane] = hit;
+    packet.start[lane] = cast->reach.front;
 }
 
 /// Where both meshes end at the same place, a ray on the border of a chart can pass beside the high-poly mesh by a rounding. It is

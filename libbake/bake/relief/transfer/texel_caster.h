@@ -50,6 +50,7 @@ public:
 
 private:
     void trace(RayPacket& packet, CastCounts& counts) const noexcept;
+    void turn_to_facet(RayPacket& packet, std::size_t lane, CastCounts& counts) const noexcept;
     void retry_inside(RayPacket& packet, CastCounts& counts) const noexcept;
     Vec3f beyond_border(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& at_edge,
                         CastCounts& counts) const noexcept;
