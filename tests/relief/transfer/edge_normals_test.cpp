@@ -44,9 +44,9 @@ double error_of(int n, bool curved) {
             const Vec3f p = b0 * at(0) + b1 * at(1) + b2 * at(2);
             if (std::min({p.x, p.y, 1 - p.x, 1 - p.y}) < 0.15f) continue;
             const auto n_of = [&](int k) { return normals[triangles[t].corner[k]]; };
-            const Vec3f n = curved ? curved_normal({n_of(0), n_of(1), n_of(2)}, edges[t], b1, b2)
+            const Vec3f found = curved ? curved_normal({n_of(0), n_of(1), n_of(2)}, edges[t], b1, b2)
                                    : glm::normalize(b0 * n_of(0) + b1 * n_of(1) + b2 * n_of(2));
-            most = std::max(most, oracle::angle_deg(Vec3d(n), normal_near(Vec3d(p))));
+            most = std::max(most, oracle::angle_deg(Vec3d(found), normal_near(Vec3d(p))));
         }
     }
     return most;
