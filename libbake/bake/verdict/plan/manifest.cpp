@@ -5,7 +5,9 @@
 #include "bake/preview/shape_mesh.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
+#include "bake/verdict/plan/texture_form.h"
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -40,13 +42,14 @@ public:
         folder_ = folder_from(moves_ ? "here" : entries.file, out);
     }
 
-    void add(const ObjectPlan& object, int mesh, const ShadeMethod& method);
+    void add(const std::string& object, int mesh, const ShadeMethod& method);
     void add(const SkyPlan& sky);
+    void add(const TexturePlan& texture);
     Manifest take() { return std::move(manifest_); }
 
 private:
     struct Job {
-        const ObjectPlan& object;
+        const std::string& object;
         const MeshEntry& mesh;
         const ReliefEntry& relief;
         ShadeMethod method;
@@ -164,7 +167,7 @@ void Lister::table(const Job& job) {
     height_options(job, bake, false);
     const bool integers = job.map && !job.map->half;
     if (integers) bake.options.emplace_back("depth", "16");
-    add(std::move(bake), job.object.object, integers ? "bump.png" : "bump.exr");
+    add(std::move(bake), job.object, integers ? "bump.png" : "bump.exr");
 }
 
 /// Returns the name of the bake.
@@ -178,7 +181,7 @@ std::string Lister::displaced(const Job& job) {
     bake.options.emplace_back("levels", std::to_string(job.method.levels));
     if (job.method.shade == Shade::displace_normal) bake.options.emplace_back("seam", "average");
     height_options(job, bake, true);
-    return add(std::move(bake), job.object.object, "displaced.glb");
+    return add(std::move(bake), job.object, "displaced.glb");
 }
 
 /// The mesh that shows a shape or a cage as a file. Adds its bake, if there is one, to what `bake` needs.
@@ -197,7 +200,7 @@ std::string Lister::shape_file(const Job& job, Bake& bake) {
     }
     const std::string along = std::to_string(cells.first);
     surface.options.emplace_back("resolution", mesh.subdivide ? along : along + "x" + std::to_string(cells.second));
-    bake.after.push_back(add(std::move(surface), job.object.object, "surface.glb"));
+    bake.after.push_back(add(std::move(surface), job.object, "surface.glb"));
     return output_of(bake.after.back());
 }
 
@@ -207,15 +210,18 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     bake.files = {shape_file(job, bake)};
     if (bake.after.empty()) mesh_options(job.mesh, bake);
     height_options(job, bake, true);
+    const bool bc5 = job.map && job.map->bits == bc5_bits;
+    if (bc5) bake.options.emplace_back("depth", "bc5");
     if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
         bake.inputs.emplace_back("residual-of", output_of(displaced));
         bake.after.push_back(displaced);
     }
-    add(std::move(bake), job.object.object, displaced.empty() ? "normal.png" : "detail.png");
+    const std::string kind = displaced.empty() ? "normal" : "detail";
+    add(std::move(bake), job.object, kind + (bc5 ? ".ktx2" : ".png"));
 }
 
-void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method) {
+void Lister::add(const std::string& object, int index, const ShadeMethod& method) {
     const MeshEntry& mesh = entries_.meshes[std::size_t(index)];
     const TexturePlan* map = nullptr;
     for (const TexturePlan& texture : plan_.textures)
@@ -224,7 +230,7 @@ void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method)
     const Shade shade = method.shade;
     if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
     if (const char* why = obstacle(job)) {
-        const std::string line = object.object + ": no command bakes its " + bake::name(method) + ": " + why;
+        const std::string line = object + ": no command bakes its " + bake::name(method) + ": " + why;
         if (std::find(manifest_.notes.begin(), manifest_.notes.end(), line) == manifest_.notes.end())
             manifest_.notes.push_back(line);
         return;
@@ -232,6 +238,14 @@ void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method)
     if (bakes_table(shade)) return table(job);
     const std::string mesh_bake = displaces(shade) ? displaced(job) : std::string();
     if (bakes_map(shade)) normals(job, mesh_bake);
+}
+
+/// Files of normals are not baked again: what no command makes of them is told.
+void Lister::add(const TexturePlan& texture) {
+    if (texture.materials.empty() || !map_form(texture).bc5) return;
+    manifest_.notes.push_back(path(texture.file) +
+                              ": no command stores a file of normals in BC5; bake it anew to .ktx2, or leave "
+                              "\"normal-depth\" in the scene, which shows it so");
 }
 
 /// Why no command bakes the faces of this sky; null if one does.
@@ -285,8 +299,15 @@ Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const
         for (const int mesh : object.meshes) {
             const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
             const auto method = planned_method(plan, mesh);
-            if (entry.material >= 0 && method) lister.add(object, mesh, *method);
+            if (entry.material >= 0 && method) lister.add(object.object, mesh, *method);
         }
+    for (const TexturePlan& texture : plan.textures) {
+        lister.add(texture);
+        for (const int mesh : texture.meshes) { // whose models are those of the scene
+            const auto& shade = entries.materials[std::size_t(entries.meshes[std::size_t(mesh)].material)].relief.shade;
+            if (!planned_method(plan, mesh) && shade) lister.add(texture.file, mesh, *shade);
+        }
+    }
     if (plan.sky) lister.add(*plan.sky);
     return lister.take();
 }

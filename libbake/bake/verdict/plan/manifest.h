@@ -25,7 +25,7 @@ struct Manifest {
     std::vector<std::string> notes;
 };
 
-/// The bakes of the models and of the sky that a plan chose. `out`: the file that the manifest will be; outputs are beside it. What no command
+/// The bakes of the models and of the sky that a plan chose, and of the maps that it decided for other models. `out`: the file that the manifest will be; outputs are beside it. What no command
 /// bakes is told in a note. Reads meshes where an amplitude is a part of their size. Throws the errors of the readers.
 Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const std::string& out);
 std::string to_toml(const Manifest& manifest);

@@ -86,6 +86,8 @@ std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm
     return forms;
 }
 
+constexpr int compared = 2048; ///< pixels on which forms are compared with RGB8
+
 void set_form(TexturePlan& plan, const TextureForm& form) {
     plan.width = form.width, plan.height = form.height, plan.channels = form.channels, plan.bits = form.bits;
     plan.half = form.half;
@@ -102,6 +104,42 @@ TexturePlan start(const SceneTexture& texture, const TextureForm& source) {
     return plan;
 }
 
+/// The first form that errs no more than RGB of 8 bits at full size does on the same pixels, by the same random numbers. That
+/// one is among the forms of a map that has more bits. Leaves the twin with the chosen form.
+TexturePlan decide_like_rgb8(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin) {
+    const TextureForm source = source_form(texture);
+    TexturePlan plan = start(texture, source);
+    const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
+    const auto show = [&](const TextureForm& form) {
+        set_texture(twin, texture.materials, texture.use,
+                    stored(halvings[std::size_t(form.halvings)], texture.use, form));
+    };
+    show({0, texture.picture->width(), texture.picture->height(), 3, 8});
+    const SquareEstimate rgb8 = probe.measure(twin, compared).error;
+    plan.rgb8_rmse = rgb8.rmse();
+    std::string smaller; // the last form that errs more
+    for (const TextureForm& form : forms_of(texture, source, options)) {
+        show(form);
+        // Most forms are far off, and are refused after a few pixels.
+        SquareEstimate error = probe.judge(twin, plan.rgb8_rmse).error;
+        if (error.low() <= plan.rgb8_rmse) error = probe.measure(twin, compared).error;
+        if (error.rmse() <= plan.rgb8_rmse) {
+            set_form(plan, form);
+            plan.error = error;
+            plan.why =
+                form.text() + " errs by " + error_text(error) + ", RGB of 8 bits in full size by " + error_text(rgb8);
+            if (!smaller.empty()) plan.why += "; " + smaller;
+            return plan;
+        }
+        smaller = form.text() + " errs by " + error_text(error);
+    }
+    show(source);
+    plan.error = probe.measure(twin, compared).error;
+    plan.why = "nothing smaller errs as little as RGB of 8 bits in full size, which errs by " + error_text(rgb8) +
+               (smaller.empty() ? std::string() : "; " + smaller);
+    return plan;
+}
+
 /// Leaves the twin with the chosen form.
 TexturePlan decide(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin,
                    double budget) {
@@ -113,6 +151,7 @@ TexturePlan decide(const SceneTexture& texture, const PartOptions& options, Wors
         plan.why = "no camera sees it";
         return plan;
     }
+    if (options.like_rgb8 && texture.use == TextureUse::normal) return decide_like_rgb8(texture, options, probe, twin);
     const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
     std::string smaller; // the last form that was not enough
     for (const TextureForm& form : forms) {
