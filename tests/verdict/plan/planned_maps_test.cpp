@@ -1,4 +1,5 @@
 // Maps of the sizes that a plan chose: the scene file with them, and its picture.
+#include "bake/picture/image_io.h"
 #include "bake/verdict/plan/plan_parts.h"
 #include "bake/verdict/plan/scene_twin.h"
 #include "bake/verdict/plan/texture_form.h"
@@ -133,6 +134,26 @@ TEST_SUITE("unit") {
         REQUIRE(now[1].name == round.textures[1].name);
         REQUIRE(now[1].picture->size() == judged.size());
         CHECK(std::equal(judged.data(), judged.data() + judged.size(), now[1].picture->data()));
+    }
+
+    TEST_CASE("planned maps: blocks of noise, which change when they are encoded again, are encoded once") {
+        Round round("[[light]]\ntype = \"ambient\"\n[[material]]\nname = \"m\"\nnormal = \"n.exr\"\n[[mesh]]\n"
+                    "shape = \"plane\"\nmaterial = \"m\"\n");
+        Image<float> noise(64, 64, 3);
+        for (std::size_t i = 0; i < noise.size(); ++i)
+            noise.data()[i] = i % 3 == 2 ? 1 : 0.1f * float(std::sin(double(i * i)));
+        write_image(round.folder / "n.exr", noise, {.depth = Depth::float32});
+        const SceneTexture source = scene_textures(load(round.entries), &round.entries)[0];
+        round.plan.textures = {
+            TexturePlan{.file = "n.exr", .kind = "normal", .width = 64, .height = 64, .channels = 2}};
+        TexturePlan& map = round.plan.textures[0];
+        map.bits = bc5_bits, map.source_width = map.source_height = 64, map.materials = {0};
+        const SceneEntries entries = planned_entries(round.entries, round.plan);
+        Scene rounded = load(entries);
+        round_textures(entries, round.plan, rounded);
+        const Image<float> judged = planned_texture(source, map);
+        const Texture now = scene_textures(rounded, &entries)[0].picture;
+        CHECK(std::equal(judged.data(), judged.data() + judged.size(), now->data()));
     }
 
     TEST_CASE("planned maps: files of normals in BC5 are said by the scene, unless they have it") {

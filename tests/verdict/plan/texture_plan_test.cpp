@@ -1,5 +1,6 @@
 // What textures of little scenes are reduced to.
 #include "bake/base/parallel.h"
+#include "bake/picture/bc5.h"
 #include "preview/little_scenes.h"
 #include "verdict/plan/planned_texture.h"
 #include <doctest/doctest.h>
@@ -223,6 +224,25 @@ TEST_SUITE("unit") {
         CHECK(plan.error.rmse() == 0);
         CHECK(plan.rgb8_rmse == 0);
         CHECK(plan.why.starts_with("nothing smaller errs as little"));
+    }
+
+    TEST_CASE(
+        "texture plan: a texture file of normals is known to be in BC5, although its blocks are not found again") {
+        Image<float> noise(64, 64, 3);
+        for (std::size_t i = 0; i < noise.size(); ++i) noise.data()[i] = 0.1f * float(std::sin(double(i * i)));
+        bc5_round(noise);
+        Image<float> again = copied(noise);
+        bc5_round(again);
+        REQUIRE(!std::equal(noise.data(), noise.data() + noise.size(), again.data()));
+        SceneTexture texture{.name = "n.ktx2", .use = TextureUse::normal};
+        texture.picture = std::make_shared<const Image<float>>(std::move(noise));
+        CHECK(source_form(texture) == TextureForm{0, 64, 64, 2, bc5_bits});
+        texture.name = "n.exr";
+        CHECK(source_form(texture).bits == 32);
+        texture.name = "n.ktx2";
+        texture.picture =
+            std::make_shared<const Image<float>>(stored(*waves(16, 3, 0.3f), TextureUse::normal, {0, 16, 16, 3, 8}));
+        CHECK(source_form(texture).bits == 8);
     }
 
     TEST_CASE("texture plan: the same for any number of threads") {

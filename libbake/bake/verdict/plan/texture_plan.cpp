@@ -1,6 +1,7 @@
 #include "bake/verdict/plan/texture_plan.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
+#include "bake/picture/texture_file.h"
 #include "bake/preview/loaded_picture.h"
 #include <algorithm>
 #include <cmath>
@@ -211,7 +212,12 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
 
 TextureForm source_form(const SceneTexture& texture) {
     const Image<float>& image = *texture.picture;
-    if (!texture.baked) return lossless_form(image, texture.use);
+    if (!texture.baked) {
+        const TextureForm form = lossless_form(image, texture.use);
+        // The blocks of a texture file need not be what the encoder finds again.
+        const bool blocks = form.bits == 32 && texture.use == TextureUse::normal && texture_container(texture.name);
+        return blocks ? TextureForm{0, image.width(), image.height(), 2, bc5_bits} : form;
+    }
     if (texture.use == TextureUse::normal) return {0, image.width(), image.height(), 3, 8, false};
     if (texture.use == TextureUse::bump) return {0, image.width(), image.height(), 2, 16, false};
     return lossless_form(image, texture.use);

@@ -22,7 +22,8 @@ struct SceneTexture {
 /// baked, and have the names of materials. Further maps of glTF materials are not among them.
 std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries* entries = nullptr);
 
-/// What a texture is stored in, as far as is known: a file without loss; a baked normal map as RGB of 8 bits, a baked bump table
+/// What a texture is stored in, as far as is known: a file without loss, and normals of a .dds or .ktx2 in BC5 if neither 8 nor
+/// 16 bits hold them; a baked normal map as RGB of 8 bits, a baked bump table
 /// in 16 bits.
 TextureForm source_form(const SceneTexture& texture);
 
