@@ -7,7 +7,7 @@
 // Normal maps: the exact normals of a height with an rms slope of .3, and with the amplitude that the pair's own normal map has,
 // on a plane and on five meshes, magnified to one texel per pixel, under one directional light, with a highlight of Phong 50 on a
 // diffuse surface. The reference is the full-size map in float. `like` is the form that a plan takes if a map may err as much as
-// full-size RGB of 8 bits on the same 2048 pixels, `normal` the one that it takes for an RMSE of .01. Bytes are those of all
+// full-size RGB of 8 bits on the same 8192 pixels, `normal` the one that it takes for an RMSE of .01. Bytes are those of all
 // levels. `verified` are errors over all pixels of the picture, with other random numbers.
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/file/sky_cube.h"
@@ -26,7 +26,7 @@ using namespace bench;
 namespace {
 
 constexpr int window = 256;  ///< pixels along an edge of the picture
-constexpr int probed = 2048; ///< as many as a plan compares
+constexpr int probed = 8192; ///< as many as a plan compares
 
 /// An object with a baked map, seen through a window in the middle of it.
 Scene mapped_scene(const Named& mesh, const Named& name, const HeightTexture& height, const std::string& data,

@@ -87,7 +87,7 @@ std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm
     return forms;
 }
 
-constexpr int compared = 2048; ///< pixels on which forms are compared with RGB8
+constexpr int compared = 8192; ///< pixels on which forms are compared with RGB8
 
 void set_form(TexturePlan& plan, const TextureForm& form) {
     plan.width = form.width, plan.height = form.height, plan.channels = form.channels, plan.bits = form.bits;

@@ -32,7 +32,7 @@ TextureForm source_form(const SceneTexture& texture);
 /// decided in place, and may then have the error budget sqrt((k + 1) / n), so that the picture with all of them is within the
 /// budget.
 /// With options.like_rgb8 a normal map gets the smallest form that errs no more than RGB of 8 bits at full size does, on the
-/// same 2048 pixels of its objects.
+/// same 8192 pixels of its objects, or all.
 /// Where no form is within it, a file stays as it is, and a baked map gets the finest form. `scene` is built.
 std::vector<TexturePlan> plan_textures(const Scene& scene, const SceneEntries* entries, const PartOptions& options,
                                        Progress* progress = nullptr);
