@@ -2,6 +2,8 @@
 #include "bake/picture/texture_file.h"
 #include "bake/relief/map/normal_mips.h"
 #include <algorithm>
+#include <bit>
+#include <span>
 
 namespace bake {
 namespace {
@@ -13,7 +15,7 @@ Image<float> as_colours(const Image<float>& normals) {
     return colours;
 }
 
-StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
+StoredNormalMap write_levels(BlockWriter& out, const std::string& path, std::span<const NormalLevel> mips,
                              Depth depth) {
     const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
                                : depth == Depth::u16 ? TexelFormat::rgba16
@@ -26,11 +28,10 @@ StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const st
     write_texture(out, container, format, levels);
     const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
     out.commit();
-    return {int(levels.size()), blocks, error};
+    return {int(levels.size()), levels[0].width, levels[0].height, blocks, error};
 }
 
-void write_roughness(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
-                     double roughness) {
+void write_roughness(BlockWriter& out, const std::string& path, std::span<const NormalLevel> mips, double roughness) {
     std::vector<TextureLevel> levels;
     for (const NormalLevel& mip : mips)
         levels.push_back(pack_level(roughness_map(mip, float(roughness)), TexelFormat::r8));
@@ -53,12 +54,15 @@ void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<
 
 std::string to_text(const StoredNormalMap& stored) {
     const StoredError& error = stored.error;
-    return format("%d mips; largest level as it is read back: mean %.4f, p95 %.4f, max %.4f, rms %.4f deg", stored.mips,
-                  error.mean_deg, error.p95_deg, error.max_deg, error.rms_deg);
+    return format("%d mips; largest level, %d x %d, as it is read back: mean %.4f, p95 %.4f, max %.4f, rms %.4f deg",
+                  stored.mips, stored.width, stored.height, error.mean_deg, error.p95_deg, error.max_deg,
+                  error.rms_deg);
 }
 
 nlohmann::json to_json(const StoredNormalMap& stored) {
     return {{"mips", stored.mips},
+            {"width", stored.width},
+            {"height", stored.height},
             {"mean_deg", stored.error.mean_deg},
             {"p95_deg", stored.error.p95_deg},
             {"max_deg", stored.error.max_deg},
@@ -67,6 +71,10 @@ nlohmann::json to_json(const StoredNormalMap& stored) {
 
 NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
     : args_(args), depth_(depth) {
+    const int levels = std::bit_width(unsigned(std::max(width, height)));
+    if (args.skip_mips >= levels)
+        throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
+                                           args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
     else if (args.high.alpha)
         picture_.emplace(args.out, width, height, 4, WriteOptions{.depth = depth, .channels = {"R", "G", "B", "A"}});
@@ -81,7 +89,8 @@ std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, con
         picture_->finish();
     }
     if (!texture_ && !roughness_) return {};
-    const std::vector<NormalLevel> mips = normal_mips(map, args_.directx);
+    const std::vector<NormalLevel> all = normal_mips(map, args_.directx);
+    const std::span<const NormalLevel> mips = std::span(all).subspan(std::size_t(args_.skip_mips));
     if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
     if (!texture_) return {};
     return write_levels(*texture_, args_.out, mips, depth_);

@@ -9,8 +9,9 @@ namespace bake {
 
 struct StoredNormalMap {
     int mips = 0;
-    bool blocks = false; ///< bc5
-    StoredError error;   ///< of the largest level, read from the file
+    int width = 0, height = 0; ///< of the largest level that is written
+    bool blocks = false;       ///< bc5
+    StoredError error;         ///< of the largest level, read from the file
 };
 
 /// "11 mips; ..."

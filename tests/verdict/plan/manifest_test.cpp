@@ -131,6 +131,10 @@ TEST_SUITE("unit") {
         CHECK(command_of(manifest.bakes[0]) == Words{"normal-map", "torus.obj", "--height=dots.png",
                                                      "--amplitude=0.125", "--depth=bc5", "--out=ring_one_normal.ktx2"});
         CHECK(manifest.bakes[2].outputs[0].second == "wheel_detail.ktx2");
+        plan.textures[0].width = plan.textures[0].height = 64;
+        plan.textures[0].source_width = plan.textures[0].source_height = 256;
+        CHECK(plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes[0].options.back() ==
+              std::pair<std::string, std::string>("skip-mips", "2"));
         REQUIRE(manifest.notes.size() == 1);
         CHECK(manifest.notes[0].starts_with("n.png: no command stores a file of normals in BC5"));
     }

@@ -7,7 +7,7 @@
 #include "bake/verdict/plan/folder_from.h"
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
-#include "bake/verdict/plan/texture_form.h"
+#include "bake/verdict/plan/texture_plan.h"
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -211,7 +211,11 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     if (bake.after.empty()) mesh_options(job.mesh, bake);
     height_options(job, bake, true);
     const bool bc5 = job.map && job.map->bits == bc5_bits;
-    if (bc5) bake.options.emplace_back("depth", "bc5");
+    if (bc5) {
+        bake.options.emplace_back("depth", "bc5");
+        if (const int halvings = form_of(*job.map).halvings; halvings > 0)
+            bake.options.emplace_back("skip-mips", std::to_string(halvings));
+    }
     if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
         bake.inputs.emplace_back("residual-of", output_of(displaced));
