@@ -125,6 +125,10 @@ TEST_SUITE("unit") {
         REQUIRE(notes.size() == 1); // of the albedo of 16 bits
         CHECK(!has(notes[0], "left"));
 
+        // Planned again, the maps are in BC5 already.
+        for (const SceneTexture& texture : scene_textures(load(round.read), &round.read))
+            CHECK(source_form(texture).in_bc5() == (texture.use == TextureUse::normal));
+
         // The judged, the planned and the rounded scene have the same texels: blocks are not encoded twice.
         const SceneEntries entries = planned_entries(round.entries, round.plan);
         Scene rounded = load(entries);

@@ -60,6 +60,16 @@ std::vector<int> entries_with(const Scene& scene, const SceneEntries& entries, c
     return with;
 }
 
+/// By the key of its entries, or of those of the meshes that it is baked for.
+bool is_in_bc5(const SceneEntries& entries, const SceneTexture& texture) {
+    const auto says = [&](int material) { return entries.materials[std::size_t(material)].normal_bc5; };
+    return std::any_of(texture.entries.begin(), texture.entries.end(), says) ||
+           std::any_of(texture.meshes.begin(), texture.meshes.end(), [&](int mesh) {
+               const int material = entries.meshes[std::size_t(mesh)].material;
+               return material >= 0 && says(material);
+           });
+}
+
 bool share_a_material(const SceneTexture& a, const SceneTexture& b) noexcept {
     return std::find_first_of(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end()) !=
            a.materials.end();
@@ -204,6 +214,7 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
             } else {
                 texture.entries = entries_with(scene, *entries, texture);
             }
+            texture.bc5 = entries && use == TextureUse::normal && is_in_bc5(*entries, texture);
             textures.push_back(std::move(texture));
         }
     }
@@ -212,11 +223,13 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
 
 TextureForm source_form(const SceneTexture& texture) {
     const Image<float>& image = *texture.picture;
+    const TextureForm blocks{0, image.width(), image.height(), 2, bc5_bits};
+    if (texture.bc5) return blocks;
     if (!texture.baked) {
         const TextureForm form = lossless_form(image, texture.use);
         // The blocks of a texture file need not be what the encoder finds again.
-        const bool blocks = form.bits == 32 && texture.use == TextureUse::normal && texture_container(texture.name);
-        return blocks ? TextureForm{0, image.width(), image.height(), 2, bc5_bits} : form;
+        const bool unknown = form.bits == 32 && texture.use == TextureUse::normal && texture_container(texture.name);
+        return unknown ? blocks : form;
     }
     if (texture.use == TextureUse::normal) return {0, image.width(), image.height(), 3, 8, false};
     if (texture.use == TextureUse::bump) return {0, image.width(), image.height(), 2, 16, false};

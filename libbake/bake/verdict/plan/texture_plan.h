@@ -12,6 +12,7 @@ struct SceneTexture {
     std::string name; ///< its file, or the object whose baked map it is
     TextureUse use = TextureUse::albedo;
     bool baked = false;
+    bool bc5 = false; ///< the scene shows it as its blocks
     Texture picture;
     std::vector<int> materials; ///< indices in Scene::materials
     std::vector<int> entries;   ///< of a file: indices in SceneEntries::materials
@@ -23,7 +24,7 @@ struct SceneTexture {
 std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries* entries = nullptr);
 
 /// What a texture is stored in, as far as is known: a file without loss, and normals of a .dds or .ktx2 in BC5 if neither 8 nor
-/// 16 bits hold them; a baked normal map as RGB of 8 bits, a baked bump table
+/// 16 bits hold them, or if the scene shows them so; a baked normal map as RGB of 8 bits, a baked bump table
 /// in 16 bits.
 TextureForm source_form(const SceneTexture& texture);
 
