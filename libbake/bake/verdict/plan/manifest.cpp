@@ -1,10 +1,10 @@
 #include "bake/verdict/plan/manifest.h"
 #include "bake/base/error.h"
-#include "bake/environment/file/face_files.h"
 #include "bake/picture/image_io.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/manifest_sky.h"
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
 #include "bake/verdict/plan/texture_plan.h"
@@ -24,8 +24,6 @@ template <class T> std::string text_of(T value) {
     char text[64];
     return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
 }
-
-constexpr const char* reserved = "a manifest keeps the characters *?{} of its files' names for later; rename the file";
 
 bool is_cube(const std::string& shape) { return shape == "cube" || shape.starts_with("cube:"); }
 
@@ -67,7 +65,6 @@ private:
     std::string displaced(const Job& job);
     void normals(const Job& job, const std::string& displaced);
     std::string shape_file(const Job& job, Bake& bake);
-    const char* obstacle(const SkyPlan& sky) const;
 
     const SceneEntries& entries_;
     const ScenePlan& plan_;
@@ -119,7 +116,7 @@ const char* Lister::obstacle(const Job& job) const {
     const Shade shade = job.method.shade;
     const Vec2f repeat = mesh.repeat * entries_.materials[std::size_t(mesh.material)].repeat;
     for (const std::string& file : {job.relief.file, mesh.file, mesh.shape})
-        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
+        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved_path;
     if (bakes_table(shade)) return nullptr;
     if (repeat != Vec2f(1)) return "its uvs repeat, and bake displace and bake normal-map take each texture once";
     if (is_cube(mesh.shape)) return "its shape, a cube, is one of scenes alone; write it as a file";
@@ -252,43 +249,16 @@ void Lister::add(const TexturePlan& texture) {
                               "\"normal-depth\" in the scene, which shows it so");
 }
 
-/// Why no command bakes the faces of this sky; null if one does.
-const char* Lister::obstacle(const SkyPlan& sky) const {
-    const SkyEntry& entry = entries_.sky;
-    if (sky.model == "constant") return "it is one colour; \"sh-bands\" of the scene shows it";
-    if (sky.model != "faces") return "they are no faces; \"sh-bands\" of the scene shows them";
-    if (entry.reduction.sh_bands > 0) return "they are those of a series that \"sh-bands\" of the scene names";
-    std::vector<std::string> files = {entry.image};
-    if (entry.image.empty()) files.assign(entry.faces.begin(), entry.faces.end());
-    for (const std::string& file : files)
-        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
-    if (files.size() == 1) return nullptr;
-    try {
-        if (name_faces(files).files == entry.faces) return nullptr;
-    } catch (const Error&) { // as below
-    }
-    return "its files are named like other faces than they are listed as; rename them";
-}
-
 void Lister::add(const SkyPlan& sky) {
     if (sky.model == "faces" && sky.face >= sky.source_face) return;
-    if (const char* why = obstacle(sky)) {
+    if (const char* why = sky_obstacle(entries_.sky, sky)) {
         const std::string what = sky.model == "faces"      ? "smaller faces"
                                  : sky.model == "constant" ? "mean"
                                                            : "harmonics";
         manifest_.notes.push_back("sky: no command bakes its " + what + ": " + why);
         return;
     }
-    const SkyEntry& entry = entries_.sky;
-    Bake bake{.verb = "cubemap", .use = "faces"};
-    if (!entry.image.empty()) bake.files = {path(entry.image)};
-    else
-        for (const std::string& file : entry.faces) bake.files.push_back(path(file));
-    bake.options = {{"size", std::to_string(sky.face)}, {"samples", "exact"}};
-    if (entry.space != ColourSpace::automatic)
-        bake.options.emplace_back(entry.space == ColourSpace::linear ? "linear" : "srgb", "");
-    if (entry.bad != BadPolicy::refuse)
-        bake.options.emplace_back("bad", entry.bad == BadPolicy::zero ? "zero" : "clamp");
+    Bake bake = sky_bake(entries_.sky, sky, [&](const std::string& file) { return path(file); });
     bake.name = "sky_" + std::to_string(sky.face);
     while (!names_.insert(bake.name).second) bake.name += "_sky"; // an object has the name
     bake.outputs.emplace_back("out", bake.name + "_%s.exr");
