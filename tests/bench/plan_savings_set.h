@@ -15,20 +15,22 @@ inline constexpr double rms_slope = 0.3;
 
 struct Named {
     const char *name, *file;
+    /// Of a height: height of white above black as a part of the picture's width, as its normal map has it (bake check --pair).
+    double amplitude = 0;
 };
 /// The heights of the pairs, and one whose waves are 128 texels long.
 inline constexpr Named heights[] = {
     {"waves", ""},
-    {"Rock020", "pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg"},
-    {"Tiles036", "pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg"},
-    {"Metal007", "pairs/ambientcg_Metal007/Metal007_1K_Displacement.jpg"},
-    {"metal_tech", "pairs/cube2_metal_tech_01/metal_tech_01_hm.png"},
-    {"diamond_plate", "pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png"},
-    {"wall_plate", "pairs/cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png"},
-    {"castell_wall", "pairs/cube2_castell_wall_gk_v01/castell_wall_gk_v01_hm.jpg"},
-    {"wooden_planks", "pairs/cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png"},
-    {"rock_formation", "pairs/cube2_rock_formation_gk_v01/rock_formation_gk_v01_hm.png"},
-    {"parallax_cube", "pairs/bevy_parallax_cube/cube_depth.png"},
+    {"Rock020", "pairs/ambientcg_Rock020/Rock020_1K_Displacement.jpg", 0.06173},
+    {"Tiles036", "pairs/ambientcg_Tiles036/Tiles036_1K_Displacement.jpg", 0.003442},
+    {"Metal007", "pairs/ambientcg_Metal007/Metal007_1K_Displacement.jpg", 0.001321},
+    {"metal_tech", "pairs/cube2_metal_tech_01/metal_tech_01_hm.png", 0.1336},
+    {"diamond_plate", "pairs/cube2_diamond_plate_big_gk/diamond_plate_big_gk_hm.png", 0.09245},
+    {"wall_plate", "pairs/cube2_wall_plate_12_gk/wall_plate_12_gk_hm.png", -0.01398},
+    {"castell_wall", "pairs/cube2_castell_wall_gk_v01/castell_wall_gk_v01_hm.jpg", 0.05894},
+    {"wooden_planks", "pairs/cube2_wooden_planks_gk_v01/wooden_planks_gk_v01_hm.png", 0.05512},
+    {"rock_formation", "pairs/cube2_rock_formation_gk_v01/rock_formation_gk_v01_hm.png", 0.04732},
+    {"parallax_cube", "pairs/bevy_parallax_cube/cube_depth.png", -0.05008},
 };
 inline constexpr Named meshes[] = {
     {"plane", ""},

@@ -4,11 +4,11 @@
 //                                         HEIGHTS: only those whose names contain it
 //   plan_savings_sweep --sky DATA         skies: one row per sky, material and kind of light
 //
-// Normal maps: the exact normals of a height with an rms slope of .3 on a plane and on five meshes, magnified to one texel per
-// pixel, under one directional light, with a highlight of Phong 50 on a diffuse surface. The reference is the full-size map in
-// float. `like` is the smallest form whose error on the same 1024 pixels is not above that of RGB of 8 bits at full size;
-// `normal` the one that a plan takes for an RMSE of .01. Bytes are those of all levels. `verified` are errors of the chosen form and of
-// RGB8 on other pixels with other random numbers.
+// Normal maps: the exact normals of a height with an rms slope of .3, and with the amplitude that the pair's own normal map has,
+// on a plane and on five meshes, magnified to one texel per pixel, under one directional light, with a highlight of Phong 50 on a
+// diffuse surface. The reference is the full-size map in float. `like` is the form that a plan takes if a map may err as much as
+// full-size RGB of 8 bits on the same 8192 pixels, `normal` the one that it takes for an RMSE of .01. Bytes are those of all
+// levels. `verified` are errors over all pixels of the picture, with other random numbers.
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/file/sky_cube.h"
 #include "bake/mesh/file/mesh_io.h"
@@ -25,11 +25,12 @@ using namespace bench;
 
 namespace {
 
-constexpr int window = 256; ///< pixels along an edge of the picture
-constexpr int probed = 1024;
+constexpr int window = 256;  ///< pixels along an edge of the picture
+constexpr int probed = 8192; ///< as many as a plan compares
 
 /// An object with a baked map, seen through a window in the middle of it.
-Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::string& data) {
+Scene mapped_scene(const Named& mesh, const Named& name, const HeightTexture& height, const std::string& data,
+                   bool own_amplitude) {
     Scene scene;
     scene.shapes.push_back(
         make_shape(*mesh.file ? read_mesh(data + "/meshes/" + mesh.file) : shape_mesh("plane", 1, 1)));
@@ -39,7 +40,7 @@ Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::st
     base.reflectance = shiny();
     ReliefOptions options;
     options.method.shade = Shade::normal;
-    options.height.amplitude = amplitude_for(height, length);
+    options.height.amplitude = own_amplitude ? name.amplitude * length : amplitude_for(height, length);
     scene.materials.push_back(std::make_unique<Material>(with_relief(base, shape, height, options).material));
     Placement placement;
     if (!*mesh.file) placement.rotate_deg.x = 60; // from the ground towards the camera
@@ -57,56 +58,25 @@ Scene mapped_scene(const Named& mesh, const HeightTexture& height, const std::st
     return scene;
 }
 
-struct Judged {
-    TextureForm form;
-    SquareEstimate error;
-};
-
+/// Errors of forms on the pixels that a plan compares.
 class Judge {
 public:
     Judge(const Scene& scene, std::uint32_t seed) : texture_(scene_textures(scene).at(0)), twin_(twin_of(scene)) {
         PartOptions options;
         options.seed = seed;
-        const std::vector<ObjectMask> object = {
-            objects_with(scene, std::vector<const Material*>{scene.materials[0].get()})};
-        plan_.emplace(scene, object, options);
-        options.rule.fail_at = 1; // what may be equal is looked at to the end
-        probe_.emplace(scene, object, options);
+        probe_.emplace(
+            scene, std::vector<ObjectMask>{objects_with(scene, std::vector<const Material*>{scene.materials[0].get()})},
+            options);
         halvings_ = halvings_of(*texture_.picture);
     }
-    Scene& with(const TextureForm& form) {
+    double error(const TextureForm& form, int pixels) {
         set_texture(twin_, texture_.materials, texture_.use,
                     stored(halvings_[std::size_t(form.halvings)], texture_.use, form));
-        return twin_;
-    }
-    SquareEstimate error(const TextureForm& form, int pixels = probed) {
-        return probe_->measure(with(form), pixels).error;
-    }
-    /// The smallest form whose error on the probed pixels is at most `most`.
-    Judged smallest(double most) {
-        Judged last;
-        for (const TextureForm& form : forms()) {
-            if (probe_->judge(with(form), most).error.low() > most) continue;
-            last = {form, probe_->measure(twin_, probed).error};
-            if (last.error.rmse() <= most) break;
-        }
-        return last;
-    }
-    /// The smallest form that a plan takes for a budget.
-    Judged smallest_within(double budget) {
-        Judged last;
-        for (const TextureForm& form : forms()) {
-            const WorstProbe::Result result = plan_->judge(with(form), budget);
-            last = {form, result.error};
-            if (result.within) break;
-        }
-        return last;
-    }
-    std::vector<TextureForm> forms() const {
-        return texture_forms(texture_.use, texture_.picture->width(), texture_.picture->height());
+        return probe_->measure(twin_, pixels).error.rmse();
     }
     TextureForm full(int channels, int bits, int halvings = 0) const {
-        for (const TextureForm& form : forms())
+        for (const TextureForm& form :
+             texture_forms(texture_.use, texture_.picture->width(), texture_.picture->height()))
             if (form.channels == channels && form.bits == bits && form.halvings == halvings) return form;
         return {};
     }
@@ -114,39 +84,45 @@ public:
 private:
     SceneTexture texture_;
     Scene twin_;
-    std::optional<WorstProbe> probe_, plan_;
+    std::optional<WorstProbe> probe_;
     std::vector<Image<float>> halvings_;
 };
 
-void measure_map(const Named& mesh, const Named& name, const HeightTexture& height, const std::string& data) {
-    const Scene scene = mapped_scene(mesh, height, data);
-    Judge judge(scene, 0);
-    const TextureForm rgb8 = judge.full(3, 8);
-    const double own = judge.error(rgb8).rmse(), half = judge.error(judge.full(3, 16, 1)).rmse();
-    const double quarter = judge.error(judge.full(3, 16, 2)).rmse();
-    const Judged like = judge.smallest(own), normal = judge.smallest_within(0.01);
-    Judge other(scene, 1);
-    const double again = other.error(like.form, probed).rmse(), own_again = other.error(rgb8, probed).rmse();
-    const double normal_again = other.error(normal.form, 4 * probed).rmse();
-    const auto row = [](const Judged& judged) {
-        return bench::text("%d,%d,%d,%lld,%.4g", judged.form.width, judged.form.channels, judged.form.bits,
-                           static_cast<long long>(judged.form.bytes()), judged.error.rmse());
+TexturePlan planned(const Scene& scene, bool like_rgb8) {
+    PartOptions options;
+    options.like_rgb8 = like_rgb8;
+    return plan_textures(scene, nullptr, options).at(0);
+}
+
+void measure_map(const Named& mesh, const Named& name, const HeightTexture& height, const std::string& data,
+                 bool own_amplitude) {
+    const Scene scene = mapped_scene(mesh, name, height, data, own_amplitude);
+    const TexturePlan like = planned(scene, true), normal = planned(scene, false);
+    Judge same(scene, 0), other(scene, 1);
+    const TextureForm rgb8 = same.full(3, 8), bc5 = same.full(2, bc5_bits);
+    const auto row = [](const TexturePlan& plan) {
+        return bench::text("%d,%d,%d,%lld,%.4g", plan.width, plan.channels, plan.bits,
+                           static_cast<long long>(plan.bytes), plan.error.rmse());
     };
-    std::printf("%s,%s,%d,%lld,%.4g,%.4g,%.4g,%s,%s,%.4g,%.4g,%.4g\n", mesh.name, name.name, rgb8.width,
-                static_cast<long long>(rgb8.bytes()), own, half, quarter, row(like).c_str(), row(normal).c_str(),
-                own_again, again, normal_again);
+    std::printf("%s,%s,%s,%d,%lld,%.4g,%.4g,%.4g,%.4g,%s,%s,%.4g,%.4g,%.4g\n", own_amplitude ? "own" : "0.3", mesh.name,
+                name.name, rgb8.width, static_cast<long long>(rgb8.bytes()), like.rgb8_rmse, same.error(bc5, probed),
+                same.error(same.full(3, 16, 1), probed), same.error(same.full(3, 16, 2), probed), row(like).c_str(),
+                row(normal).c_str(), other.error(rgb8, window * window), other.error(form_of(like), window * window),
+                other.error(form_of(normal), window * window));
     std::fflush(stdout);
 }
 
 void measure_maps(const std::string& data, const std::string& only) {
-    std::printf(
-        "object,height,size,rgb8_bytes,rgb8_error,half_error,quarter_error,like_size,like_channels,like_bits,like_"
-        "bytes,like_error,normal_size,normal_channels,normal_bits,normal_bytes,normal_error,verified_rgb8,"
-        "verified_like,verified_normal\n");
+    std::printf("slope,object,height,size,rgb8_bytes,rgb8_error,bc5_error,half_error,quarter_error,like_size,like_"
+                "channels,like_bits,like_"
+                "bytes,like_error,normal_size,normal_channels,normal_bits,normal_bytes,normal_error,verified_rgb8,"
+                "verified_like,verified_normal\n");
     for (const Named& name : heights) {
         if (std::string(name.name).find(only) == std::string::npos) continue;
         const HeightTexture height = *name.file ? read_height(data + "/textures/" + name.file) : waves();
-        for (const Named& mesh : meshes) measure_map(mesh, name, height, data);
+        for (const bool own_amplitude : {false, true})
+            if (!own_amplitude || name.amplitude != 0)
+                for (const Named& mesh : meshes) measure_map(mesh, name, height, data, own_amplitude);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/plan/manifest.h"
 #include "bake/verdict/plan/planned_scene.h"
+#include "bake/verdict/plan/texture_form.h"
 #include "cli/command.h"
 #include "verdict/plan/hand_made_plan.h"
 #include <cmath>
@@ -58,7 +59,8 @@ double difference(const std::string& model, const std::string& mesh, const std::
     write_file(folder / "bakes.toml", to_toml(plan_manifest(entries, plan, folder / "bakes.toml")));
 
     std::string shown = mesh, maps;
-    if (map) maps = "relief-size = " + std::to_string(map->width) + "\n";
+    if (map && map->width < map->source_width && map->bits != bc5_bits)
+        maps = "relief-size = " + std::to_string(map->width) + "\n";
     for (const Bake& bake : parse_manifest(contents(folder / "bakes.toml"), "bakes.toml").bakes) {
         const Run run = run_bake(folder, command_of(bake));
         REQUIRE_MESSAGE(run.code == 0, run.err);
@@ -108,7 +110,11 @@ TEST_SUITE("cli") {
         map.source_width = map.source_height = 256, map.meshes = {0};
         const std::string file = "file = \"torus.obj\"";
         CHECK(difference("normal", file, map) < 3e-3);
-        map.kind = "bump", map.bits = 16, map.channels = 2;
+        map.channels = 2, map.bits = bc5_bits;
+        CHECK(difference("normal", file, map) < 2e-4); // the file has the planned texels
+        map.width = map.height = 256;
+        CHECK(difference("normal", file, map) < 2e-4);
+        map.kind = "bump", map.bits = 16, map.channels = 2, map.width = map.height = 64;
         CHECK(difference("bump", file, map) < 2e-4);
     }
 

@@ -86,6 +86,32 @@ TEST_SUITE("cli") {
             CHECK_MESSAGE(render.code == 0, render.err);
         }
     }
+    TEST_CASE("normal-map --skip-mips: the file begins with a smaller level, which is the same") {
+        const Folder folder;
+        write_waves(folder);
+        const auto bytes = [&](const char* name, const char* skipped) {
+            const json said = bake_map(folder, {"h.exr", "--amplitude", "0.05", "-o", name, "--skip-mips", skipped,
+                                                "--roughness-map", "r.dds"});
+            const int size = 64 >> std::stoi(skipped);
+            CHECK(said["stored"]["width"] == size);
+            CHECK(said["stored"]["mips"] == 7 - std::stoi(skipped));
+            CHECK(read_image(folder / name).width() == size);
+            CHECK(read_image(folder / "r.dds").width() == size);
+            CHECK(said["stored"]["rms_deg"].get<double>() < 2);
+            return contents(folder / name);
+        };
+        const std::string all = bytes("n.dds", "0"), some = bytes("n.dds", "2");
+        const std::size_t two = 16 * (16 * 16 + 8 * 8); // bytes of the levels 64 x 64 and 32 x 32
+        REQUIRE(all.size() == some.size() + two);
+        CHECK(all.substr(148 + two) == some.substr(148)); // behind the header
+        CHECK(bytes("n.ktx2", "6").size() < bytes("n.ktx2", "0").size());
+        const auto refused = [&](const char* out, const char* skipped, const std::string& named) {
+            check_refused(folder, {"normal-map", "h.exr", "-o", out, "--skip-mips", skipped}, 2, named);
+        };
+        refused("m.dds", "7", "--skip-mips 7: a map of 64 x 64 has 7 levels");
+        refused("m.png", "1", "--skip-mips: m.png has one level");
+        refused("m.dds", "16", "--skip-mips");
+    }
     TEST_CASE("normal-map --roughness-map: the base roughness at level 0, more where levels lose slopes") {
         const Folder folder;
         write_waves(folder);

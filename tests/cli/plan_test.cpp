@@ -120,6 +120,46 @@ TEST_SUITE("cli") {
         CHECK(run_bake(folder, {"render", "p.toml", "-o", "p.png", "--spp", "1"}).code == 0);
     }
 
+    TEST_CASE("plan: a map as good as RGB8 is in BC5; the scene and the files of the manifest show it, and --verify "
+              "measures it") {
+        const Folder folder;
+        write_scene(folder);
+        std::string scene = contents(folder / "s.toml");
+        scene.replace(scene.find("# high"), 6, "\nshade = \"normal\"");
+        write_file(folder / "s.toml", scene);
+        const Run run = run_bake(folder, line({"--camera", "front", "--decide", "texture,format", "--map-budget",
+                                               "rgb8", "-o", "p.toml", "--manifest", "b.toml", "--verify", "--json"}));
+        REQUIRE_MESSAGE(run.code == 0, run.err);
+        const auto json = nlohmann::json::parse(run.out);
+        REQUIRE(json["textures"].size() == 2);
+        bool any = false;
+        for (const auto& map : json["textures"]) {
+            any |= map["bc5"].get<bool>();
+            CHECK(map["error"]["rmse"].get<double>() <= map["rgb8_rmse"].get<double>());
+        }
+        CHECK(any);
+        CHECK(has(contents(folder / "p.toml"), "normal-depth = \"bc5\"\n"));
+        CHECK(has(contents(folder / "b.toml"), "depth = \"bc5\""));
+        CHECK(has(contents(folder / "b.toml"), "_normal.ktx2"));
+        REQUIRE(json["verified"].size() == 3); // two maps and the frame
+        for (const auto& line : json["verified"]) CHECK(line["within"].get<bool>());
+        CHECK(json["verified"][0]["predicted"]["rmse"] == json["textures"][0]["error"]["rmse"]);
+        CHECK(run_bake(folder, {"render", "p.toml", "-o", "p.png", "--spp", "1"}).code == 0);
+    }
+
+    TEST_CASE("plan: --verify tells maps that are over the budget") {
+        const Folder folder;
+        write_scene(folder);
+        std::string scene = contents(folder / "s.toml");
+        scene.replace(scene.find("# high"), 6, "\nshade = \"normal\"");
+        write_file(folder / "s.toml", scene);
+        // Within 0 no form is: the finest one is taken, and errs by a little.
+        const Run run = run_bake(
+            folder, line({"--budget", "rmse=0", "--camera", "front", "--decide", "texture,format", "--verify"}));
+        CHECK(run.code == 1);
+        CHECK_MESSAGE(has(run.out, "OVER the budget"), run.out);
+    }
+
     TEST_CASE(
         "plan: beside a reference that does not fit in memory it plans against the finest that does, and says so") {
         if (!keeps_memory_limits()) return;
@@ -152,6 +192,8 @@ TEST_SUITE("cli") {
         refused({"--cost", "bytes=nan"}, 2, "--cost bytes nan: ");
         refused({"--cost", "bytes=0"}, 2, "--cost bytes=0: nothing costs anything");
         refused({"--decide", "objects"}, 2, "--decide objects: ");
+        refused({"--map-budget", "rgb9"}, 2, "--map-budget");
+        refused({"--map-budget", "rgb8"}, 2, "--map-budget rgb8: no map is decided");
         refused({"-o", "p.png"}, 2, "--out p.png: ");
         refused({"-o", "p.toml", "--manifest", "p.toml"}, 2, "--manifest p.toml: ");
         refused({"-o", "p.toml", "--report", "p.toml"}, 2, "--report p.toml: is --out too");

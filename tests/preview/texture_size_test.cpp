@@ -75,6 +75,30 @@ TEST_SUITE("unit") {
         CHECK(material("height = \"t.png\"\nshade = \"bump\"").bump_table->width() == 8);
     }
 
+    TEST_CASE("texture size: \"normal-depth\" shows files and what is baked as their blocks, halved first") {
+        const Folder folder;
+        write_texels(folder, 8, 3, [](int x, int y, int c) { return c == 2 ? 1.f : 0.1f * float(x * (y + c) % 7); });
+        const auto normals = [&](const std::string& keys) {
+            write_file(folder / "s.gltf", square_gltf("{}"));
+            write_file(folder / "scene.toml", "[[light]]\ntype = \"ambient\"\n[[material]]\nname = \"m\"\n" + keys +
+                                                  "\n[[mesh]]\nfile = \"s.gltf\"\nmaterial = \"m\"\n");
+            return load(read_scene(folder / "scene.toml")).instances[0].material->normal_map;
+        };
+        for (const std::string source : {"normal = \"t.png\"\n", "height = \"t.png\"\nshade = \"normal\"\n"}) {
+            const Texture small = normals(source + "relief-size = 4"),
+                          blocks = normals(source + "relief-size = 4\nnormal-depth = \"bc5\""),
+                          expected = normals_in_bc5(small);
+            CHECK(!std::equal(small->data(), small->data() + small->size(), blocks->data()));
+            REQUIRE(blocks->size() == expected->size());
+            CHECK(std::equal(blocks->data(), blocks->data() + blocks->size(), expected->data()));
+            const Texture plain = normals(source + "relief-size = 4\nnormal-depth = \"float\"");
+            CHECK(std::equal(small->data(), small->data() + small->size(), plain->data()));
+        }
+        CHECK(normals_in_bc5({}) == Texture());
+        CHECK_THROWS_WITH_AS(entries("normal-depth = \"dxt5\""),
+                             doctest::Contains(":3: [[material]] \"normal-depth\" is \"dxt5\""), Error);
+    }
+
     TEST_CASE("texture size: sizes that are none are refused with their line") {
         CHECK(entries("albedo-size = 64").materials[0].albedo_size == 64);
         CHECK_THROWS_WITH_AS(entries("albedo-size = 0"),

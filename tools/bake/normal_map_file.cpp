@@ -3,6 +3,8 @@
 #include "bake/relief/map/dither.h"
 #include "bake/relief/map/normal_mips.h"
 #include <algorithm>
+#include <bit>
+#include <span>
 
 namespace bake {
 namespace {
@@ -14,8 +16,8 @@ Image<float> as_colours(const Image<float>& normals) {
     return colours;
 }
 
-StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
-                             Depth depth, bool dither) {
+StoredNormalMap write_levels(BlockWriter& out, const std::string& path, std::span<const NormalLevel> mips, Depth depth,
+                             bool dither) {
     const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
                                : depth == Depth::u16 ? TexelFormat::rgba16
                                                      : TexelFormat::bc5;
@@ -29,7 +31,7 @@ StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const st
     write_texture(out, container, format, levels);
     const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
     out.commit();
-    StoredNormalMap stored{int(levels.size()), blocks, error, {}};
+    StoredNormalMap stored{int(levels.size()), levels[0].width, levels[0].height, blocks, error, {}};
     if (dither) stored.undithered = stored_error(rounded(as_colours(mips[0].normal)), mips[0].normal);
     return stored;
 }
@@ -37,11 +39,10 @@ StoredNormalMap write_levels(BlockWriter& out, const std::string& path, const st
 StoredNormalMap dithered_picture(const Image<float>& map, const Image<float>& pattern) {
     Image<float> normals(map.width(), map.height(), 3);
     for (std::size_t i = 0; i < map.size(); ++i) normals.data()[i] = 2 * map.data()[i] - 1;
-    return {0, false, stored_error(pattern, normals), stored_error(rounded(map), normals)};
+    return {0, map.width(), map.height(), false, stored_error(pattern, normals), stored_error(rounded(map), normals)};
 }
 
-void write_roughness(BlockWriter& out, const std::string& path, const std::vector<NormalLevel>& mips,
-                     double roughness) {
+void write_roughness(BlockWriter& out, const std::string& path, std::span<const NormalLevel> mips, double roughness) {
     std::vector<TextureLevel> levels;
     for (const NormalLevel& mip : mips)
         levels.push_back(pack_level(roughness_map(mip, float(roughness)), TexelFormat::r8));
@@ -64,7 +65,9 @@ void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<
 
 std::string to_text(const StoredNormalMap& stored) {
     const StoredError& error = stored.error;
-    std::string text = stored.mips > 0 ? format("%d mips; largest level as it is read back", stored.mips) : "dithered";
+    std::string text = stored.mips > 0 ? format("%d mips; largest level, %d x %d, as it is read back", stored.mips,
+                                                stored.width, stored.height)
+                                       : "dithered";
     text += format(": mean %.4f, p95 %.4f, max %.4f, rms %.4f deg", error.mean_deg, error.p95_deg, error.max_deg,
                    error.rms_deg);
     if (stored.undithered)
@@ -75,6 +78,8 @@ std::string to_text(const StoredNormalMap& stored) {
 
 nlohmann::json to_json(const StoredNormalMap& stored) {
     nlohmann::json out = {{"mips", stored.mips},
+                          {"width", stored.width},
+                          {"height", stored.height},
                           {"mean_deg", stored.error.mean_deg},
                           {"p95_deg", stored.error.p95_deg},
                           {"max_deg", stored.error.max_deg},
@@ -86,6 +91,10 @@ nlohmann::json to_json(const StoredNormalMap& stored) {
 
 NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
     : args_(args), depth_(depth) {
+    const int levels = std::bit_width(unsigned(std::max(width, height)));
+    if (args.skip_mips >= levels)
+        throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
+                                           args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
     else if (args.high.alpha)
         picture_.emplace(args.out, width, height, 4, WriteOptions{.depth = depth, .channels = {"R", "G", "B", "A"}});
@@ -104,7 +113,8 @@ std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, con
         if (args_.dither) stored = dithered_picture(map, pattern);
     }
     if (!texture_ && !roughness_) return stored;
-    const std::vector<NormalLevel> mips = normal_mips(map, args_.directx);
+    const std::vector<NormalLevel> all = normal_mips(map, args_.directx);
+    const std::span<const NormalLevel> mips = std::span(all).subspan(std::size_t(args_.skip_mips));
     if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
     if (!texture_) return stored;
     return write_levels(*texture_, args_.out, mips, depth_, args_.dither);

@@ -8,9 +8,10 @@
 namespace bake {
 
 struct StoredNormalMap {
-    int mips = 0;        ///< of a texture
-    bool blocks = false; ///< bc5
-    StoredError error;   ///< of the largest level, read from the file; of a picture under --dither, of what it stores
+    int mips = 0;              ///< of a texture
+    int width = 0, height = 0; ///< of the largest level that is written
+    bool blocks = false;       ///< bc5
+    StoredError error; ///< of the largest level, read from the file; of a picture under --dither, of what it stores
     std::optional<StoredError> undithered; ///< under --dither: what rounding alone would leave
 };
 

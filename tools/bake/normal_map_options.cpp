@@ -32,6 +32,9 @@ void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
                          "auto: 16 for .png, half for .exr, float for .tif, bc5 for .dds and .ktx2");
     sub.add_flag("--dither", args.dither,
                  "Round to 8 bits in a pattern, so that slow gradients keep their mean; prints what it costs");
+    add_integer_option(sub, "--skip-mips", args.skip_mips, 0, 15,
+                       "Largest levels of mips that .dds and .ktx2 leave out; each halves both sides")
+        ->capture_default_str();
     CLI::Option* const map =
         sub.add_option("--roughness-map", args.roughness_map,
                        "Roughness to write beside it (.dds, .ktx2): what each level of mips loses of the relief");
@@ -62,6 +65,7 @@ Depth file_depth(const NormalMapArgs& args) {
             throw usage("--roughness-map: slopes are those of tangent space; leave out --space object");
     }
     if (texture_container(args.out)) return texture_depth(args);
+    if (args.skip_mips > 0) throw usage("--skip-mips: " + args.out + " has one level; write .dds or .ktx2");
     if (picture_format(args.out) == PictureFormat::unknown)
         throw usage(args.out + ": unknown ending; write .png, .exr, .tif, .dds or .ktx2");
     switch (args.depth) {

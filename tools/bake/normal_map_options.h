@@ -23,13 +23,14 @@ struct NormalMapArgs {
     int padding = NormalMapOptions{}.padding, tile = 0;
     MapDepth depth = MapDepth::automatic;
     bool dither = false; ///< for 8 bits
+    int skip_mips = 0;   ///< largest levels that textures leave out
     std::string roughness_map;
     double roughness = 0.5; ///< of the material that the map is for
 };
 
 /// The options that the normal of one texel depends on.
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
-/// --depth, --dither, --roughness-map and --roughness.
+/// --depth, --dither, --skip-mips, --roughness-map and --roughness.
 void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.

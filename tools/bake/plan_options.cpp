@@ -80,9 +80,13 @@ void add_plan_options(CLI::App& sub, PlanArgs& args) {
         ->type_name("triangles=W|bytes=W|ms=W,...");
     sub.add_option("--decide", args.decide,
                    "What is decided, with commas between them: object (the model of each relief), texture (sizes of "
-                   "maps), format (their bits), sky (its faces), lights (which of them no camera can tell)")
+                   "maps), format (their bits, or BC5), sky (its faces), lights (which of them no camera can tell)")
         ->type_name("object|texture|format|sky|lights,...")
         ->capture_default_str();
+    add_choice<MapBudget>(sub, "--map-budget", args.map_budget,
+                          {{"share", MapBudget::share}, {"rgb8", MapBudget::rgb8}},
+                          "What a normal map may err: its share of the budget, or as much as it does at full size in "
+                          "RGB of 8 bits");
     sub.add_option("-o,--out", args.out, "Scene to write: the same with what was chosen")->type_name("PLANNED.toml");
     sub.add_option("--manifest", args.manifest, "List of the bakes that the models need")->type_name("BAKES.toml");
     sub.add_option("--report", args.report,
@@ -103,6 +107,9 @@ PlanOptions plan_options(const PlanArgs& args) {
     if (args.cameras != "all") options.cameras = words_of(args.cameras);
     options.weights = parse_cost(args.cost);
     parse_decisions(args.decide, options);
+    options.maps_like_rgb8 = args.map_budget == MapBudget::rgb8;
+    if (options.maps_like_rgb8 && !options.decide_textures && !options.decide_formats)
+        throw Error(Refusal::usage, "--map-budget rgb8: no map is decided; add texture,format to --decide");
     options.verify = args.verify, options.measure = args.measure, options.pictures = !args.report.empty();
     options.seed = std::uint32_t(args.seed);
     expect_toml("--out", args.out);
@@ -122,6 +129,7 @@ std::string command_of(const PlanArgs& args) {
     add("--budget", args.budget, usual.budget), add("--camera", args.cameras, usual.cameras);
     if (args.size) text += format(" --size %dx%d", args.size->first, args.size->second);
     add("--cost", args.cost, usual.cost), add("--decide", args.decide, usual.decide);
+    if (args.map_budget == MapBudget::rgb8) text += " --map-budget rgb8";
     if (args.seed != usual.seed) text += format(" --seed %d", args.seed);
     if (args.verify) text += " --verify";
     if (args.measure) text += " --measure";

@@ -5,10 +5,14 @@
 
 namespace bake {
 
+/// What a normal map may err.
+enum class MapBudget { share, rgb8 };
+
 struct PlanArgs {
     std::string scene, out, manifest, report;
     std::string budget = "normal", cameras = "all", cost, decide = "object";
     std::optional<std::pair<int, int>> size; ///< none: the scene's
+    MapBudget map_budget = MapBudget::share;
     bool verify = false, measure = false;
     int seed = 0;
 };

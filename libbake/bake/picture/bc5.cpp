@@ -245,4 +245,6 @@ void bc5_decode(const char* blocks, Image<float>& normals) {
     });
 }
 
+void bc5_round(Image<float>& normals) { bc5_decode(bc5_encode(normals).data(), normals); }
+
 } // namespace bake

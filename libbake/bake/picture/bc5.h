@@ -24,4 +24,7 @@ std::string bc5_encode(const Image<float>& normals);
 /// z = sqrt(max(0, 1 - x^2 - y^2)).
 void bc5_decode(const char* blocks, Image<float>& normals);
 
+/// Replaces normals by what their blocks hold: encodes and decodes.
+void bc5_round(Image<float>& normals);
+
 } // namespace bake

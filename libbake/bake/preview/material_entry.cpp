@@ -13,6 +13,21 @@ template <class Read> Texture cached(TextureCache& cache, const std::string& key
     return texture;
 }
 
+// Textures that are not reduced share the names of load_maps().
+std::string reduced_to(int size) { return size > 0 ? std::to_string(size) + " " : std::string(); }
+
+Texture load_normal_map(const MaterialEntry& entry, TextureCache& cache, const LoadedPictures& known,
+                        std::vector<std::string>& notes) {
+    const std::string key = reduced_to(entry.relief_size) + (entry.normal_bc5 ? "bc5 " : "") +
+                            (entry.directx ? "directx " : "opengl ") + std::to_string(int(entry.encoding)) + " " +
+                            entry.normal_map;
+    return cached(cache, key, [&] {
+        const Texture map = normals_halved_to(
+            read_normal_map(entry.normal_map, entry.encoding, entry.directx, &notes, known), entry.relief_size);
+        return entry.normal_bc5 ? normals_in_bc5(map) : map;
+    });
+}
+
 /// The textures besides albedo and normal. Null if there are none.
 std::shared_ptr<const SurfaceMaps> load_maps(const MaterialEntry& entry, TextureCache& cache,
                                              std::vector<std::string>& notes) {
@@ -52,8 +67,6 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
     material->name = entry.name;
     material->reflectance = entry.reflectance;
     material->reflect = entry.reflect;
-    // Textures that are not reduced share the names of load_maps().
-    const auto reduced_to = [](int size) { return size > 0 ? std::to_string(size) + " " : std::string(); };
     if (!entry.albedo.empty())
         material->albedo = cached(
             cache,
@@ -65,15 +78,7 @@ std::unique_ptr<Material> load_material(const MaterialEntry& entry, TextureCache
             [&] {
                 return halved_to(read_bump_table(entry.bump_table, entry.bump_scale, &notes, known), entry.relief_size);
             });
-    if (!entry.normal_map.empty())
-        material->normal_map = cached(cache,
-                                      reduced_to(entry.relief_size) + (entry.directx ? "directx " : "opengl ") +
-                                          std::to_string(int(entry.encoding)) + " " + entry.normal_map,
-                                      [&] {
-                                          return normals_halved_to(read_normal_map(entry.normal_map, entry.encoding,
-                                                                                   entry.directx, &notes, known),
-                                                                   entry.relief_size);
-                                      });
+    if (!entry.normal_map.empty()) material->normal_map = load_normal_map(entry, cache, known, notes);
     material->maps = load_maps(entry, cache, notes);
     return material;
 }

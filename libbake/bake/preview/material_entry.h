@@ -18,8 +18,9 @@ struct MaterialEntry {
     float bump_scale = 1;
     NormalEncoding encoding = NormalEncoding::automatic;
     bool directx = false;
-    int albedo_size = 0; ///< most texels along an edge of the albedo, see halved_to(); 0: as it is
-    int relief_size = 0; ///< the same of the bump table or normal map, be it a file or baked for `relief`
+    int albedo_size = 0;     ///< most texels along an edge of the albedo, see halved_to(); 0: as it is
+    int relief_size = 0;     ///< the same of the bump table or normal map, be it a file or baked for `relief`
+    bool normal_bc5 = false; ///< the normal map, be it a file or baked for `relief`, is shown as BC5 blocks store it
     ReliefEntry relief;
     Vec2f repeat{1}; ///< how often the textures repeat over the unit square of uvs
     int line = 0;    ///< line in the scene file, for messages

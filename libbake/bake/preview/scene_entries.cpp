@@ -89,6 +89,7 @@ std::pair<const Material*, Shape*> bake_relief(const MaterialEntry& entry, bool 
     ReliefModel model = with_relief(material, shape, *height, options);
     model.material.bump_table = halved_to(model.material.bump_table, entry.relief_size);
     model.material.normal_map = normals_halved_to(model.material.normal_map, entry.relief_size);
+    if (entry.normal_bc5) model.material.normal_map = normals_in_bc5(model.material.normal_map);
     if (options.method.levels < 0 && model.segments > 0)
         scene.notes.push_back("material \"" + material.name + "\": displaced with " + std::to_string(model.segments) +
                               " segments per edge, the most that memory allows");

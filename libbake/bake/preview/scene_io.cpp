@@ -120,7 +120,7 @@ void read_material(const Section& in, SceneEntries& scene) {
                     "albedo-space", "bump",          "bump-scale",   "normal",       "encoding",      "directx",
                     "height",       "shade",         "repeat",       "specular-map", "shininess-map", "roughness-map",
                     "metallic-map", "occlusion-map", "emission-map", "alpha-cutoff", "subsurface",    "translucency",
-                    "albedo-size",  "relief-size"});
+                    "albedo-size",  "relief-size",   "normal-depth"});
     MaterialEntry m;
     m.line = line_of(in.table);
     if (!read(in, "name", m.name)) refuse(in, in.table, "\"name\" is missing; give a name that meshes can refer to");
@@ -163,6 +163,7 @@ void read_material(const Section& in, SceneEntries& scene) {
     read_choice<NormalEncoding>(in, "encoding", m.encoding,
                                 {{"auto", automatic}, {"unorm", unorm}, {"signed", signed_}});
     read(in, "directx", m.directx);
+    read_choice<bool>(in, "normal-depth", m.normal_bc5, {{"float", false}, {"bc5", true}});
     read_relief(in, m.relief);
     if (!m.relief.file.empty() && !(m.bump_table.empty() && m.normal_map.empty()))
         refuse(in, *in.table.get("height"), "\"height\" changes the normal, as \"bump\" and \"normal\" do; keep one");

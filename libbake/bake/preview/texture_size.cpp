@@ -1,4 +1,5 @@
 #include "bake/preview/texture_size.h"
+#include "bake/picture/bc5.h"
 #include "bake/relief/map/bump_table.h"
 
 namespace bake {
@@ -27,6 +28,13 @@ Texture normals_halved_to(const Texture& texture, int most) {
         const Vec3f unit = unit_or_zero(Vec3f(t[0], t[1], t[2]));
         for (int c = 0; c < 3; ++c) t[c] = unit[c];
     }
+    return std::make_shared<const Image<float>>(std::move(image));
+}
+
+Texture normals_in_bc5(const Texture& texture) {
+    if (!texture) return texture;
+    Image<float> image = copied(*texture);
+    bc5_round(image);
     return std::make_shared<const Image<float>>(std::move(image));
 }
 

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/plan/manifest.h"
+#include "bake/verdict/plan/texture_form.h"
 #include "cli/command.h"
 #include "verdict/plan/hand_made_plan.h"
 
@@ -116,6 +117,39 @@ TEST_SUITE("unit") {
         CHECK(bakes()[2].options.back().first != "depth");
         plan.textures[1].half = true;
         CHECK(command_of(bakes()[1]) == Words{"bump-table", "dots.png", "--amplitude=0.125", "--out=ball_bump.exr"});
+    }
+
+    TEST_CASE("manifest: maps in BC5 are textures, and a file of normals cannot be made one") {
+        Hall hall;
+        ScenePlan plan;
+        plan.objects = {shown_by("ring one", "normal", {0}), shown_by("wheel", "displace+normal:8", {2})};
+        for (const int mesh : {0, 2})
+            plan.textures.push_back({.kind = "normal", .channels = 2, .bits = bc5_bits, .meshes = {mesh}});
+        plan.textures.push_back({.file = hall.folder / "n.png", .kind = "normal", .bits = bc5_bits, .materials = {0}});
+        const Manifest manifest = plan_manifest(hall.entries, plan, hall.folder / "b.toml");
+        REQUIRE(manifest.bakes.size() == 3);
+        CHECK(command_of(manifest.bakes[0]) == Words{"normal-map", "torus.obj", "--height=dots.png",
+                                                     "--amplitude=0.125", "--depth=bc5", "--out=ring_one_normal.ktx2"});
+        CHECK(manifest.bakes[2].outputs[0].second == "wheel_detail.ktx2");
+        plan.textures[0].width = plan.textures[0].height = 64;
+        plan.textures[0].source_width = plan.textures[0].source_height = 256;
+        CHECK(plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes[0].options.back() ==
+              std::pair<std::string, std::string>("skip-mips", "2"));
+        REQUIRE(manifest.notes.size() == 1);
+        CHECK(manifest.notes[0].starts_with("n.png: no command stores a file of normals in BC5"));
+    }
+
+    TEST_CASE("manifest: maps of models that the scene has are baked if they were decided") {
+        Hall hall;
+        hall.entries.materials[0].relief.shade = ShadeMethod{Shade::normal};
+        ScenePlan plan;
+        plan.textures.push_back({.file = "ring one", .kind = "normal", .channels = 3, .bits = 8, .meshes = {0, 1}});
+        const Manifest manifest = plan_manifest(hall.entries, plan, hall.folder / "b.toml");
+        REQUIRE(manifest.bakes.size() == 3); // the ball's surface is one of them
+        CHECK(manifest.bakes[0].name == "ring_one_normal");
+        CHECK(manifest.bakes[0].options.back() == std::pair<std::string, std::string>("depth", "8"));
+        plan.textures[0].meshes = {2}; // whose material has no model
+        CHECK(plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes.empty());
     }
 
     TEST_CASE("manifest: paths are seen from its own folder") {

@@ -1,4 +1,5 @@
 // A plan as text and as JSON.
+#include "bake/verdict/plan/texture_form.h"
 #include "verdict/plan/hand_made_plan.h"
 #include <doctest/doctest.h>
 #include <limits>
@@ -63,23 +64,31 @@ TEST_SUITE("unit") {
     TEST_CASE("plan text: verification, textures, sky and lights") {
         ScenePlan plan = small_plan();
         plan.verified.push_back({.camera = "top", .object = "", .predicted = {}, .measured = {.square = 1e-4}});
-        plan.textures.push_back({.file = "a.png", .kind = "normal", .width = 64, .height = 32, .why = "w"});
+        plan.textures.push_back(
+            {.file = "a.png", .kind = "normal", .width = 64, .height = 32, .channels = 2, .why = "w"});
+        plan.textures[0].bits = bc5_bits, plan.textures[0].source_channels = 3, plan.textures[0].source_bits = 8;
         plan.sky = SkyPlan{.model = "faces", .face = 32, .levels = 3, .why = "s"};
         plan.lights.push_back({.light = 1, .keep = true, .shadows = false});
         plan.over_budget = true;
         const std::string text = to_text(plan);
         for (const char* part :
-             {"(whole picture)", "0.0100 (0.0100 to 0.0100)", "OVER the budget", "a.png, normal: 64 x 32",
-              "faces: faces of 32, 3 levels", "light 2", "stays, without shadows", "over the budget"})
+             {"(whole picture)", "0.0100 (0.0100 to 0.0100)", "OVER the budget", "a.png, normal: 64 x 32, BC5, ",
+              "3 channels of 8 bits, ", "faces: faces of 32, 3 levels", "light 2", "stays, without shadows",
+              "over the budget"})
             CHECK_MESSAGE(has(text, part), std::string(part) << "\n" << text);
     }
 
     TEST_CASE("plan JSON: the same numbers, and no infinite ones") {
         ScenePlan plan = small_plan();
+        plan.textures.push_back({.bits = bc5_bits, .rgb8_rmse = 0.25}), plan.textures.push_back({.bits = 8});
         plan.budget.value = plan.objects[0].budget = std::numeric_limits<double>::infinity();
         const auto json = nlohmann::json::parse(to_json(plan, "s.toml"));
         CHECK(json["scene"] == "s.toml");
         CHECK(json["budget"]["value"] == "inf");
+        CHECK(json["textures"][0]["bc5"] == true);
+        CHECK(json["textures"][0]["rgb8_rmse"] == 0.25);
+        CHECK(json["textures"][1]["bc5"] == false);
+        CHECK(json["textures"][1]["rgb8_rmse"].is_null());
         const auto& object = json["objects"][0];
         CHECK(object["model"] == "bump");
         CHECK(object["chosen"] == 2);

@@ -1,6 +1,8 @@
 // Maps of the sizes that a plan chose: the scene file with them, and its picture.
+#include "bake/picture/image_io.h"
 #include "bake/verdict/plan/plan_parts.h"
 #include "bake/verdict/plan/scene_twin.h"
+#include "bake/verdict/plan/texture_form.h"
 #include "verdict/plan/planned_round.h"
 #include "verdict/plan/planned_texture.h"
 
@@ -104,6 +106,70 @@ TEST_SUITE("unit") {
         CHECK(largest_difference(picture_of(judged), picture_of(rounded)) < 1e-5f);
         CHECK(largest_difference(picture_of(judged), picture_of(load(round.read))) < 1e-3f);
         CHECK(largest_difference(picture_of(judged), picture_of(load(round.entries))) > 1e-2f);
+    }
+
+    TEST_CASE("planned maps: a map in BC5 is said by the scene, and shown as it was judged") {
+        Balls round;
+        round.set("dots_normal.png", 128), round.set("left", 256), round.set("right", 64);
+        for (const char* ball : {"left", "right"})
+            round.planned_map(ball).channels = 2, round.planned_map(ball).bits = bc5_bits;
+        const std::string text = round.planned();
+        CHECK(has(text, "normal-depth = \"bc5\"\n"));
+        CHECK(round.read.materials.size() == 3);
+        for (const int mesh : {0, 1})
+            CHECK(round.read.materials[std::size_t(round.read.meshes[std::size_t(mesh)].material)].normal_bc5);
+        CHECK(!round.read.materials[std::size_t(round.read.meshes[2].material)].normal_bc5);
+        CHECK(has(text, "\"studs normal 64 bc5\""));
+        check_same_picture(round);
+        const auto notes = not_in_scene(round.entries, round.plan);
+        REQUIRE(notes.size() == 1); // of the albedo of 16 bits
+        CHECK(!has(notes[0], "left"));
+
+        // Planned again, the maps are in BC5 already.
+        for (const SceneTexture& texture : scene_textures(load(round.read), &round.read))
+            CHECK(source_form(texture).in_bc5() == (texture.use == TextureUse::normal));
+
+        // The judged, the planned and the rounded scene have the same texels: blocks are not encoded twice.
+        const SceneEntries entries = planned_entries(round.entries, round.plan);
+        Scene rounded = load(entries);
+        round_textures(entries, round.plan, rounded);
+        const Image<float> judged = planned_texture(round.textures[1], round.plan.textures[1]);
+        const auto now = scene_textures(rounded, &entries);
+        REQUIRE(now[1].name == round.textures[1].name);
+        REQUIRE(now[1].picture->size() == judged.size());
+        CHECK(std::equal(judged.data(), judged.data() + judged.size(), now[1].picture->data()));
+    }
+
+    TEST_CASE("planned maps: blocks of noise, which change when they are encoded again, are encoded once") {
+        Round round("[[light]]\ntype = \"ambient\"\n[[material]]\nname = \"m\"\nnormal = \"n.exr\"\n[[mesh]]\n"
+                    "shape = \"plane\"\nmaterial = \"m\"\n");
+        Image<float> noise(64, 64, 3);
+        for (std::size_t i = 0; i < noise.size(); ++i)
+            noise.data()[i] = i % 3 == 2 ? 1 : 0.1f * float(std::sin(double(i * i)));
+        write_image(round.folder / "n.exr", noise, {.depth = Depth::float32});
+        const SceneTexture source = scene_textures(load(round.entries), &round.entries)[0];
+        round.plan.textures = {
+            TexturePlan{.file = "n.exr", .kind = "normal", .width = 64, .height = 64, .channels = 2}};
+        TexturePlan& map = round.plan.textures[0];
+        map.bits = bc5_bits, map.source_width = map.source_height = 64, map.materials = {0};
+        const SceneEntries entries = planned_entries(round.entries, round.plan);
+        Scene rounded = load(entries);
+        round_textures(entries, round.plan, rounded);
+        const Image<float> judged = planned_texture(source, map);
+        const Texture now = scene_textures(rounded, &entries)[0].picture;
+        CHECK(std::equal(judged.data(), judged.data() + judged.size(), now->data()));
+    }
+
+    TEST_CASE("planned maps: files of normals in BC5 are said by the scene, unless they have it") {
+        Balls round;
+        round.plan.textures = {TexturePlan{.file = "n.png", .kind = "normal", .width = 8, .height = 8, .channels = 2}};
+        TexturePlan& map = round.plan.textures[0];
+        map.bits = bc5_bits, map.source_width = map.source_height = 8, map.materials = {1};
+        CHECK(new_lines(round.text, round.planned()) == "normal-depth = \"bc5\"\n");
+        CHECK(planned_entries(round.entries, round.plan).materials[1].normal_bc5);
+        CHECK(!planned_entries(round.entries, round.plan).materials[0].normal_bc5);
+        map.source_bits = bc5_bits;
+        CHECK(round.planned() == round.text);
     }
 
     TEST_CASE("planned maps: nothing is written of maps that keep their size") {

@@ -1,4 +1,5 @@
 // Forms of textures: sizes, bytes, and the error of reading back what was stored.
+#include "bake/picture/bc5.h"
 #include "bake/verdict/plan/texture_form.h"
 #include "preview/little_scenes.h"
 #include <doctest/doctest.h>
@@ -37,6 +38,10 @@ TEST_SUITE("unit") {
         CHECK(TextureForm{0, 1, 1, 3, 8}.bytes() == 3);
         CHECK(TextureForm{0, 256, 256, 3, 8}.bytes() == std::int64_t(4 * 4 * 4 * 4 * 4 * 4 * 4 * 4 * 4) - 1);
         CHECK(TextureForm{0, 4, 1, 2, 16}.bytes() == 4 * (4 + 2 + 1));
+        // Blocks of 16 bytes: 2 x 2, and one for each of the three levels 4 x 2, 2 x 1 and 1 x 1.
+        CHECK(TextureForm{0, 8, 5, 2, bc5_bits}.bytes() == 16 * (4 + 3));
+        // A third of RGB of 8 bits, but for the two levels that are smaller than a block.
+        CHECK(3 * (TextureForm{0, 256, 256, 2, bc5_bits}.bytes() - 32) == TextureForm{0, 256, 256, 3, 8}.bytes() - 15);
         for (const TextureUse use : {TextureUse::normal, TextureUse::bump, TextureUse::albedo}) {
             const auto forms = texture_forms(use, 600, 100);
             CHECK(forms.front().width * forms.front().height == 1);
@@ -59,6 +64,21 @@ TEST_SUITE("unit") {
         CHECK(error(2, 8) <= 2 * 0.389);
         CHECK(error(3, 16) <= 1.6e-3);
         CHECK(error(2, 16) <= 2 * 1.6e-3);
+    }
+
+    TEST_CASE("texture forms: normals in BC5 are the texels of their blocks, of unit vectors") {
+        const auto halvings = halvings_of(random_normals(16, 12));
+        Image<float> unit = stored(halvings[1], TextureUse::normal, {1, 8, 6, 3, 32, true}), decoded(8, 6, 3);
+        bc5_decode(bc5_encode(unit).data(), decoded);
+        const TextureForm bc5{1, 8, 6, 2, bc5_bits};
+        const Image<float> read = stored(halvings[1], TextureUse::normal, bc5);
+        CHECK(std::equal(read.data(), read.data() + read.size(), decoded.data()));
+        CHECK(bc5.text() == "8 x 6, BC5");
+        const auto forms = texture_forms(TextureUse::normal, 8, 6);
+        CHECK(std::count_if(forms.begin(), forms.end(), [](const TextureForm& form) { return form.in_bc5(); }) == 4);
+        CHECK(lossless_form(read, TextureUse::normal).bits > 0);
+        for (const TextureUse use : {TextureUse::bump, TextureUse::albedo})
+            for (const TextureForm& form : texture_forms(use, 8, 6)) CHECK(!form.in_bc5());
     }
 
     TEST_CASE("texture forms: halved normals are unit vectors") {

@@ -1,5 +1,6 @@
 // What textures of little scenes are reduced to.
 #include "bake/base/parallel.h"
+#include "bake/picture/bc5.h"
 #include "preview/little_scenes.h"
 #include "verdict/plan/planned_texture.h"
 #include <doctest/doctest.h>
@@ -174,6 +175,74 @@ TEST_SUITE("unit") {
         WorstProbe probe(scene, {objects_with(scene, std::vector<const Material*>{scene.materials[0].get()})},
                          options(0.01));
         CHECK(probe.measure(twin, int(plan.error.pixels)).error.square == doctest::Approx(plan.error.square));
+    }
+
+    TEST_CASE("texture plan: a normal map that may err like RGB8 is the smallest that does, whatever the budget") {
+        const Scene scene = square(with_normals(waves(64, 2, 0.2f)));
+        PartOptions like = options(0);
+        like.like_rgb8 = true;
+        const auto plan = plan_textures(scene, nullptr, like)[0];
+        CHECK(form_of(plan).in_bc5());
+        CHECK(plan.width == 64);
+        CHECK(plan.error.rmse() <= plan.rgb8_rmse);
+        // With other random numbers, over all pixels.
+        const SceneTexture source = scene_textures(scene)[0];
+        Scene twin = twin_of(scene);
+        PartOptions other = like;
+        other.seed = 9;
+        WorstProbe probe(scene, {objects_with(scene, std::vector<const Material*>{scene.materials[0].get()})}, other);
+        const auto error = [&](const TextureForm& form) {
+            set_texture(twin, source.materials, source.use,
+                        stored(halvings_of(*source.picture)[std::size_t(form.halvings)], source.use, form));
+            return probe.measure(twin, 1 << 20).error.rmse();
+        };
+        CHECK(error({0, 64, 64, 3, 8}) == doctest::Approx(plan.rgb8_rmse).epsilon(0.1));
+        CHECK(error(form_of(plan)) <= error({0, 64, 64, 3, 8}));
+        CHECK(error({1, 32, 32, 3, 16}) > error({0, 64, 64, 3, 8}));
+        CHECK(plan.why.find("RGB of 8 bits in full size by ") != std::string::npos);
+        CHECK(plan_textures(scene, nullptr, options(0.01))[0].rgb8_rmse < 0);
+    }
+
+    TEST_CASE("texture plan: a file of 8 bits that may err like RGB8 stays, because that errs by nothing") {
+        Scene scene;
+        SceneEntries entries;
+        entries.materials.emplace_back().normal_map = "waves.png";
+        scene.shapes.push_back(make_shape(plane_mesh()));
+        scene.materials.push_back(std::make_unique<Material>());
+        const SceneTexture source{.use = TextureUse::normal, .picture = waves(16, 3, 0.3f)};
+        Material material =
+            with_normals(std::make_shared<const Image<float>>(stored(*source.picture, source.use, {0, 16, 16, 3, 8})));
+        scene.materials.push_back(std::make_unique<Material>(material));
+        add_instance(scene, *scene.shapes[0], *scene.materials[1]);
+        scene.settings.width = scene.settings.height = 16;
+        scene.lights = {directional({1, 0, 1})};
+        build(scene);
+        PartOptions like = options(1);
+        like.like_rgb8 = true;
+        const auto plan = plan_textures(scene, &entries, like)[0];
+        CHECK(plan.bytes == plan.source_bytes);
+        CHECK(plan.error.rmse() == 0);
+        CHECK(plan.rgb8_rmse == 0);
+        CHECK(plan.why.starts_with("nothing smaller errs as little"));
+    }
+
+    TEST_CASE(
+        "texture plan: a texture file of normals is known to be in BC5, although its blocks are not found again") {
+        Image<float> noise(64, 64, 3);
+        for (std::size_t i = 0; i < noise.size(); ++i) noise.data()[i] = 0.1f * float(std::sin(double(i * i)));
+        bc5_round(noise);
+        Image<float> again = copied(noise);
+        bc5_round(again);
+        REQUIRE(!std::equal(noise.data(), noise.data() + noise.size(), again.data()));
+        SceneTexture texture{.name = "n.ktx2", .use = TextureUse::normal};
+        texture.picture = std::make_shared<const Image<float>>(std::move(noise));
+        CHECK(source_form(texture) == TextureForm{0, 64, 64, 2, bc5_bits});
+        texture.name = "n.exr";
+        CHECK(source_form(texture).bits == 32);
+        texture.name = "n.ktx2";
+        texture.picture =
+            std::make_shared<const Image<float>>(stored(*waves(16, 3, 0.3f), TextureUse::normal, {0, 16, 16, 3, 8}));
+        CHECK(source_form(texture).bits == 8);
     }
 
     TEST_CASE("texture plan: the same for any number of threads") {

@@ -1,11 +1,13 @@
 #include "bake/verdict/plan/manifest.h"
 #include "bake/base/error.h"
-#include "bake/environment/file/face_files.h"
 #include "bake/picture/image_io.h"
 #include "bake/preview/shape_mesh.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/manifest_sky.h"
+#include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
+#include "bake/verdict/plan/texture_plan.h"
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -23,8 +25,6 @@ template <class T> std::string text_of(T value) {
     return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
 }
 
-constexpr const char* reserved = "a manifest keeps the characters *?{} of its files' names for later; rename the file";
-
 bool is_cube(const std::string& shape) { return shape == "cube" || shape.starts_with("cube:"); }
 
 bool bakes_table(Shade shade) { return shade == Shade::bump || shade == Shade::bump_roughness; }
@@ -40,13 +40,14 @@ public:
         folder_ = folder_from(moves_ ? "here" : entries.file, out);
     }
 
-    void add(const ObjectPlan& object, int mesh, const ShadeMethod& method);
+    void add(const std::string& object, int mesh, const ShadeMethod& method);
     void add(const SkyPlan& sky);
+    void add(const TexturePlan& texture);
     Manifest take() { return std::move(manifest_); }
 
 private:
     struct Job {
-        const ObjectPlan& object;
+        const std::string& object;
         const MeshEntry& mesh;
         const ReliefEntry& relief;
         ShadeMethod method;
@@ -64,7 +65,6 @@ private:
     std::string displaced(const Job& job);
     void normals(const Job& job, const std::string& displaced);
     std::string shape_file(const Job& job, Bake& bake);
-    const char* obstacle(const SkyPlan& sky) const;
 
     const SceneEntries& entries_;
     const ScenePlan& plan_;
@@ -116,7 +116,7 @@ const char* Lister::obstacle(const Job& job) const {
     const Shade shade = job.method.shade;
     const Vec2f repeat = mesh.repeat * entries_.materials[std::size_t(mesh.material)].repeat;
     for (const std::string& file : {job.relief.file, mesh.file, mesh.shape})
-        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
+        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved_path;
     if (bakes_table(shade)) return nullptr;
     if (repeat != Vec2f(1)) return "its uvs repeat, and bake displace and bake normal-map take each texture once";
     if (is_cube(mesh.shape)) return "its shape, a cube, is one of scenes alone; write it as a file";
@@ -164,7 +164,7 @@ void Lister::table(const Job& job) {
     height_options(job, bake, false);
     const bool integers = job.map && !job.map->half;
     if (integers) bake.options.emplace_back("depth", "16");
-    add(std::move(bake), job.object.object, integers ? "bump.png" : "bump.exr");
+    add(std::move(bake), job.object, integers ? "bump.png" : "bump.exr");
 }
 
 /// Returns the name of the bake.
@@ -178,7 +178,7 @@ std::string Lister::displaced(const Job& job) {
     bake.options.emplace_back("levels", std::to_string(job.method.levels));
     if (job.method.shade == Shade::displace_normal) bake.options.emplace_back("seam", "average");
     height_options(job, bake, true);
-    return add(std::move(bake), job.object.object, "displaced.glb");
+    return add(std::move(bake), job.object, "displaced.glb");
 }
 
 /// The mesh that shows a shape or a cage as a file. Adds its bake, if there is one, to what `bake` needs.
@@ -197,7 +197,7 @@ std::string Lister::shape_file(const Job& job, Bake& bake) {
     }
     const std::string along = std::to_string(cells.first);
     surface.options.emplace_back("resolution", mesh.subdivide ? along : along + "x" + std::to_string(cells.second));
-    bake.after.push_back(add(std::move(surface), job.object.object, "surface.glb"));
+    bake.after.push_back(add(std::move(surface), job.object, "surface.glb"));
     return output_of(bake.after.back());
 }
 
@@ -207,15 +207,22 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     bake.files = {shape_file(job, bake)};
     if (bake.after.empty()) mesh_options(job.mesh, bake);
     height_options(job, bake, true);
+    const bool bc5 = job.map && job.map->bits == bc5_bits;
+    if (bc5) {
+        bake.options.emplace_back("depth", "bc5");
+        if (const int halvings = form_of(*job.map).halvings; halvings > 0)
+            bake.options.emplace_back("skip-mips", std::to_string(halvings));
+    }
     if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
         bake.inputs.emplace_back("residual-of", output_of(displaced));
         bake.after.push_back(displaced);
     }
-    add(std::move(bake), job.object.object, displaced.empty() ? "normal.png" : "detail.png");
+    const std::string kind = displaced.empty() ? "normal" : "detail";
+    add(std::move(bake), job.object, kind + (bc5 ? ".ktx2" : ".png"));
 }
 
-void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method) {
+void Lister::add(const std::string& object, int index, const ShadeMethod& method) {
     const MeshEntry& mesh = entries_.meshes[std::size_t(index)];
     const TexturePlan* map = nullptr;
     for (const TexturePlan& texture : plan_.textures)
@@ -224,7 +231,7 @@ void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method)
     const Shade shade = method.shade;
     if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
     if (const char* why = obstacle(job)) {
-        const std::string line = object.object + ": no command bakes its " + bake::name(method) + ": " + why;
+        const std::string line = object + ": no command bakes its " + bake::name(method) + ": " + why;
         if (std::find(manifest_.notes.begin(), manifest_.notes.end(), line) == manifest_.notes.end())
             manifest_.notes.push_back(line);
         return;
@@ -234,43 +241,24 @@ void Lister::add(const ObjectPlan& object, int index, const ShadeMethod& method)
     if (bakes_map(shade)) normals(job, mesh_bake);
 }
 
-/// Why no command bakes the faces of this sky; null if one does.
-const char* Lister::obstacle(const SkyPlan& sky) const {
-    const SkyEntry& entry = entries_.sky;
-    if (sky.model == "constant") return "it is one colour; \"sh-bands\" of the scene shows it";
-    if (sky.model != "faces") return "they are no faces; \"sh-bands\" of the scene shows them";
-    if (entry.reduction.sh_bands > 0) return "they are those of a series that \"sh-bands\" of the scene names";
-    std::vector<std::string> files = {entry.image};
-    if (entry.image.empty()) files.assign(entry.faces.begin(), entry.faces.end());
-    for (const std::string& file : files)
-        if (file.find_first_of(reserved_in_paths) != std::string::npos) return reserved;
-    if (files.size() == 1) return nullptr;
-    try {
-        if (name_faces(files).files == entry.faces) return nullptr;
-    } catch (const Error&) { // as below
-    }
-    return "its files are named like other faces than they are listed as; rename them";
+/// Files of normals are not baked again: what no command makes of them is told.
+void Lister::add(const TexturePlan& texture) {
+    if (texture.materials.empty() || !map_form(texture).bc5) return;
+    manifest_.notes.push_back(path(texture.file) +
+                              ": no command stores a file of normals in BC5; bake it anew to .ktx2, or leave "
+                              "\"normal-depth\" in the scene, which shows it so");
 }
 
 void Lister::add(const SkyPlan& sky) {
     if (sky.model == "faces" && sky.face >= sky.source_face) return;
-    if (const char* why = obstacle(sky)) {
+    if (const char* why = sky_obstacle(entries_.sky, sky)) {
         const std::string what = sky.model == "faces"      ? "smaller faces"
                                  : sky.model == "constant" ? "mean"
                                                            : "harmonics";
         manifest_.notes.push_back("sky: no command bakes its " + what + ": " + why);
         return;
     }
-    const SkyEntry& entry = entries_.sky;
-    Bake bake{.verb = "cubemap", .use = "faces"};
-    if (!entry.image.empty()) bake.files = {path(entry.image)};
-    else
-        for (const std::string& file : entry.faces) bake.files.push_back(path(file));
-    bake.options = {{"size", std::to_string(sky.face)}, {"samples", "exact"}};
-    if (entry.space != ColourSpace::automatic)
-        bake.options.emplace_back(entry.space == ColourSpace::linear ? "linear" : "srgb", "");
-    if (entry.bad != BadPolicy::refuse)
-        bake.options.emplace_back("bad", entry.bad == BadPolicy::zero ? "zero" : "clamp");
+    Bake bake = sky_bake(entries_.sky, sky, [&](const std::string& file) { return path(file); });
     bake.name = "sky_" + std::to_string(sky.face);
     while (!names_.insert(bake.name).second) bake.name += "_sky"; // an object has the name
     bake.outputs.emplace_back("out", bake.name + "_%s.exr");
@@ -285,8 +273,15 @@ Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const
         for (const int mesh : object.meshes) {
             const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
             const auto method = planned_method(plan, mesh);
-            if (entry.material >= 0 && method) lister.add(object, mesh, *method);
+            if (entry.material >= 0 && method) lister.add(object.object, mesh, *method);
         }
+    for (const TexturePlan& texture : plan.textures) {
+        lister.add(texture);
+        for (const int mesh : texture.meshes) { // whose models are those of the scene
+            const auto& shade = entries.materials[std::size_t(entries.meshes[std::size_t(mesh)].material)].relief.shade;
+            if (!planned_method(plan, mesh) && shade) lister.add(texture.file, mesh, *shade);
+        }
+    }
     if (plan.sky) lister.add(*plan.sky);
     return lister.take();
 }

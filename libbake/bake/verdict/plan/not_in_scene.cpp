@@ -1,6 +1,7 @@
 // What a scene file cannot say of a plan.
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
+#include "bake/verdict/plan/texture_form.h"
 
 namespace bake {
 
@@ -12,8 +13,9 @@ std::vector<std::string> not_in_scene(const SceneEntries& entries, const ScenePl
     std::string stored;
     for (const TexturePlan& texture : plan.textures) {
         const std::string map = "the " + texture.kind + " map of " + texture.file;
-        if (size_limit(texture) > 0 && texture.materials.empty() && texture.meshes.empty())
+        if (map_form(texture).size > 0 && !scene_says_form(texture))
             lines.push_back("keeps the size of " + map + ", which is of no [[material]] or of the ground");
+        if (texture.bits == bc5_bits && scene_says_form(texture)) continue;
         if (texture.channels != texture.source_channels || texture.bits != texture.source_bits || texture.half)
             stored += (stored.empty() ? "" : ", ") + map;
     }

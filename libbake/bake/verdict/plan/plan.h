@@ -25,6 +25,7 @@ struct PlanOptions {
     CostWeights weights;
     bool decide_objects = true, decide_textures = false, decide_formats = false, decide_sky = false,
          decide_lights = false;
+    bool maps_like_rgb8 = false; ///< see PartOptions::like_rgb8
     bool verify = false;
     bool pictures = false; ///< of each camera, see ScenePlan::pictures
     bool neighbours =
@@ -75,7 +76,7 @@ struct ObjectPlan {
 struct TexturePlan {
     std::string file;                                  ///< or the object whose baked map it is
     std::string kind;                                  ///< "normal", "bump", "albedo"
-    int width = 0, height = 0, channels = 0, bits = 0; ///< chosen
+    int width = 0, height = 0, channels = 0, bits = 0; ///< chosen; bc5_bits: BC5, see texture_form.h
     bool half = false;                                 ///< chosen: half floats, not integers of 16 bits
     int source_width = 0, source_height = 0, source_channels = 0, source_bits = 0;
     std::int64_t bytes = 0, source_bytes = 0; ///< with smaller levels
@@ -83,6 +84,8 @@ struct TexturePlan {
     std::string why;
     std::vector<int> materials; ///< of a file: those of SceneEntries::materials that name it
     std::vector<int> meshes;    ///< of a baked map: those of SceneEntries::meshes that show it
+    /// Of a normal map that was judged by it: what full-size RGB of 8 bits errs by on the same pixels. Negative: not judged so.
+    double rgb8_rmse = -1;
 };
 
 struct SkyPlan {

@@ -1,6 +1,7 @@
 // The plan as JSON.
 #include "bake/verdict/plan/plan_words.h"
 #include "bake/verdict/plan/rung_words.h"
+#include "bake/verdict/plan/texture_form.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -96,6 +97,7 @@ Json json_of(const TexturePlan& t) {
             {"channels", t.channels},
             {"bits", t.bits},
             {"half", t.half},
+            {"bc5", t.bits == bc5_bits},
             {"bytes", t.bytes},
             {"source",
              {{"width", t.source_width},
@@ -104,6 +106,7 @@ Json json_of(const TexturePlan& t) {
               {"bits", t.source_bits},
               {"bytes", t.source_bytes}}},
             {"error", json_of(t.error)},
+            {"rgb8_rmse", t.rgb8_rmse < 0 ? Json() : number(t.rgb8_rmse)},
             {"why", t.why}};
 }
 

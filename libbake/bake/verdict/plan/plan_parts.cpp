@@ -4,6 +4,7 @@
 #include "bake/base/progress.h"
 #include "bake/preview/render.h"
 #include "bake/verdict/plan/light_plan.h"
+#include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/scene_twin.h"
 #include "bake/verdict/plan/sky_plan.h"
 #include "bake/verdict/plan/texture_plan.h"
@@ -52,6 +53,7 @@ void decide(const Scene& scene, const SceneEntries& entries, const PlanOptions& 
     };
     if (options.decide_textures || options.decide_formats) {
         parts.sizes = options.decide_textures, parts.formats = options.decide_formats;
+        parts.like_rgb8 = options.maps_like_rgb8;
         plan.textures = plan_textures(scene, &entries, parts, progress);
         for (const TexturePlan& texture : plan.textures) tell(texture.file + ": " + texture.why);
     }
@@ -107,7 +109,8 @@ void round_textures(const SceneEntries& planned, const ScenePlan& plan, Scene& s
     const std::vector<SceneTexture> textures = scene_textures(scene, &planned);
     for (std::size_t i = 0; i < std::min(textures.size(), plan.textures.size()); ++i) {
         TextureForm form = form_of(plan.textures[i]);
-        form.halvings = 0; // load() has halved it
+        form.halvings = 0;                                                // load() has halved it
+        if (form.in_bc5() && scene_says_form(plan.textures[i])) continue; // load() has stored it so
         set_texture(scene, textures[i].materials, textures[i].use, stored(*textures[i].picture, textures[i].use, form));
     }
 }

@@ -17,8 +17,8 @@ void plan_parts(const SceneEntries& planned, const PlanOptions& options, ScenePl
 /// The budget of each of these decisions, RMSE.
 double part_budget(const PlanOptions& options, const ScenePlan& plan);
 
-/// Rounds the textures of a scene to the channels and bits that the plan chose, which no scene file says. load() made the scene
-/// of `planned`, planned_entries() with these textures.
+/// Rounds the textures of a scene to the channels and bits that the plan chose. A scene file says BC5 alone, and load() has
+/// done that. load() made the scene of `planned`, planned_entries() with these textures.
 void round_textures(const SceneEntries& planned, const ScenePlan& plan, Scene& scene);
 
 /// The exposure of the settings, in stops, or else the one chosen by a small picture of the whole scene.

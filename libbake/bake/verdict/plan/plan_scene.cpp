@@ -4,6 +4,7 @@
 #include "bake/preview/render.h"
 #include "bake/verdict/plan/joint.h"
 #include "bake/verdict/plan/object_plan.h"
+#include "bake/verdict/plan/part_verification.h"
 #include "bake/verdict/plan/plan.h"
 #include "bake/verdict/plan/plan_parts.h"
 #include "bake/verdict/plan/plan_pictures.h"
@@ -117,7 +118,9 @@ void show_plan(PlanWork& work, std::span<const ObjectDecision> decisions, const 
                const SceneEntries& planned, ScenePlan& plan) {
     std::optional<Scene> shown = decided_scene(work, planned, plan);
     Scene* const scene = shown ? &*shown : nullptr;
-    if (work.options.verify) plan.verified = verify(work, decisions, scene);
+    if (work.options.verify && decisions.empty() && scene)
+        plan.verified = verify_parts(work, plan, modelled, load(modelled), planned, *scene);
+    else if (work.options.verify) plan.verified = verify(work, decisions, scene);
     plan.over_budget =
         std::any_of(plan.verified.begin(), plan.verified.end(), [](const Verification& line) { return !line.within; });
     if (work.options.pictures) plan.pictures = plan_pictures(work, decisions, modelled, scene);

@@ -2,6 +2,7 @@
 #include "bake/base/printable.h"
 #include "bake/base/text.h"
 #include "bake/verdict/plan/rung_words.h"
+#include "bake/verdict/plan/texture_form.h"
 #include <cmath>
 
 namespace bake::plan_words {
@@ -10,6 +11,10 @@ namespace {
 std::string cost_of(const RungCost& cost) {
     return count(cost.triangles) + " triangles, " + megabytes(cost.texture_bytes) + " MB of textures, " +
            format("%.3g ms", cost.ms);
+}
+
+std::string texels(int channels, int bits, bool half) {
+    return bits == bc5_bits ? "BC5" : format("%d channels of %d bits%s", channels, bits, half ? " (half floats)" : "");
 }
 
 /// A line about a neighbour on the ladder.
@@ -99,13 +104,13 @@ std::vector<Line> reasons(const ObjectPlan& object, const char* metric) {
 std::vector<Line> part_lines(const ScenePlan& plan) {
     std::vector<Line> lines;
     for (const TexturePlan& t : plan.textures)
-        lines.push_back(
-            {"texture",
-             printable(t.file) + ", " + t.kind +
-                 format(": %d x %d, %d channels of %d bits%s, %s MB; was %d x %d, %d of %d, %s MB; ", t.width, t.height,
-                        t.channels, t.bits, t.half ? " (half floats)" : "", megabytes(t.bytes).c_str(), t.source_width,
-                        t.source_height, t.source_channels, t.source_bits, megabytes(t.source_bytes).c_str()) +
-                 "rmse " + estimate(t.error) + "; " + printable(t.why)});
+        lines.push_back({"texture", printable(t.file) + ", " + t.kind +
+                                        format(": %d x %d, %s, %s MB; was %d x %d, %s, %s MB; ", t.width, t.height,
+                                               texels(t.channels, t.bits, t.half).c_str(), megabytes(t.bytes).c_str(),
+                                               t.source_width, t.source_height,
+                                               texels(t.source_channels, t.source_bits, false).c_str(),
+                                               megabytes(t.source_bytes).c_str()) +
+                                        "rmse " + estimate(t.error) + "; " + printable(t.why)});
     if (plan.sky)
         lines.push_back({"sky", plan.sky->model +
                                     format(": faces of %d, %d levels, %s MB; was %d, %s MB; ", plan.sky->face,

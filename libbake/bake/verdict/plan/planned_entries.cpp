@@ -13,21 +13,23 @@ SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan)
     reduce_maps(planned, plan);
     std::set<std::string> names;
     for (const MaterialEntry& material : entries.materials) names.insert(material.name);
-    // Meshes with the same material, method and size keep one material.
-    std::map<std::tuple<int, std::string, int>, int> made;
+    // Meshes with the same material, method and form of its map keep one material.
+    std::map<std::tuple<int, std::string, MapForm>, int> made;
     for (std::size_t i = 0; i < entries.meshes.size(); ++i) {
-        const int material = entries.meshes[i].material, size = baked_limit(plan, int(i));
+        const int material = entries.meshes[i].material;
+        const MapForm form = baked_form(plan, int(i));
         const std::optional<ShadeMethod> method = planned_method(plan, int(i));
-        if (material < 0 || (!method && size == 0)) continue;
+        if (material < 0 || (!method && form.as_it_is())) continue;
         const std::string model = method ? name(*method) : "it is";
-        const auto [at, added] = made.try_emplace({material, model, size}, int(planned.materials.size()));
+        const auto [at, added] = made.try_emplace({material, model, form}, int(planned.materials.size()));
         if (added) {
             MaterialEntry own = planned.materials[std::size_t(material)];
             std::string wanted = own.name + " as " + model;
             while (!names.insert(wanted).second) wanted += "'";
             own.name = wanted;
             if (method) own.relief.shade = method;
-            if (size > 0) own.relief_size = size;
+            if (form.size > 0) own.relief_size = form.size;
+            if (form.bc5) own.normal_bc5 = true;
             planned.materials.push_back(std::move(own));
         }
         planned.meshes[i].material = at->second;

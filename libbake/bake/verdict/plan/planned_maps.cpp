@@ -1,44 +1,61 @@
-// Maps of fewer texels, as planned.
+// Maps of fewer texels, and in BC5, as planned.
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/scene_text.h"
+#include "bake/verdict/plan/texture_form.h"
 #include <algorithm>
 
 namespace bake {
 namespace {
 
-const char* key_of(const TexturePlan& texture) { return texture.kind == "albedo" ? "albedo-size" : "relief-size"; }
+bool is_albedo(const TexturePlan& texture) { return texture.kind == "albedo"; }
+
+void set_form(TextEdits& edits, const toml::table& material, const TexturePlan& texture) {
+    const MapForm form = map_form(texture);
+    if (!is_albedo(texture)) set_relief_form(edits, material, form);
+    else if (form.size > 0) set_material_key(edits, material, "albedo-size", std::to_string(form.size));
+}
 
 } // namespace
 
-int size_limit(const TexturePlan& texture) noexcept {
+MapForm map_form(const TexturePlan& texture) noexcept {
     const bool smaller = texture.width < texture.source_width || texture.height < texture.source_height;
-    return smaller ? std::max(texture.width, texture.height) : 0;
+    const bool blocks = texture.bits == bc5_bits && (smaller || texture.source_bits != bc5_bits);
+    return {smaller ? std::max(texture.width, texture.height) : 0, blocks};
 }
 
-int baked_limit(const ScenePlan& plan, int mesh) noexcept {
+MapForm baked_form(const ScenePlan& plan, int mesh) noexcept {
     for (const TexturePlan& texture : plan.textures)
         if (std::find(texture.meshes.begin(), texture.meshes.end(), mesh) != texture.meshes.end())
-            return size_limit(texture);
-    return 0;
+            return map_form(texture);
+    return {};
+}
+
+bool scene_says_form(const TexturePlan& texture) noexcept {
+    return !texture.materials.empty() || !texture.meshes.empty();
 }
 
 void reduce_maps(SceneEntries& entries, const ScenePlan& plan) {
     const int count = int(entries.materials.size());
     for (const TexturePlan& texture : plan.textures)
         for (const int m : texture.materials) {
-            if (m >= count || size_limit(texture) == 0) continue; // a copy
+            if (m >= count) continue; // a copy
             MaterialEntry& material = entries.materials[std::size_t(m)];
-            (texture.kind == "albedo" ? material.albedo_size : material.relief_size) = size_limit(texture);
+            const MapForm form = map_form(texture);
+            if (form.size > 0) (is_albedo(texture) ? material.albedo_size : material.relief_size) = form.size;
+            if (form.bc5) material.normal_bc5 = true;
         }
+}
+
+void set_relief_form(TextEdits& edits, const toml::table& material, const MapForm& form) {
+    if (form.size > 0) set_material_key(edits, material, "relief-size", std::to_string(form.size));
+    if (form.bc5) set_material_key(edits, material, "normal-depth", "\"bc5\"");
 }
 
 void reduce_maps(TextEdits& edits, const toml::table& root, const ScenePlan& plan) {
     const std::vector<const toml::table*> materials = tables(root, "material");
     for (const TexturePlan& texture : plan.textures)
         for (const int m : texture.materials)
-            if (std::size_t(m) < materials.size() && size_limit(texture) > 0)
-                set_material_key(edits, *materials[std::size_t(m)], key_of(texture),
-                                 std::to_string(size_limit(texture)));
+            if (std::size_t(m) < materials.size()) set_form(edits, *materials[std::size_t(m)], texture);
 }
 
 } // namespace bake

@@ -13,13 +13,23 @@ void remove_lights(SceneEntries& entries, const ScenePlan& plan);
 /// and `entries` are of that text. Throws Error{Refusal::unreadable} if they have other lights.
 void remove_lights(TextEdits& edits, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan);
 
-/// Most texels along an edge of a texture that is planned smaller than it is; else 0.
-int size_limit(const TexturePlan& texture) noexcept;
+/// What a scene file says of a map: the values of "relief-size" or "albedo-size" and of "normal-depth".
+struct MapForm {
+    int size = 0; ///< most texels along an edge, if it is planned smaller than it is; else 0
+    bool bc5 = false;
+    bool as_it_is() const noexcept { return size == 0 && !bc5; }
+    auto operator<=>(const MapForm&) const = default;
+};
+MapForm map_form(const TexturePlan& texture) noexcept;
 /// The same of the map that is baked for a mesh.
-int baked_limit(const ScenePlan& plan, int mesh) noexcept;
-/// Maps that files hold are read as small as planned.
+MapForm baked_form(const ScenePlan& plan, int mesh) noexcept;
+/// False for the map of a material that has no entry, as that of a glTF file.
+bool scene_says_form(const TexturePlan& texture) noexcept;
+/// Maps that files hold are read as planned.
 void reduce_maps(SceneEntries& entries, const ScenePlan& plan);
 void reduce_maps(TextEdits& edits, const toml::table& root, const ScenePlan& plan);
+/// Sets the keys of a bump table or normal map that is not as it is.
+void set_relief_form(TextEdits& edits, const toml::table& material, const MapForm& form);
 
 /// Shows the sky as planned, by the keys of `[sky]` that reduce it.
 void reduce_sky(SceneEntries& entries, const ScenePlan& plan);

@@ -23,7 +23,7 @@ constexpr std::initializer_list<const char*> material_files = {
 /// A material as some of its meshes show it.
 struct Version {
     std::string shade;        ///< name of the model
-    int size = 0;             ///< "relief-size" of what is baked; 0: as it is
+    MapForm map;              ///< of what is baked
     std::string name;         ///< of the material
     bool other_shade = false; ///< than the file has
 };
@@ -101,12 +101,13 @@ std::vector<Version> Planner::versions(int material) {
     std::vector<Version> list;
     if (entry.relief.file.empty()) return list;
     const std::string was = name(entry.relief.shade.value_or(ShadeMethod{}));
-    const auto add = [&](const std::string& shade, int size) -> Version& {
+    const auto add = [&](const std::string& shade, const MapForm& map) -> Version& {
         for (Version& one : list)
-            if (one.shade == shade && one.size == size) return one;
-        const std::string wanted = entry.name + " " + shade + (size > 0 ? " " + std::to_string(size) : "");
+            if (one.shade == shade && one.map == map) return one;
+        const std::string wanted =
+            entry.name + " " + shade + (map.size > 0 ? " " + std::to_string(map.size) : "") + (map.bc5 ? " bc5" : "");
         const std::string own = list.empty() ? entry.name : unused_name(wanted);
-        return list.emplace_back(Version{shade, size, own, shade != was});
+        return list.emplace_back(Version{shade, map, own, shade != was});
     };
     const auto shade_of = [&](std::size_t mesh) {
         const auto method = planned_method(plan_, int(mesh));
@@ -115,16 +116,16 @@ std::vector<Version> Planner::versions(int material) {
     // What the plan has not decided stays as it is, under the name that it has.
     bool stays = entries_.ground && entries_.ground->material == material;
     for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
-        stays |= entries_.meshes[i].material == material && shade_of(i) == was && baked_limit(plan_, int(i)) == 0;
-    if (stays) add(was, 0);
+        stays |= entries_.meshes[i].material == material && shade_of(i) == was && baked_form(plan_, int(i)).as_it_is();
+    if (stays) add(was, {});
     for (std::size_t i = 0; i < entries_.meshes.size(); ++i)
-        if (entries_.meshes[i].material == material) shown_[i] = add(shade_of(i), baked_limit(plan_, int(i))).name;
+        if (entries_.meshes[i].material == material) shown_[i] = add(shade_of(i), baked_form(plan_, int(i))).name;
     return list;
 }
 
 void Planner::set_version(TextEdits& edits, const toml::table& material, const Version& version) const {
     if (version.other_shade) set_material_key(edits, material, "shade", toml_string(version.shade));
-    if (version.size > 0) set_material_key(edits, material, "relief-size", std::to_string(version.size));
+    set_relief_form(edits, material, version.map);
 }
 
 /// The text of a material; refuses one with other tables within.

@@ -1,6 +1,7 @@
 #include "bake/verdict/plan/texture_form.h"
 #include "bake/base/parallel.h"
 #include "bake/base/text.h"
+#include "bake/picture/bc5.h"
 #include "bake/picture/colour.h"
 #include "bake/preview/loaded_picture.h"
 #include "bake/relief/map/bake_budget.h"
@@ -17,7 +18,8 @@ struct Storage {
 
 std::vector<Storage> storages(TextureUse use, bool grey) {
     switch (use) {
-    case TextureUse::normal: return {{2, 8, false}, {3, 8, false}, {2, 16, false}, {3, 16, false}};
+    case TextureUse::normal:
+        return {{2, bc5_bits, false}, {2, 8, false}, {3, 8, false}, {2, 16, false}, {3, 16, false}};
     case TextureUse::bump: return {{2, 16, false}, {2, 16, true}};
     case TextureUse::albedo: break;
     }
@@ -30,8 +32,16 @@ Depth depth_of(const TextureForm& form) noexcept {
     return form.half ? Depth::half : form.bits == 8 ? Depth::u8 : Depth::u16;
 }
 
-void store_normals(Image<float>& image, const TextureForm& form) {
+/// The texel of an integer or float form.
+Vec3f stored_unit(const Vec3f& unit, const TextureForm& form) {
     const Depth depth = depth_of(form);
+    if (depth == Depth::float32) return unit;
+    Vec3f read = decode_normal(stored_normal(encode_normal(unit, false), depth), false);
+    if (form.channels == 2) read.z = std::sqrt(std::max(0.0f, 1 - read.x * read.x - read.y * read.y));
+    return read;
+}
+
+void store_normals(Image<float>& image, const TextureForm& form) {
     for_rows(image.height(), 16, [&](std::int64_t begin, std::int64_t end) {
         for (auto y = int(begin); y < int(end); ++y)
             for (int x = 0; x < image.width(); ++x) {
@@ -39,13 +49,11 @@ void store_normals(Image<float>& image, const TextureForm& form) {
                 Vec3f unit(t[0], t[1], t[2]);
                 // A source that is kept whole stays as it is.
                 if (form.halvings > 0 || form.channels == 2) unit = unit_or_zero(unit);
-                Vec3f read = depth == Depth::float32
-                                 ? unit
-                                 : decode_normal(stored_normal(encode_normal(unit, false), depth), false);
-                if (form.channels == 2) read.z = std::sqrt(std::max(0.0f, 1 - read.x * read.x - read.y * read.y));
+                const Vec3f read = form.in_bc5() ? unit : stored_unit(unit, form);
                 for (int c = 0; c < 3; ++c) t[c] = read[c];
             }
     });
+    if (form.in_bc5()) bc5_round(image);
 }
 
 void store_slopes(Image<float>& image, const TextureForm& form) {
@@ -73,14 +81,15 @@ void store_colours(Image<float>& image, const TextureForm& form) {
 } // namespace
 
 std::int64_t TextureForm::bytes() const noexcept {
-    std::int64_t texels = 0;
+    std::int64_t sum = 0;
     for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
-        texels += std::int64_t(w) * h;
-        if (w == 1 && h == 1) return texels * channels * bits / 8;
+        sum += in_bc5() ? std::int64_t(bc5_bytes(w, h)) : std::int64_t(w) * h * channels * bits / 8;
+        if (w == 1 && h == 1) return sum;
     }
 }
 
 std::string TextureForm::text() const {
+    if (in_bc5()) return format("%d x %d, BC5", width, height);
     constexpr const char* counts[] = {"no channel", "one channel", "two channels", "three channels", "four channels"};
     const char* kind = half ? "half floats" : bits == 32 ? "floats" : bits == 8 ? "8 bits" : "16 bits";
     return format("%d x %d, %s of %s", width, height, counts[std::clamp(channels, 0, 4)], kind);

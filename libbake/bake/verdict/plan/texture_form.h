@@ -2,7 +2,7 @@
 //
 // Sizes are the source and its halvings by area (halve()), down to one texel. Normals are averaged as vectors and made unit
 // vectors again; slopes and colours, in linear light, are averaged.
-//   normal   (x, y, z) or (x, y) with z = sqrt(1 - x^2 - y^2), (n + 1) / 2 in 8 or 16 bits
+//   normal   (x, y, z) or (x, y) with z = sqrt(1 - x^2 - y^2), (n + 1) / 2 in 8 or 16 bits; (x, y) in BC5 blocks
 //   bump     two channels in 16 bits by SlopeCode, or half
 //   albedo   three channels, or one of a grey picture: sRGB in 8 or 16 bits, or linear half
 #pragma once
@@ -14,14 +14,18 @@
 
 namespace bake {
 
+/// TextureForm::bits of BC5: what a texel has of its block per channel.
+inline constexpr int bc5_bits = 4;
+
 struct TextureForm {
     int halvings = 0; ///< of the source
     int width = 0, height = 0, channels = 0, bits = 0;
     bool half = false; ///< of floats, not integers
+    bool in_bc5() const noexcept { return bits == bc5_bits; }
 
-    /// In memory, with all smaller levels.
+    /// In memory, with all smaller levels. Blocks of BC5 that reach beyond a level count in full.
     std::int64_t bytes() const noexcept;
-    /// "256 x 256, two channels of 8 bits".
+    /// "256 x 256, two channels of 8 bits", "256 x 256, BC5".
     std::string text() const;
     bool operator==(const TextureForm&) const = default;
 };

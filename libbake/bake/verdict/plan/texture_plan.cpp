@@ -1,6 +1,7 @@
 #include "bake/verdict/plan/texture_plan.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
+#include "bake/picture/texture_file.h"
 #include "bake/preview/loaded_picture.h"
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,16 @@ std::vector<int> entries_with(const Scene& scene, const SceneEntries& entries, c
     return with;
 }
 
+/// By the key of its entries, or of those of the meshes that it is baked for.
+bool is_in_bc5(const SceneEntries& entries, const SceneTexture& texture) {
+    const auto says = [&](int material) { return entries.materials[std::size_t(material)].normal_bc5; };
+    return std::any_of(texture.entries.begin(), texture.entries.end(), says) ||
+           std::any_of(texture.meshes.begin(), texture.meshes.end(), [&](int mesh) {
+               const int material = entries.meshes[std::size_t(mesh)].material;
+               return material >= 0 && says(material);
+           });
+}
+
 bool share_a_material(const SceneTexture& a, const SceneTexture& b) noexcept {
     return std::find_first_of(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end()) !=
            a.materials.end();
@@ -86,6 +97,8 @@ std::vector<TextureForm> forms_of(const SceneTexture& texture, const TextureForm
     return forms;
 }
 
+constexpr int compared = 8192; ///< pixels on which forms are compared with RGB8
+
 void set_form(TexturePlan& plan, const TextureForm& form) {
     plan.width = form.width, plan.height = form.height, plan.channels = form.channels, plan.bits = form.bits;
     plan.half = form.half;
@@ -102,6 +115,42 @@ TexturePlan start(const SceneTexture& texture, const TextureForm& source) {
     return plan;
 }
 
+/// The first form that errs no more than RGB of 8 bits at full size does on the same pixels, by the same random numbers. That
+/// one is among the forms of a map that has more bits. Leaves the twin with the chosen form.
+TexturePlan decide_like_rgb8(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin) {
+    const TextureForm source = source_form(texture);
+    TexturePlan plan = start(texture, source);
+    const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
+    const auto show = [&](const TextureForm& form) {
+        set_texture(twin, texture.materials, texture.use,
+                    stored(halvings[std::size_t(form.halvings)], texture.use, form));
+    };
+    show({0, texture.picture->width(), texture.picture->height(), 3, 8});
+    const SquareEstimate rgb8 = probe.measure(twin, compared).error;
+    plan.rgb8_rmse = rgb8.rmse();
+    std::string smaller; // the last form that errs more
+    for (const TextureForm& form : forms_of(texture, source, options)) {
+        show(form);
+        // Most forms are far off, and are refused after a few pixels.
+        SquareEstimate error = probe.judge(twin, plan.rgb8_rmse).error;
+        if (error.low() <= plan.rgb8_rmse) error = probe.measure(twin, compared).error;
+        if (error.rmse() <= plan.rgb8_rmse) {
+            set_form(plan, form);
+            plan.error = error;
+            plan.why =
+                form.text() + " errs by " + error_text(error) + ", RGB of 8 bits in full size by " + error_text(rgb8);
+            if (!smaller.empty()) plan.why += "; " + smaller;
+            return plan;
+        }
+        smaller = form.text() + " errs by " + error_text(error);
+    }
+    show(source);
+    plan.error = probe.measure(twin, compared).error;
+    plan.why = "nothing smaller errs as little as RGB of 8 bits in full size, which errs by " + error_text(rgb8) +
+               (smaller.empty() ? std::string() : "; " + smaller);
+    return plan;
+}
+
 /// Leaves the twin with the chosen form.
 TexturePlan decide(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin,
                    double budget) {
@@ -113,6 +162,7 @@ TexturePlan decide(const SceneTexture& texture, const PartOptions& options, Wors
         plan.why = "no camera sees it";
         return plan;
     }
+    if (options.like_rgb8 && texture.use == TextureUse::normal) return decide_like_rgb8(texture, options, probe, twin);
     const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
     std::string smaller; // the last form that was not enough
     for (const TextureForm& form : forms) {
@@ -164,6 +214,7 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
             } else {
                 texture.entries = entries_with(scene, *entries, texture);
             }
+            texture.bc5 = entries && use == TextureUse::normal && is_in_bc5(*entries, texture);
             textures.push_back(std::move(texture));
         }
     }
@@ -172,7 +223,14 @@ std::vector<SceneTexture> scene_textures(const Scene& scene, const SceneEntries*
 
 TextureForm source_form(const SceneTexture& texture) {
     const Image<float>& image = *texture.picture;
-    if (!texture.baked) return lossless_form(image, texture.use);
+    const TextureForm blocks{0, image.width(), image.height(), 2, bc5_bits};
+    if (texture.bc5) return blocks;
+    if (!texture.baked) {
+        const TextureForm form = lossless_form(image, texture.use);
+        // The blocks of a texture file need not be what the encoder finds again.
+        const bool unknown = form.bits == 32 && texture.use == TextureUse::normal && texture_container(texture.name);
+        return unknown ? blocks : form;
+    }
     if (texture.use == TextureUse::normal) return {0, image.width(), image.height(), 3, 8, false};
     if (texture.use == TextureUse::bump) return {0, image.width(), image.height(), 2, 16, false};
     return lossless_form(image, texture.use);

@@ -20,6 +20,8 @@ struct PartOptions {
     int half = 16; ///< see ProbeOptions
     StoppingRule rule;
     bool sizes = true, formats = true; ///< of textures: what may change; formats are channels and bits
+    /// Normal maps may err as much as they do at full size in RGB of 8 bits, whatever `budget` is.
+    bool like_rgb8 = false;
 };
 
 /// The options' views, or the scene's camera.
