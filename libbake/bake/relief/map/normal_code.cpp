@@ -1,4 +1,5 @@
 #include "bake/relief/map/normal_code.h"
+#include "bake/relief/map/tangent_coordinates.h"
 #include <cmath>
 
 namespace bake {
@@ -13,15 +14,8 @@ Vec3f decode_normal(const Vec3f& rgb, bool directx) noexcept {
 }
 
 Vec3f to_tangent_space(const Vec3f& normal, const Vec3f& tangent, const Vec3f& n, float sign) noexcept {
-    // The inverse of the frame by cofactors, B x N = sign (T N.N - N N.T) and T x B = sign (N T.T - T N.T); its
-    // determinant has the sign of `sign`.
-    const float along_t = glm::dot(normal, tangent), along_n = glm::dot(normal, n), skew = glm::dot(n, tangent);
-    const Vec3f unit =
-        unit_or_zero(Vec3f(along_t * glm::dot(n, n) - along_n * skew, sign * glm::dot(normal, glm::cross(n, tangent)),
-                           along_n * glm::dot(tangent, tangent) - along_t * skew));
-    // A flat texel must land on its level (128 in 8 bits), not on either side of it by float's rounding.
-    constexpr float rounding = 1e-6f;
-    return {std::abs(unit.x) < rounding ? 0 : unit.x, std::abs(unit.y) < rounding ? 0 : unit.y, unit.z};
+    const Vec3f unit = unit_or_zero(tangent_coordinates(normal, tangent, n, sign));
+    return {without_rounding(unit.x), without_rounding(unit.y), unit.z};
 }
 
 } // namespace bake

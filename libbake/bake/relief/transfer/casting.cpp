@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/mesh/weld.h"
 #include "bake/relief/transfer/hard_edges.h"
+#include "bake/relief/transfer/lanes.h"
 #include <algorithm>
 #include <cmath>
 
@@ -136,7 +137,24 @@ Cast Casting::at(const TexelHit& at) const noexcept { return this->at(corners_of
 
 void Casting::at(std::span<const TexelHit> points, std::span<Cast> casts) const noexcept {
     const Corners corners = corners_of(points[0].triangle);
-    for (std::size_t i = 0; i < points.size(); ++i) casts[i] = at(corners, points[i]);
+    const std::size_t count = points.size();
+    Lanes3 d;
+    bool several = count <= packet_size && !cage_ && !corners.blends;
+    if (several) {
+        for (std::size_t i = 0; i < count; ++i) d.set(i, mixed(corners.d[0], corners.d[1], corners.d[2], points[i]));
+        several = !make_unit(d, count);
+    }
+    const auto& [r0, r1, r2] = corners.reach;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!several) {
+            casts[i] = at(corners, points[i]);
+            continue;
+        }
+        const TexelHit& at = points[i];
+        const Reach reach{mixed(r0.front, r1.front, r2.front, at), mixed(r0.back, r1.back, r2.back, at),
+                          mixed(r0.blend, r1.blend, r2.blend, at)};
+        casts[i] = {mixed(corners.p[0], corners.p[1], corners.p[2], at) + reach.front * d[i], -d[i], reach};
+    }
 }
 
 std::optional<Cast> Casting::facing(const TexelHit& at) const noexcept {

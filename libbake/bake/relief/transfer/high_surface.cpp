@@ -98,6 +98,30 @@ Vec3f HighSurface::facet_normal(std::size_t i, std::uint32_t triangle) const noe
     return Vec3f(unit_or_zero(glm::cross(e1, e2)));
 }
 
+void HighSurface::normals(std::span<const Hit, packet_size> hits, std::size_t count, Lanes3& out) const noexcept {
+    Lanes3 corner[3];
+    Lanes b1, b2;
+    bool linear = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        b1[i] = hits[i].b1, b2[i] = hits[i].b2;
+        if (!hits[i]) {
+            for (Lanes3& n : corner) n.set(i, {0, 0, 1});
+            continue;
+        }
+        const Part& part = parts_[hits[i].mesh];
+        linear = linear && !part.normals.empty() && part.edges.empty();
+        if (!linear) break;
+        for (std::size_t k = 0; k < 3; ++k) corner[k].set(i, part.normals[part.triangles[hits[i].triangle].corner[k]]);
+    }
+    if (linear) {
+        for (std::size_t i = 0; i < count; ++i)
+            out.set(i, (1 - b1[i] - b2[i]) * corner[0][i] + b1[i] * corner[1][i] + b2[i] * corner[2][i]);
+        if (!make_unit(out, count)) return;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        if (hits[i]) out.set(i, normal(hits[i]));
+}
+
 Vec3f HighSurface::normal(const Hit& hit) const noexcept {
     const Part& part = parts_[hit.mesh];
     if (part.normals.empty()) return facet_normal(hit.mesh, hit.triangle);

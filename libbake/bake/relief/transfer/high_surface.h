@@ -3,6 +3,7 @@
 #include "bake/mesh/triangulate.h"
 #include "bake/ray/bvh.h"
 #include "bake/relief/transfer/edge_normals.h"
+#include "bake/relief/transfer/lanes.h"
 #include <string>
 
 namespace bake {
@@ -46,6 +47,8 @@ public:
     Vec3f position(const Hit& hit) const noexcept;
     /// Unit normal at a hit; that of the facet where the corners' normals cancel out, zero if the facet has no area.
     Vec3f normal(const Hit& hit) const noexcept;
+    /// The same for the hits of a packet; lanes without a hit get anything.
+    void normals(std::span<const Hit, packet_size> hits, std::size_t count, Lanes3& out) const noexcept;
     Vec3f facet_normal(std::size_t mesh, std::uint32_t triangle) const noexcept;
     Vec3f corner_position(std::size_t mesh, std::uint32_t triangle, std::uint32_t k) const noexcept;
     /// As normal(), at a corner.

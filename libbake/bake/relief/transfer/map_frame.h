@@ -2,6 +2,8 @@
 #pragma once
 #include "bake/relief/map/bake_target.h"
 #include "bake/relief/map/normal_code.h"
+#include "bake/relief/map/tangent_coordinates.h"
+#include "bake/relief/transfer/lanes.h"
 #include <optional>
 
 namespace bake {
@@ -81,6 +83,26 @@ public:
         const float b0 = 1 - at.b1 - at.b2;
         return to_tangent_space(normal, b0 * tangent_[0] + at.b1 * tangent_[1] + at.b2 * tangent_[2],
                                 b0 * n_[0] + at.b1 * n_[1] + at.b2 * n_[2], sign_);
+    }
+    /// The same for the lanes of a packet from `begin` to `end`, which stand at[begin] and so on: normals become what is in the map.
+    void in_map(Lanes3& normals, std::span<const TexelHit, packet_size> at, std::size_t begin,
+                std::size_t end) const noexcept {
+        if (space_ == Space::object) return;
+        Lanes3 found;
+        Lanes b1, b2;
+        const std::size_t count = end - begin;
+        for (std::size_t i = 0; i < count; ++i) b1[i] = at[begin + i].b1, b2[i] = at[begin + i].b2;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float b0 = 1 - b1[i] - b2[i];
+            found.set(i, tangent_coordinates(normals[begin + i],
+                                             b0 * tangent_[0] + b1[i] * tangent_[1] + b2[i] * tangent_[2],
+                                             b0 * n_[0] + b1[i] * n_[1] + b2[i] * n_[2], sign_));
+        }
+        const bool lost = make_unit(found, count);
+        for (std::size_t i = 0; i < count; ++i)
+            found.x[i] = without_rounding(found.x[i]), found.y[i] = without_rounding(found.y[i]);
+        for (std::size_t i = 0; i < count; ++i)
+            normals.set(begin + i, lost ? in_map(normals[begin + i], at[begin + i]) : found[i]);
     }
 
 private:

@@ -72,9 +72,14 @@ void TexelCaster::flush(RayPacket& packet, CastCounts& counts) noexcept {
     }
     trace(packet, counts);
     retry_inside(packet, counts);
+    Lanes3 normals;
+    packet.source->high->normals(packet.hits, count, normals);
     for_runs(packet, [&](std::size_t begin, std::size_t end) {
         const MapFrame frame(target_, packet.at[begin].triangle, options_.space);
-        for (std::size_t lane = begin; lane < end; ++lane) land(packet, lane, frame, counts);
+        Lanes3 in_map = normals;
+        frame.in_map(in_map, packet.at, begin, end);
+        for (std::size_t lane = begin; lane < end; ++lane)
+            land(packet, lane, frame, normals[lane], in_map[lane], counts);
     });
     packet.count = 0;
 }
@@ -132,7 +137,9 @@ void TexelCaster::retry_inside(RayPacket& packet, CastCounts& counts) const noex
     }
 }
 
-void TexelCaster::land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, CastCounts& counts) noexcept {
+/// `normal`: of the high-poly mesh; `t`: the same in the map.
+void TexelCaster::land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& normal, Vec3f t,
+                       CastCounts& counts) noexcept {
     const TexelSample& sample = packet.sample[lane];
     const HighSurface& high = *packet.source->high;
     TexelState& state = out_.states.at(sample.x, sample.y);
@@ -141,8 +148,6 @@ void TexelCaster::land(const RayPacket& packet, std::size_t lane, const MapFrame
             state = high.bvh().occluded(packet.rays[lane]) ? TexelState::behind : TexelState::missed;
         return;
     }
-    const Vec3f normal = high.normal(packet.hits[lane]);
-    Vec3f t = frame.in_map(normal, packet.at[lane]);
     if (t == Vec3f(0)) {
         ++counts.degenerate;
         return;

@@ -54,7 +54,8 @@ private:
     void retry_inside(RayPacket& packet, CastCounts& counts) const noexcept;
     Vec3f beyond_border(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& at_edge,
                         CastCounts& counts) const noexcept;
-    void land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, CastCounts& counts) noexcept;
+    void land(const RayPacket& packet, std::size_t lane, const MapFrame& frame, const Vec3f& normal, Vec3f t,
+              CastCounts& counts) noexcept;
     void add_details(const RayPacket& packet, std::size_t lane, const Vec3f& normal, const MapFrame& frame,
                      bool first) noexcept;
     void count(const RayPacket& packet, std::size_t lane, CastCounts& counts) noexcept;
