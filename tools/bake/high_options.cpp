@@ -73,11 +73,11 @@ void complete(const HighArgs& args) {
         throw usage("--max-distance: counts from where rays start; give --extrude too");
 }
 
-void refuse_height_options(const CLI::App& sub, const HighArgs& args) {
+void refuse_height_options(const CLI::App& sub, const std::string& instead) {
     for (const char* flag : {"--amplitude", "--midlevel", "--method", "--filter", "--wrap", "--wrap-u", "--wrap-v",
                              "--channel", "--invert", "--dequantise", "--extent", "--residual-of"})
-        if (args.given() && sub.count(flag) > 0)
-            throw Error(Refusal::usage, std::string(flag) + ": belongs to a height; leave it out with --high");
+        if (sub.count(flag) > 0)
+            throw Error(Refusal::usage, std::string(flag) + ": belongs to a height; leave it out with " + instead);
 }
 
 } // namespace bake

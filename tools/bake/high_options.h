@@ -25,7 +25,7 @@ struct HighArgs {
 void add_high_options(CLI::App& sub, HighArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other.
 void complete(const HighArgs& args);
-/// Throws Error{Refusal::usage} for an option of a height beside --high.
-void refuse_height_options(const CLI::App& sub, const HighArgs& args);
+/// Throws Error{Refusal::usage} for an option of a height beside `instead`, as in --high.
+void refuse_height_options(const CLI::App& sub, const std::string& instead);
 
 } // namespace bake

@@ -1,4 +1,5 @@
 #include "high_report.h"
+#include "raster_notes.h"
 #include <algorithm>
 
 namespace bake {
@@ -170,14 +171,7 @@ std::vector<std::string> notes_of(const HighReport& report) {
     }
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");
-    say(report.target.raster.overlapped, "texels lie in more than one face; the lowest face was baked");
-    // One map per tile leaves nothing out.
-    if (!report.all_tiles) say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
-    say(report.target.raster.crossing_faces, "faces leave the tile; only their part inside was baked");
-    say(report.target.raster.degenerate, "triangles have no area in uv and were not baked");
-    if (!report.target.raster.tiles.empty())
-        out.push_back(low + ": its charts lie in " + report.target.raster.tiles +
-                      " of the uvs' tiles and are baked modulo 1");
+    for (std::string& line : notes_of(report.target.raster, low, report.all_tiles)) out.push_back(std::move(line));
     return out;
 }
 

@@ -10,12 +10,11 @@
 namespace bake {
 namespace {
 
-constexpr int default_size = 1024;
 constexpr std::size_t most_witnesses = 8;
 
 TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
     TransferOptions options;
-    std::tie(options.width, options.height) = args.size.value_or(std::pair(default_size, default_size));
+    std::tie(options.width, options.height) = args.size.value_or(std::pair(default_map_size, default_map_size));
     options.space = args.space, options.directx = args.directx;
     options.padding = args.padding, options.tile = args.tile, options.rays = args.high.rays;
     options.alpha = args.high.alpha;

@@ -9,6 +9,9 @@ namespace bake {
 /// How the map's file stores its samples.
 enum class MapDepth { automatic, u8, u16, half, float32, bc5 };
 
+/// Texels of a map that takes no size from a height.
+inline constexpr int default_map_size = 1024;
+
 struct NormalMapArgs {
     std::string mesh, out;
     std::string displaced; ///< --residual-of
@@ -16,7 +19,8 @@ struct NormalMapArgs {
     std::optional<std::pair<int, int>> size;
     MeshOptions read;
     HeightInput height;
-    HighArgs high; ///< instead of a height
+    HighArgs high;               ///< instead of a height
+    std::optional<Length> bevel; ///< radius of rounded edges, instead of both
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
