@@ -63,7 +63,7 @@ nlohmann::json to_json(const Report& report) {
             {"space", options.space == Space::tangent ? "tangent" : "object"},
             {"green", options.directx ? "down" : "up"},
             {"bevel", {{"radius", options.radius}, {"texels", report.texels}}},
-            {"edges", {{"convex", r.convex}, {"concave", r.concave}, {"within_patches", r.within}}},
+            {"edges", {{"convex", r.convex}, {"concave", r.concave}, {"kept", r.kept}}},
             {"seams",
              {{"edges", report.seams.seams},
               {"samples", report.seams.samples},
@@ -97,7 +97,7 @@ std::vector<std::string> notes_of(const Report& report) {
         out.push_back(format("%s: a radius of %.2g texels is too few for a bevel; raise --size or --bevel",
                              path.c_str(), report.texels));
     say(r.narrow, "texels lie where the radius does not fit, and have the largest one that does");
-    say(r.within, "hard edges end within a smooth surface and stay as they are");
+    say(r.kept, "hard edges end within a smooth surface or are sharper than 30 degrees, and stay as they are");
     say(r.texels.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.texels.degenerate,
         "texels have no normal or tangent space (charts without area) and are filled like the padding");

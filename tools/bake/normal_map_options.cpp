@@ -23,6 +23,8 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
 }
 
 void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
+    add_integer_option(sub, "--padding", args.padding, 0, 4096, "Texels filled beyond the charts' borders")
+        ->default_str(std::to_string(args.padding));
     add_choice<MapDepth>(sub, "--depth", args.depth,
                          {{"auto", MapDepth::automatic},
                           {"8", MapDepth::u8},

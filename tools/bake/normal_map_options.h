@@ -32,7 +32,7 @@ struct NormalMapArgs {
 
 /// The options that the normal of one texel depends on.
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
-/// --depth, --roughness-map and --roughness.
+/// --padding, --depth, --roughness-map and --roughness.
 void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.

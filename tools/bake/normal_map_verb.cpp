@@ -133,8 +133,6 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                    "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
         ->type_name("DISPLACED.glb");
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
-    add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
-        ->default_str(std::to_string(args->padding));
     add_texture_options(sub, *args);
     add_examples(
         sub,

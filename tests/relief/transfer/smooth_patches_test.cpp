@@ -13,7 +13,7 @@ TEST_SUITE("unit") {
         const SmoothPatches patches(surface);
         REQUIRE(patches.count() == 6);
         CHECK(patches.edges().size() == 12);
-        CHECK(patches.ends_within() == 0);
+        CHECK(patches.kept() == 0);
         for (const HardEdge& edge : patches.edges()) {
             CHECK(edge.convex);
             CHECK(edge.angle == doctest::Approx(pi / 2));

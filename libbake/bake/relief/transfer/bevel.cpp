@@ -79,7 +79,7 @@ Bevel bevel(const BakeTarget& target, const BevelOptions& options, Progress* pro
     Bevel result{.map = std::move(out.map), .report = {}};
     BevelReport& report = result.report;
     for (const HardEdge& edge : patches.edges()) ++(edge.convex ? report.convex : report.concave);
-    report.within = std::int64_t(patches.ends_within());
+    report.kept = std::int64_t(patches.kept());
     report.tilted = tilted, report.narrow = narrow;
     report.texels = out.report;
     report.texels.degenerate = degenerate, report.texels.border = target.raster.border;

@@ -16,8 +16,9 @@ struct BevelOptions {
 };
 
 struct BevelReport {
-    std::int64_t convex = 0, concave = 0; ///< hard edges with an angle
-    std::int64_t within = 0; ///< of these, edges with the same smooth patch on both sides, which stay sharp
+    std::int64_t convex = 0, concave = 0; ///< hard edges between smooth patches, with an angle
+    std::int64_t kept =
+        0; ///< hard edges that end within a smooth patch or are sharper than 30 degrees, and stay as they are
     std::int64_t tilted = 0; ///< texels whose normal an edge turns
     std::int64_t narrow = 0; ///< texels where a ball of the radius does not fit, and the largest one that does was used
     TransferReport texels;   ///< hit, outward, border, degenerate, padded, empty
@@ -28,8 +29,9 @@ struct Bevel {
     BevelReport report;
 };
 
-/// Edges are hard if the normals of their two faces differ, or if the facets are more than 50 degrees apart (hard_edges()). Only what
-/// lies beyond a hard edge turns a normal, so that smooth meshes are not changed. The result does not depend on the number of threads.
+/// Edges are hard if the normals of their two faces differ. In a mesh that is shaded smooth all over, those whose facets are more than
+/// 50 degrees apart are. Only what lies beyond a hard edge turns a normal, so that smooth surfaces are not changed. The result does
+/// not depend on the number of threads.
 Bevel bevel(const BakeTarget& target, const BevelOptions& options, Progress* progress = nullptr);
 
 } // namespace bake

@@ -3,13 +3,13 @@
 namespace bake {
 namespace {
 
-constexpr double enough = 1e-4;      ///< of the radius, by which a ball may overlap what it touches
-constexpr double farthest = 30;      ///< radii from p to the centre, in the tip of a wedge of 4 degrees
-constexpr double longest_reach = 12; ///< radii from an edge
-constexpr double inward = 1e-6;      ///< of a triangle, as an edge does not tell which of its sides a ball touches
-constexpr int most_steps = 16;
+constexpr double enough = 1e-4;     ///< of the radius, by which a ball may overlap what it touches
+constexpr double opposite = -0.866; ///< cosine between facets with less than 30 degrees between them
+constexpr double farthest = 6;      ///< radii from p to the centre
+constexpr double inward = 1e-6;     ///< of a triangle, as an edge does not tell which of its sides a ball touches
+constexpr int most_steps = 10;
 constexpr std::size_t most_spaces = 8;
-constexpr int halvings = 10;     ///< to find the radius of a ball that fits
+constexpr int halvings = 8;      ///< to find the radius of a ball that fits
 constexpr double flat = 0.99996; ///< cosine of half a degree
 
 std::unique_ptr<TriangleTree> edge_tree(const Mesh& mesh, const std::vector<HardEdge>& edges, bool convex) {
@@ -30,8 +30,7 @@ std::unique_ptr<TriangleTree> edge_tree(const Mesh& mesh, const std::vector<Hard
 double reach_of(const std::vector<HardEdge>& edges, bool convex, double radius) {
     double reach = 0;
     for (const HardEdge& edge : edges)
-        if (edge.convex == convex)
-            reach = std::max(reach, std::min(longest_reach, 1.5 * std::abs(std::tan(edge.angle / 2))));
+        if (edge.convex == convex) reach = std::max(reach, 1.5 * std::tan(edge.angle / 2));
     return reach * radius;
 }
 
@@ -117,6 +116,8 @@ std::optional<Vec3d> RollingBall::settle(const Place& place, double radius) cons
     for (int step = 0; step < most_steps; ++step) {
         const auto touch = nearest_touch(place, place.p + centre, radius);
         if (!touch) break;
+        // A ball between two sheets is to become smaller, not to be pushed out where they part.
+        if (glm::dot(touch->m, place.n) < opposite) return {};
         // A curved triangle that was met before is met at a better point.
         std::size_t i = 1;
         while (i < count && of[i] != touch->place) ++i;
