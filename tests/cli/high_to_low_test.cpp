@@ -1,7 +1,10 @@
 // bake normal-map --high from outside: what each failure of a bake from high-poly meshes does, and what is printed.
+#include "bake/mesh/file/mesh_io.h"
 #include "bake/picture/image_io.h"
+#include "bake/relief/map/bake_target.h"
 #include "cli/command.h"
 #include "memory_limits.h"
+#include "relief/transfer/voxel_meshes.h"
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -241,6 +244,7 @@ TEST_SUITE("cli") {
                                     {"--max-distance", "1"},
                                     {"--rays", "2"},
                                     {"--high-normals", "facet"},
+                                    {"--high-smooth", "1%"},
                                     {"--cast", "face"},
                                     {"--maps", "height"},
                                     {"--maps-out", "m"},
@@ -257,6 +261,9 @@ TEST_SUITE("cli") {
         check_refused(folder, command({"--maps", "hight", "--maps-out", "m"}), 2, "'hight' is no map; choose from");
         check_refused(folder, command({"--cage", "low.obj", "--extrude", "1"}), 2, "--cage: brings its own distances");
         check_refused(folder, command({"--max-distance", "1"}), 2, "--max-distance: counts from where rays start");
+        check_refused(folder, command({"--high-smooth", "1", "--high-normals", "facet"}), 2,
+                      "--high-smooth, --high-normals facet: facets have one normal each");
+        check_refused(folder, command({"--high-smooth", "0"}), 2, "--high-smooth");
         for (const char* option : {"--extent=1,1", "--amplitude=1", "--method=blinn", "--wrap=clamp", "--invert"})
             check_refused(folder, command({option}), 2, "leave it out with --high");
         check_refused(folder, command({}, "low.obj", dots), 3, "dots.png: is a picture, where a mesh is expected");
@@ -325,6 +332,49 @@ TEST_SUITE("cli") {
         CHECK(missed({"--extrude", "0.4%"}) == 256);
         CHECK(missed({"--extrude", "0.5", "--max-distance", "0.48"}) == 256);
         CHECK(missed({"--extrude", "0.5", "--max-distance", "0.5"}) == 0);
+    }
+
+    TEST_CASE("high to low: a ball of cubes has normals of six directions, and smoothed those of a sphere") {
+        const Folder folder;
+        const Mesh cubes = voxel_mesh(40, [](const Vec3d& p) { return glm::length(p - 20.13) < 16; });
+        write_mesh(folder / "cubes.ply", cubes);
+        REQUIRE(
+            run_bake(folder, {"surface", "--shape", "sphere:R=16", "--resolution", "24x12", "-o", "low.ply", "--quiet"})
+                .code == 0);
+        Mesh low = read_mesh(folder / "low.ply");
+        for (Vec3f& p : low.positions) p += 20.13f;
+        write_mesh(folder / "low.ply", low);
+        const auto bake = [&](const char* option, const char* value) {
+            const Run run =
+                run_bake(folder, {"normal-map", "low.ply", "--high", "cubes.ply", "-o", "n.exr", "--depth", "float",
+                                  "--space", "object", "--size", "64x32", "--padding", "0", "--json", option, value});
+            REQUIRE(run.code == 0);
+            return nlohmann::json::parse(run.out);
+        };
+        CHECK(bake("--high-normals", "facet")["high"]["smooth"] == 0);
+        const Image<float> steps = read_image(folder / "n.exr");
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            CHECK(std::abs(std::round(2 * steps.data()[i]) - 2 * steps.data()[i]) < 1e-3f);
+        CHECK(bake("--high-smooth", "3")["high"]["smooth"] == 3);
+        const Image<float> smooth = read_image(folder / "n.exr");
+        const BakeTarget target = make_bake_target(low, "low.ply", 64, 32);
+        std::vector<double> angles;
+        for (int y = 1; y < 31; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const TexelHit& at = target.raster.hits.at(x, y);
+                const auto& corner = target.surface.triangles[at.triangle].corner;
+                Vec3d p = -Vec3d(20.13);
+                const float b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
+                for (std::size_t k = 0; k < 3; ++k)
+                    p += double(b[k]) * Vec3d(low.positions[low.corner_position[corner[k]]]);
+                const Vec3d n = 2.0 * Vec3d(smooth.at(x, y, 0), smooth.at(x, y, 1), smooth.at(x, y, 2)) - 1.0;
+                angles.push_back(std::acos(std::min(1.0, glm::dot(glm::normalize(n), glm::normalize(p)))) * 180 / pi);
+            }
+        std::sort(angles.begin(), angles.end());
+        double mean = 0;
+        for (const double angle : angles) mean += angle / double(angles.size());
+        CHECK(mean < 0.5);
+        CHECK(angles[angles.size() * 95 / 100] < 1);
     }
 
     TEST_CASE("high to low: 1, 2 and 7 threads write the same bytes") {

@@ -32,6 +32,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_choice<HighNormals>(sub, "--high-normals", args.normals,
                             {{"smooth", HighNormals::smooth}, {"facet", HighNormals::facet}},
                             "Normals of the meshes of --high");
+    add_length_option(sub, "--high-smooth", args.smooth,
+                      "Smooths the normals of --high over this length, as stairs of voxels need");
     add_choice<CastBy>(
         sub, "--cast", args.cast, {{"blend", CastBy::blend}, {"averaged", CastBy::averaged}, {"face", CastBy::face}},
         "Directions of rays: averaged at hard edges and perpendicular elsewhere, averaged, or of facets");
@@ -55,8 +57,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
     for (const char* flag :
-         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--high-normals", "--cast", "--maps",
-          "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
+         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--high-normals", "--high-smooth",
+          "--cast", "--maps", "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 
@@ -67,6 +69,8 @@ void complete(const HighArgs& args) {
         throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
     if (!args.cage.empty()) expect_mesh(args.cage);
+    if (args.smooth && args.normals == HighNormals::facet)
+        throw usage("--high-smooth, --high-normals facet: facets have one normal each; leave one of the two out");
     if (!args.cage.empty() && (args.extrude || args.max_distance))
         throw usage("--cage: brings its own distances; leave out --extrude and --max-distance");
     if (args.max_distance && !args.extrude)

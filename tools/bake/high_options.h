@@ -11,6 +11,7 @@ struct HighArgs {
     std::optional<Length> extrude, max_distance;
     int rays = 1; ///< along each side of a texel
     HighNormals normals = HighNormals::smooth;
+    std::optional<Length> smooth; ///< of the normals, before the bake
     CastBy cast = CastBy::blend;
     bool strict = false, alpha = false, match_names = false;
     std::string debug_rays;

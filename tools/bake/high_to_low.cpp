@@ -2,6 +2,7 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/transfer/debug_rays.h"
 #include "bake/relief/transfer/reach.h"
+#include "bake/relief/transfer/smooth_normals.h"
 #include "high_report.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
@@ -144,6 +145,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
                       .result = result.report,
                       .match = match_ ? &*match_ : nullptr,
                       .all_tiles = names_tiles(args_.out)};
+    if (args.high.smooth) report.smooth = args.high.smooth->in_units(diagonal(bounds(low_)));
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
     report.density = texel_density(target, options.width, options.height);
     if (options.rays == 1) report.centre = centre_error(result, options.space, options.directx);
@@ -183,6 +185,10 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     take_notes(args.mesh, low);
     for (const HighMesh& high : meshes) take_notes(high.name, high.mesh);
     watch.lap("read");
+    if (args.high.smooth) {
+        for (HighMesh& high : meshes) smooth_normals(high.mesh, args.high.smooth->in_units(diagonal(bounds(low))));
+        watch.lap("smoothing");
+    }
     HighBake bake(args, depth, low, std::move(meshes), progress, watch);
     const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
     std::string text;
