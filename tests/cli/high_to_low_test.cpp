@@ -233,6 +233,33 @@ TEST_SUITE("cli") {
         CHECK(said["texels"]["hit"] == 256);
     }
 
+    TEST_CASE("high to low: the envelope comes out as a cage, and gives the same map") {
+        const Meshes folder;
+        const std::string dots = (own_meshes() / "dots.png").string(), torus = (own_meshes() / "torus.obj").string();
+        REQUIRE(
+            run_bake(folder, {"displace", torus, "--height", dots, "--levels", "1", "--quiet", "-o", "d.ply"}).code ==
+            0);
+        for (const char* cage : {"cage.ply", "cage.obj"}) {
+            const auto bake = [&](const char* out, const char* option) {
+                return nlohmann::json::parse(good(folder, {"normal-map", torus, "--high", "d.ply", "-o", out, "--size",
+                                                           "96x48", "--json", option, cage})
+                                                 .out);
+            };
+            const nlohmann::json first = bake("a.png", "--cage-out"), again = bake("b.png", "--cage");
+            CHECK(first["high"]["cage_out"] == cage);
+            CHECK(first["texels"]["missed"] == 0);
+            CHECK(again["texels"]["missed"] == 0);
+            CHECK(again["reach"]["front"].get<double>() >= first["reach"]["front"].get<double>() - 1e-6);
+            const Image<float> a = read_image(folder / "a.png"), b = read_image(folder / "b.png");
+            double sum = 0;
+            for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(double(a.data()[i]) - b.data()[i]);
+            CHECK(sum / double(a.size()) < 1e-3);
+        }
+        const Run text = good(
+            folder, {"normal-map", torus, "--high", "d.ply", "-o", "a.png", "--size", "16", "--cage-out", "cage.ply"});
+        CHECK(text.out.find("envelope written as a cage to cage.ply") != std::string::npos);
+    }
+
     TEST_CASE("high to low: options that contradict or lack each other are usage errors") {
         const Meshes folder;
         const std::string dots = (own_meshes() / "dots.png").string();
@@ -240,6 +267,7 @@ TEST_SUITE("cli") {
         check_refused(folder, {"normal-map", "--high", "high.obj", "-o", "n.png"}, 2,
                       "--high: needs the low-poly mesh");
         for (const Strings& more : {Strings{"--cage", "low.obj"},
+                                    {"--cage-out", "c.ply"},
                                     {"--extrude", "1"},
                                     {"--max-distance", "1"},
                                     {"--rays", "2"},
@@ -260,6 +288,12 @@ TEST_SUITE("cli") {
         check_refused(folder, command({"--maps-out", "m"}), 2, "--maps, --maps-out: belong together");
         check_refused(folder, command({"--maps", "hight", "--maps-out", "m"}), 2, "'hight' is no map; choose from");
         check_refused(folder, command({"--cage", "low.obj", "--extrude", "1"}), 2, "--cage: brings its own distances");
+        for (const Strings& more : {Strings{"--cage", "low.obj"}, {"--extrude", "1"}})
+            check_refused(folder, command({"--cage-out", "c.ply", more[0], more[1]}), 2,
+                          "--cage-out: writes the automatic envelope");
+        check_refused(folder, command({"--cage-out", "c.glb"}), 2, "--cage-out: name a file that ends in .ply or .obj");
+        check_refused(folder, command({"--cage-out", "c_<UDIM>.ply"}), 2, "--cage-out c_<UDIM>.ply: <UDIM> stands");
+        check_refused(folder, command({"--cage-out", "low.obj"}), 2, "would replace a file");
         check_refused(folder, command({"--max-distance", "1"}), 2, "--max-distance: counts from where rays start");
         check_refused(folder, command({"--high-smooth", "1", "--high-normals", "facet"}), 2,
                       "--high-smooth, --high-normals facet: facets have one normal each");
@@ -279,6 +313,10 @@ TEST_SUITE("cli") {
         check_refused(folder, {"normal-map", "low.obj", "--high", "high.obj", "-o", "none/n.png"}, 5,
                       "none/n.png: cannot be written");
         check_refused(folder, command({"--maps", "height,id", "--maps-out", "none/m"}), 5, "none/m_height.exr: cannot");
+        check_refused(folder, command({"--cage-out", "none/c.ply"}), 5, "none/c.ply: cannot be written");
+        check_refused(folder,
+                      {"normal-map", "low.obj", "--high", "high.obj", "-o", "none/n.png", "--cage-out", "c.ply"}, 5,
+                      "none/n.png: cannot be written");
         check_refused(folder, command({"--debug-rays", "none/d.glb"}), 5, "none/d.glb: cannot be written");
         // What was there stays as it was.
         good(folder, command({"--quiet"}));

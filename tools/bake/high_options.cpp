@@ -2,6 +2,7 @@
 #include "inputs/choice.h"
 #include "inputs/file_kind.h"
 #include "inputs/name_list.h"
+#include "inputs/tile_names.h"
 
 namespace bake {
 namespace {
@@ -22,6 +23,9 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_option("--cage", args.cage,
                    "The first mesh with its faces pushed out: rays start there [automatic, from the meshes' distance]")
         ->type_name("MESH");
+    sub.add_option("--cage-out", args.cage_out,
+                   "The automatic envelope as such a mesh, to be edited and given to --cage")
+        ->type_name("OUT.ply");
     add_choice<bool>(sub, "--match-names", args.match_names, {{"yes", true}, {"no", false}},
                      "Parts take detail from the parts of their name alone: low_wheel from high_wheel");
     add_length_option(sub, "--extrude", args.extrude, "Rays start this far outside of the first mesh [automatic]");
@@ -56,9 +60,9 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
         ->type_name("OUT.glb");
     sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
-    for (const char* flag :
-         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--high-normals", "--high-smooth",
-          "--cast", "--maps", "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
+    for (const char* flag : {"--cage", "--cage-out", "--match-names", "--extrude", "--max-distance", "--rays",
+                             "--high-normals", "--high-smooth", "--cast", "--maps", "--maps-out", "--sky-rays",
+                             "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 
@@ -73,6 +77,15 @@ void complete(const HighArgs& args) {
         throw usage("--high-smooth, --high-normals facet: facets have one normal each; leave one of the two out");
     if (!args.cage.empty() && (args.extrude || args.max_distance))
         throw usage("--cage: brings its own distances; leave out --extrude and --max-distance");
+    if (!args.cage_out.empty()) {
+        if (!args.cage.empty() || args.extrude)
+            throw usage("--cage-out: writes the automatic envelope; leave out --cage and --extrude");
+        const MeshFormat format = mesh_format(args.cage_out);
+        if (format != MeshFormat::obj && format != MeshFormat::ply)
+            throw usage(
+                "--cage-out: name a file that ends in .ply or .obj; glTF has no faces of more than three corners");
+        expect_one_file("--cage-out", args.cage_out, "all tiles share one cage");
+    }
     if (args.max_distance && !args.extrude)
         throw usage("--max-distance: counts from where rays start; give --extrude too");
 }

@@ -7,7 +7,7 @@ namespace bake {
 
 struct HighArgs {
     std::vector<std::string> paths;
-    std::string cage;
+    std::string cage, cage_out;
     std::optional<Length> extrude, max_distance;
     int rays = 1; ///< along each side of a texel
     HighNormals normals = HighNormals::smooth;

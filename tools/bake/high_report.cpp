@@ -74,6 +74,8 @@ std::string to_text(const HighReport& report) {
                options.space == Space::tangent ? "tangent" : "object",
                options.directx ? "down (DirectX)" : "up (OpenGL)", totals.triangles, static_cast<long long>(r.rays),
                source_of_reach(report.args.high), double(totals.front), double(totals.back));
+    if (!report.args.high.cage_out.empty())
+        text += "\nenvelope written as a cage to " + printable(report.args.high.cage_out);
     if (report.smooth > 0) text += format("\nnormals of the high-poly mesh smoothed over %.4g", report.smooth);
     text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
                    "left flat",
@@ -111,7 +113,11 @@ nlohmann::json to_json(const HighReport& report) {
             {"height", options.height},
             {"space", options.space == Space::tangent ? "tangent" : "object"},
             {"green", options.directx ? "down" : "up"},
-            {"high", {{"meshes", report.args.high.paths}, {"triangles", totals.triangles}, {"smooth", report.smooth}}},
+            {"high",
+             {{"meshes", report.args.high.paths},
+              {"triangles", totals.triangles},
+              {"smooth", report.smooth},
+              {"cage_out", report.args.high.cage_out}}},
             {"reach", {{"front", totals.front}, {"back", totals.back}}},
             {"hard_edges", totals.hard_edges},
             {"rays", r.rays},

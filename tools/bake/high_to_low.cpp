@@ -1,5 +1,6 @@
 #include "high_to_low.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/transfer/cage.h"
 #include "bake/relief/transfer/debug_rays.h"
 #include "bake/relief/transfer/reach.h"
 #include "bake/relief/transfer/smooth_normals.h"
@@ -96,6 +97,12 @@ public:
     };
     /// `args`: those of the constructor, with the names of one tile.
     Baked bake(const NormalMapArgs& args);
+    /// Under --cage-out.
+    void write_cage() const {
+        if (args_.high.cage_out.empty()) return;
+        write_mesh(args_.high.cage_out, envelope_cage(surface_, sources_));
+        watch_.lap("cage");
+    }
 
 private:
     void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
@@ -189,8 +196,10 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
         for (HighMesh& high : meshes) smooth_normals(high.mesh, args.high.smooth->in_units(diagonal(bounds(low))));
         watch.lap("smoothing");
     }
+    if (!args.high.cage_out.empty()) const OutputFile writable(args.high.cage_out);
     HighBake bake(args, depth, low, std::move(meshes), progress, watch);
     const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
+    bake.write_cage();
     std::string text;
     std::int64_t missed = 0;
     nlohmann::json tiles = nlohmann::json::array();
