@@ -67,7 +67,12 @@ Vec3d RollingBall::facet_normal(std::uint32_t triangle) const noexcept {
 }
 
 bool RollingBall::is_near_edge(const TriangleTree* edges, double reach, const Vec3d& p) const noexcept {
-    return edges && edges->nearest(p).distance2 < reach * reach;
+    bool is_near = false;
+    if (edges)
+        edges->touching(Vec3f(p - reach), Vec3f(p + reach), 0, [&](std::uint32_t i) {
+            is_near = is_near || edges->nearest_of(i, p).distance2 < reach * reach;
+        });
+    return is_near;
 }
 
 RollingBall::Rounded RollingBall::at(std::uint32_t triangle, double b1, double b2) const noexcept {
