@@ -9,8 +9,9 @@ constexpr double farthest = 6;      ///< radii from p to the centre
 constexpr double inward = 1e-6;     ///< of a triangle, as an edge does not tell which of its sides a ball touches
 constexpr int most_steps = 10;
 constexpr std::size_t most_spaces = 8;
-constexpr int halvings = 8;      ///< to find the radius of a ball that fits
-constexpr double flat = 0.99996; ///< cosine of half a degree
+constexpr int halvings = 8;           ///< to find the radius of a ball that fits
+constexpr double flat = 0.99996;      ///< cosine of half a degree
+constexpr double unturned = 1 - 5e-7; ///< cosine of .06 degrees
 
 std::unique_ptr<TriangleTree> edge_tree(const Mesh& mesh, const std::vector<HardEdge>& edges, bool convex) {
     Mesh lines;
@@ -54,13 +55,15 @@ RollingBall::RollingBall(const MeshSurface& surface, const SmoothPatches& patche
       concave_(edge_tree(*surface.mesh, patches.edges(), false)),
       convex_reach_(reach_of(patches.edges(), true, radius)), concave_reach_(reach_of(patches.edges(), false, radius)),
       curved_(surface.triangles.size()) {
+    facets_.reserve(curved_.size());
+    for (const Triangle& t : surface.triangles) facets_.push_back(facet_normal(t));
     for (std::uint32_t t = 0; t < curved_.size(); ++t)
         for (const std::uint32_t corner : surface.triangles[t].corner)
-            curved_[t] |= glm::dot(facet_normal(t), Vec3d(patches.normals()[corner])) < flat;
+            curved_[t] |= glm::dot(facets_[t], Vec3d(patches.normals()[corner])) < flat;
 }
 
-Vec3d RollingBall::facet_normal(std::uint32_t triangle) const noexcept {
-    const auto& corner = surface_.triangles[triangle].corner;
+Vec3d RollingBall::facet_normal(const Triangle& triangle) const noexcept {
+    const auto& corner = triangle.corner;
     const Mesh& mesh = *surface_.mesh;
     const auto at = [&](std::size_t k) { return Vec3d(mesh.positions[mesh.corner_position[corner[k]]]); };
     return unit_or_zero(glm::cross(at(1) - at(0), at(2) - at(0)));
@@ -75,6 +78,11 @@ bool RollingBall::is_near_edge(const TriangleTree* edges, double reach, const Ve
     return is_near;
 }
 
+/// After the ball outside has rolled.
+Vec3d RollingBall::filleted(const Vec3d& p, const Vec3d& n, std::uint32_t patch, bool& fits) const noexcept {
+    return is_near_edge(concave_.get(), concave_reach_, p) ? -rounded({p, -n, -n, patch, Side::outside}, fits) : n;
+}
+
 RollingBall::Rounded RollingBall::at(std::uint32_t triangle, double b1, double b2) const noexcept {
     b1 += inward * (1.0 / 3 - b1), b2 += inward * (1.0 / 3 - b2);
     const auto& corner = surface_.triangles[triangle].corner;
@@ -86,22 +94,17 @@ RollingBall::Rounded RollingBall::at(std::uint32_t triangle, double b1, double b
     Rounded out{.normal = n};
     if (n == Vec3d(0)) return out;
     const std::uint32_t patch = patches_.of_face(surface_.triangles[triangle].face);
-    Vec3d lean(0); // of the two balls, as slopes over n, which add
-    const auto add = [&](const Vec3d& towards) {
-        const double up = glm::dot(towards, n);
-        lean += (towards - up * n) / std::max(up, 0.05);
-    };
-    if (is_near_edge(convex_.get(), convex_reach_, p)) add(rounded({p, n, patch, Side::inside}, out.fits));
-    if (is_near_edge(concave_.get(), concave_reach_, p)) add(-rounded({p, -n, patch, Side::outside}, out.fits));
-    out.tilted = glm::length(lean) > 1e-3;
-    out.normal = unit_or_zero(n + lean);
+    out.normal = filleted(p, n, patch, out.fits);
+    if (is_near_edge(convex_.get(), convex_reach_, p))
+        out.normal = rounded({p, n, out.normal, patch, Side::inside}, out.fits);
+    out.tilted = glm::dot(out.normal, n) < unturned;
     return out;
 }
 
 Vec3d RollingBall::rounded(const Place& place, bool& fits) const noexcept {
     if (const auto centre = settle(place, radius_)) return -glm::normalize(*centre);
     fits = false;
-    Vec3d best = place.n;
+    Vec3d best = place.turned;
     double least = 0, most = radius_;
     for (int i = 0; i < halvings; ++i) {
         const double radius = 0.5 * (least + most);
@@ -114,8 +117,8 @@ Vec3d RollingBall::rounded(const Place& place, bool& fits) const noexcept {
 
 std::optional<Vec3d> RollingBall::settle(const Place& place, double radius) const noexcept {
     std::array<HalfSpace, most_spaces> spaces;
-    std::array<std::uint32_t, most_spaces> of; // places in the tree
-    spaces[0] = {place.n, -radius}, of[0] = no_index;
+    std::array<Touch, most_spaces> of;
+    spaces[0] = {place.n, -radius}, of[0] = {no_index, place.p, place.n};
     std::size_t count = 1;
     Vec3d centre = -radius * place.n;
     for (int step = 0; step < most_steps; ++step) {
@@ -125,26 +128,42 @@ std::optional<Vec3d> RollingBall::settle(const Place& place, double radius) cons
         if (glm::dot(touch->m, place.n) < opposite) return {};
         // A curved triangle that was met before is met at a better point.
         std::size_t i = 1;
-        while (i < count && of[i] != touch->place) ++i;
+        while (i < count && of[i].place != touch->place) ++i;
         if (i == most_spaces) i = 1 + std::size_t(step) % (most_spaces - 1);
         count = std::max(count, i + 1);
-        spaces[i] = {touch->m, glm::dot(touch->m, touch->s - place.p) - radius}, of[i] = touch->place;
+        spaces[i] = {touch->m, glm::dot(touch->m, touch->s - place.p) - radius}, of[i] = *touch;
         const auto better = nearest_to_zero({spaces.data(), count}, 1e-7 * radius);
         if (!better || glm::length(*better) > farthest * radius) return {};
         centre = *better;
     }
-    return centre;
+    if (!concave_ || place.side == Side::outside) return centre;
+    // The same facets as the ball outside has left them.
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (glm::dot(spaces[i].a, centre) < spaces[i].c - enough * radius) continue;
+        const Vec3d m = i == 0 ? place.turned : turned(of[i]);
+        spaces[kept++] = {m, glm::dot(m, of[i].s - place.p) - radius};
+    }
+    return nearest_to_zero({spaces.data(), kept}, 1e-7 * radius);
+}
+
+Vec3d RollingBall::turned(const Touch& touch) const noexcept {
+    bool fits = true;
+    return filleted(touch.s, touch.m, patches_.of_face(surface_.triangles[tree_.index(touch.place)].face), fits);
 }
 
 std::optional<RollingBall::Touch> RollingBall::nearest_touch(const Place& place, const Vec3d& q,
                                                              double radius) const noexcept {
     NearestPoint best;
+    const double sign = place.side == Side::inside ? 1 : -1;
     const double within = (1 - enough) * radius;
     best.distance2 = within * within;
     const Vec3f low(q - radius), high(q + radius);
     tree_.touching(low, high, 0, [&](std::uint32_t i) {
         const std::uint32_t face = surface_.triangles[tree_.index(i)].face;
         if (!patches_.are_near(place.patch, patches_.of_face(face))) return;
+        // The ball on the other side of the edge rolls on facets that p lies in front of.
+        if (sign * glm::dot(facets_[tree_.index(i)], place.p - Vec3d(tree_.corners(i)[0])) > 1e-5 * radius_) return;
         const NearestPoint foot = tree_.nearest_of(i, q);
         if (foot.distance2 < best.distance2) best = foot;
     });
@@ -156,23 +175,26 @@ std::optional<RollingBall::Touch> RollingBall::nearest_touch(const Place& place,
 Vec3d RollingBall::tangent_normal(const Place& place, const Vec3d& q, std::uint32_t triangle,
                                   const NearestPoint& foot) const noexcept {
     const double sign = place.side == Side::inside ? 1 : -1;
-    if (curved_[triangle]) {
-        const auto& corner = surface_.triangles[triangle].corner;
-        const std::vector<Vec3f>& n = patches_.normals();
-        return sign * unit_or_zero(mixed(n[corner[0]], n[corner[1]], n[corner[2]], foot.b1, foot.b2));
+    if (curved_[triangle] || is_inside(foot)) {
+        Vec3d n = facets_[triangle];
+        if (curved_[triangle]) {
+            const auto& corner = surface_.triangles[triangle].corner;
+            const std::vector<Vec3f>& normals = patches_.normals();
+            n = unit_or_zero(mixed(normals[corner[0]], normals[corner[1]], normals[corner[2]], foot.b1, foot.b2));
+        }
+        return sign * n;
     }
-    if (is_inside(foot)) return sign * facet_normal(triangle);
     // On an edge or a corner that points to the ball, the surface is rounded; if the centre has left the body, it is to return.
     const Vec3d away = foot.point - q, mean = sign * mean_normal(foot.point, 1e-5 * radius_);
     const Vec3d m = glm::dot(away, mean) > 0 ? unit_or_zero(away) : mean;
-    return m == Vec3d(0) ? sign * facet_normal(triangle) : m;
+    return m == Vec3d(0) ? sign * facets_[triangle] : m;
 }
 
 /// Unit mean over the facets that a point belongs to.
 Vec3d RollingBall::mean_normal(const Vec3d& at, double within) const noexcept {
     Vec3d sum(0);
     tree_.touching(Vec3f(at - within), Vec3f(at + within), 0, [&](std::uint32_t i) {
-        if (tree_.nearest_of(i, at).distance2 <= within * within) sum += facet_normal(tree_.index(i));
+        if (tree_.nearest_of(i, at).distance2 <= within * within) sum += facets_[tree_.index(i)];
     });
     return unit_or_zero(sum);
 }
