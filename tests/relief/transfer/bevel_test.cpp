@@ -105,6 +105,40 @@ Mesh cylinder(int sides) {
     return mesh;
 }
 
+/// The prism over an outline, 1 high, each of its faces with a chart of its own.
+Mesh prism(const std::vector<Vec2d>& outline) {
+    const auto corners = std::uint32_t(outline.size());
+    std::vector<std::vector<std::uint32_t>> faces(2);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+        const std::uint32_t next = (i + 1) % corners;
+        faces[0].push_back(corners + i), faces[1].push_back(corners - 1 - i);
+        faces.push_back({i, next, corners + next, corners + i});
+    }
+    Mesh mesh;
+    for (const double z : {0.0, 1.0})
+        for (const Vec2d& p : outline) mesh.positions.emplace_back(p.x, p.y, z);
+    for (const auto& face : faces) {
+        const auto at = [&](std::size_t k) { return Vec3d(mesh.positions[face[k % face.size()]]); };
+        Vec3d n(0);
+        for (std::size_t k = 0; k < face.size(); ++k) n += glm::cross(at(k), at(k + 1));
+        n = glm::normalize(n);
+        const Vec3d u = glm::normalize(at(1) - at(0)), v = glm::cross(n, u);
+        Vec2d least(1e9);
+        for (std::size_t k = 0; k < face.size(); ++k)
+            least = glm::min(least, Vec2d(glm::dot(at(k), u), glm::dot(at(k), v)));
+        const std::size_t cell = mesh.faces();
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            mesh.corner_position.push_back(face[k]), mesh.corner_uv.push_back(std::uint32_t(mesh.uvs.size()));
+            mesh.corner_normal.push_back(std::uint32_t(mesh.normals.size()));
+            const Vec2d in_cell = Vec2d(glm::dot(at(k), u), glm::dot(at(k), v)) - least;
+            mesh.uvs.emplace_back((Vec2d(double(cell % 3), double(cell / 3)) + 0.05 + 0.45 * in_cell) / 3.0);
+        }
+        mesh.normals.emplace_back(n);
+        mesh.face_begin.push_back(std::uint32_t(mesh.corners()));
+    }
+    return mesh;
+}
+
 constexpr double radius = 0.2;
 const auto rounded = [](const Vec3d& p) { return oracle::RoundedBox{Vec3d(1), radius}.nearest(p).n; };
 
@@ -164,7 +198,7 @@ TEST_SUITE("oracle") {
         CHECK(thin.error([&](const Vec3d& p) { return largest.nearest(p).n; }).max < 0.5);
     }
 
-    TEST_CASE("bevel: both sides of an edge agree, of a box and of the rim of a smooth cylinder") {
+    TEST_CASE("bevel: both sides of an edge agree, of a box, of a bracket and of the rim of a smooth cylinder") {
         const auto seams = [](const Beveled& b) {
             return seam_disagreement(b.target, b.result.map, Space::tangent, false);
         };
@@ -172,6 +206,12 @@ TEST_SUITE("oracle") {
         CHECK(box.seams == 12);
         CHECK(box.mean < 0.05);
         CHECK(box.max < 1);
+        // A bracket, whose concave edge ends in convex ones.
+        const Beveled bracket(prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}), {}, radius, 512, 512);
+        CHECK(bracket.result.report.convex == 17);
+        CHECK(bracket.result.report.concave == 1);
+        CHECK(seams(bracket).mean < 0.15);
+        CHECK(seams(bracket).percentile_95 < 0.2);
         // Its sides have smooth normals and flat facets, which differ by half the angle between the facets.
         const SeamDisagreement coarse = seams(Beveled(cylinder(12), {}, radius, 512, 512)),
                                fine = seams(Beveled(cylinder(48), {}, radius, 512, 512));

@@ -11,6 +11,7 @@ constexpr int most_steps = 10;
 constexpr std::size_t most_spaces = 8;
 constexpr int halvings = 8;           ///< to find the radius of a ball that fits
 constexpr double flat = 0.99996;      ///< cosine of half a degree
+constexpr double same_point = 1e-5;   ///< of the radius
 constexpr double unturned = 1 - 5e-7; ///< cosine of .06 degrees
 
 std::unique_ptr<TriangleTree> edge_tree(const Mesh& mesh, const std::vector<HardEdge>& edges, bool convex) {
@@ -47,6 +48,7 @@ template <class T> Vec3d mixed(const T& a, const T& b, const T& c, double b1, do
 struct RollingBall::Touch {
     std::uint32_t place; ///< in the tree
     Vec3d s, m;          ///< the point, and the normal there, away from the balls
+    bool on_edge;        ///< the point lies on an edge of a flat triangle
 };
 
 RollingBall::RollingBall(const MeshSurface& surface, const SmoothPatches& patches, double radius)
@@ -118,7 +120,7 @@ Vec3d RollingBall::rounded(const Place& place, bool& fits) const noexcept {
 std::optional<Vec3d> RollingBall::settle(const Place& place, double radius) const noexcept {
     std::array<HalfSpace, most_spaces> spaces;
     std::array<Touch, most_spaces> of;
-    spaces[0] = {place.n, -radius}, of[0] = {no_index, place.p, place.n};
+    spaces[0] = {place.n, -radius}, of[0] = {no_index, place.p, place.n, false};
     std::size_t count = 1;
     Vec3d centre = -radius * place.n;
     for (int step = 0; step < most_steps; ++step) {
@@ -148,6 +150,7 @@ std::optional<Vec3d> RollingBall::settle(const Place& place, double radius) cons
 }
 
 Vec3d RollingBall::turned(const Touch& touch) const noexcept {
+    if (touch.on_edge) return mean_normal(touch.s, same_point * radius_); // where the ball outside leaves its middle
     bool fits = true;
     return filleted(touch.s, touch.m, patches_.of_face(surface_.triangles[tree_.index(touch.place)].face), fits);
 }
@@ -168,7 +171,9 @@ std::optional<RollingBall::Touch> RollingBall::nearest_touch(const Place& place,
         if (foot.distance2 < best.distance2) best = foot;
     });
     if (best.triangle == no_index) return {};
-    return Touch{best.triangle, best.point, tangent_normal(place, q, tree_.index(best.triangle), best)};
+    const std::uint32_t triangle = tree_.index(best.triangle);
+    return Touch{best.triangle, best.point, tangent_normal(place, q, triangle, best),
+                 !curved_[triangle] && !is_inside(best)};
 }
 
 /// Of what lies at the foot, the nearest point to q.
@@ -185,7 +190,7 @@ Vec3d RollingBall::tangent_normal(const Place& place, const Vec3d& q, std::uint3
         return sign * n;
     }
     // On an edge or a corner that points to the ball, the surface is rounded; if the centre has left the body, it is to return.
-    const Vec3d away = foot.point - q, mean = sign * mean_normal(foot.point, 1e-5 * radius_);
+    const Vec3d away = foot.point - q, mean = sign * mean_normal(foot.point, same_point * radius_);
     const Vec3d m = glm::dot(away, mean) > 0 ? unit_or_zero(away) : mean;
     return m == Vec3d(0) ? sign * facets_[triangle] : m;
 }
