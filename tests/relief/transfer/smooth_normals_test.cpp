@@ -95,11 +95,11 @@ TEST_SUITE("unit") {
         smooth_normals(planes, 0.2);
         for (std::size_t v = 0; v < planes.normals.size(); ++v)
             CHECK(glm::length(planes.normals[v] - Vec3f(0, 0, v < first ? 1 : -1)) < 1e-6f);
-        // Both sides of one triangle.
+        // Both sides of one square, split along different diagonals, so that rounding leaves something.
         Mesh leaf;
-        leaf.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
-        leaf.corner_position = {0, 1, 2, 2, 1, 0};
-        leaf.face_begin = {0, 3, 6};
+        leaf.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        leaf.corner_position = {0, 1, 2, 3, 3, 2, 1, 0};
+        leaf.face_begin = {0, 4, 8};
         smooth_normals(leaf, 0.2);
         for (const std::uint32_t normal : leaf.corner_normal) CHECK(normal == no_index);
     }
