@@ -23,7 +23,9 @@ TEST_SUITE("unit") {
                 CHECK(patches.are_near(a, b) == (a != b)); // opposite sides share four
         const Mesh room = turned_over(box);
         const MeshSurface inward = make_mesh_surface(room);
-        for (const HardEdge& edge : SmoothPatches(inward).edges()) CHECK_FALSE(edge.convex);
+        const SmoothPatches grooves(inward);
+        CHECK(grooves.edges().size() == 12);
+        for (const HardEdge& edge : grooves.edges()) CHECK_FALSE(edge.convex);
     }
 
     TEST_CASE("smooth_patches: boxes beside each other are not near; a smooth sphere is one patch without edges") {
