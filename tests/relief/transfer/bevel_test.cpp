@@ -196,6 +196,9 @@ TEST_SUITE("oracle") {
         CHECK(thin.result.report.narrow > 1000);
         const oracle::RoundedBox largest{Vec3d(1, 1, 0.1), 0.1};
         CHECK(thin.error([&](const Vec3d& p) { return largest.nearest(p).n; }).max < 0.5);
+        // Whatever the radius.
+        const Beveled huge(plate, {.space = Space::object}, 1e6, 96, 64);
+        CHECK(huge.error([&](const Vec3d& p) { return largest.nearest(p).n; }).max < 0.5);
     }
 
     TEST_CASE("bevel: both sides of an edge agree, of a box, of a bracket and of the rim of a smooth cylinder") {

@@ -9,10 +9,10 @@ constexpr double farthest = 6;      ///< radii from p to the centre
 constexpr double inward = 1e-6;     ///< of a triangle, as an edge does not tell which of its sides a ball touches
 constexpr int most_steps = 10;
 constexpr std::size_t most_spaces = 8;
-constexpr int halvings = 8;           ///< to find the radius of a ball that fits
-constexpr double flat = 0.99996;      ///< cosine of half a degree
-constexpr double same_point = 1e-5;   ///< of the radius
-constexpr double unturned = 1 - 5e-7; ///< cosine of .06 degrees
+constexpr int halvings = 8, most_halvings = 40; ///< to find the radius of a ball that fits
+constexpr double flat = 0.99996;                ///< cosine of half a degree
+constexpr double same_point = 1e-5;             ///< of the radius
+constexpr double unturned = 1 - 5e-7;           ///< cosine of .06 degrees
 
 std::unique_ptr<TriangleTree> edge_tree(const Mesh& mesh, const std::vector<HardEdge>& edges, bool convex) {
     Mesh lines;
@@ -52,11 +52,11 @@ struct RollingBall::Touch {
 };
 
 RollingBall::RollingBall(const MeshSurface& surface, const SmoothPatches& patches, double radius)
-    : surface_(surface), patches_(patches), radius_(radius), tree_(*surface.mesh, surface.triangles),
-      convex_(edge_tree(*surface.mesh, patches.edges(), true)),
+    : surface_(surface), patches_(patches), radius_(std::min(radius, diagonal(bounds(*surface.mesh)))),
+      tree_(*surface.mesh, surface.triangles), convex_(edge_tree(*surface.mesh, patches.edges(), true)),
       concave_(edge_tree(*surface.mesh, patches.edges(), false)),
-      convex_reach_(reach_of(patches.edges(), true, radius)), concave_reach_(reach_of(patches.edges(), false, radius)),
-      curved_(surface.triangles.size()) {
+      convex_reach_(reach_of(patches.edges(), true, radius_)),
+      concave_reach_(reach_of(patches.edges(), false, radius_)), curved_(surface.triangles.size()) {
     facets_.reserve(curved_.size());
     for (const Triangle& t : surface.triangles) facets_.push_back(facet_normal(t));
     for (std::uint32_t t = 0; t < curved_.size(); ++t)
@@ -108,11 +108,13 @@ Vec3d RollingBall::rounded(const Place& place, bool& fits) const noexcept {
     fits = false;
     Vec3d best = place.turned;
     double least = 0, most = radius_;
-    for (int i = 0; i < halvings; ++i) {
+    // Until a ball fits, and some steps more.
+    for (int i = 0, fitting = 0; i < most_halvings && fitting < halvings; ++i) {
         const double radius = 0.5 * (least + most);
         const auto centre = settle(place, radius);
         if (centre) best = -glm::normalize(*centre), least = radius;
         else most = radius;
+        fitting += least > 0;
     }
     return best;
 }

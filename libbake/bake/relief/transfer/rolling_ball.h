@@ -17,7 +17,8 @@ namespace bake {
 
 class RollingBall {
 public:
-    /// The arguments must outlive the object. `radius`: above 0, object units.
+    /// The arguments must outlive the object. `radius`: above 0, object units; at most the diagonal of the mesh is
+    /// used.
     RollingBall(const MeshSurface& surface, const SmoothPatches& patches, double radius);
 
     struct Rounded {
