@@ -8,7 +8,7 @@
 namespace bake {
 namespace {
 
-constexpr int rounds = 10, steps = 2;     ///< of smoothing; after each round distances are raised to what is needed
+constexpr int rounds = 10, steps = 2;    ///< of smoothing; after each round distances are raised to what is needed
 constexpr std::size_t high_valence = 64; ///< faces at a vertex, from which on add_face() takes too long
 constexpr double least_cosine = 0.35;    ///< as in measured_reach()
 
