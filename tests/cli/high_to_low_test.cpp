@@ -237,11 +237,13 @@ TEST_SUITE("cli") {
         check_refused(folder, {"normal-map", "--high", "high.obj", "-o", "n.png"}, 2,
                       "--high: needs the low-poly mesh");
         for (const Strings& more : {Strings{"--cage", "low.obj"},
+                                    {"--cage-out", "c.ply"},
                                     {"--extrude", "1"},
                                     {"--max-distance", "1"},
                                     {"--rays", "2"},
                                     {"--high-normals", "facet"},
                                     {"--max-error-deg", "1"},
+                                    {"--high-smooth", "1%"},
                                     {"--cast", "face"},
                                     {"--maps", "height"},
                                     {"--maps-out", "m"},
@@ -257,7 +259,16 @@ TEST_SUITE("cli") {
         check_refused(folder, command({"--maps-out", "m"}), 2, "--maps, --maps-out: belong together");
         check_refused(folder, command({"--maps", "hight", "--maps-out", "m"}), 2, "'hight' is no map; choose from");
         check_refused(folder, command({"--cage", "low.obj", "--extrude", "1"}), 2, "--cage: brings its own distances");
+        for (const Strings& more : {Strings{"--cage", "low.obj"}, {"--extrude", "1"}})
+            check_refused(folder, command({"--cage-out", "c.ply", more[0], more[1]}), 2,
+                          "--cage-out: writes the automatic envelope");
+        check_refused(folder, command({"--cage-out", "c.glb"}), 2, "--cage-out: name a file that ends in .ply or .obj");
+        check_refused(folder, command({"--cage-out", "c_<UDIM>.ply"}), 2, "--cage-out c_<UDIM>.ply: <UDIM> stands");
+        check_refused(folder, command({"--cage-out", "low.obj"}), 2, "would replace a file");
         check_refused(folder, command({"--max-distance", "1"}), 2, "--max-distance: counts from where rays start");
+        check_refused(folder, command({"--high-smooth", "1", "--high-normals", "facet"}), 2,
+                      "--high-smooth, --high-normals facet: facets have one normal each");
+        check_refused(folder, command({"--high-smooth", "0"}), 2, "--high-smooth");
         for (const char* option : {"--extent=1,1", "--amplitude=1", "--method=blinn", "--wrap=clamp", "--invert"})
             check_refused(folder, command({option}), 2, "leave it out with --high");
         check_refused(folder, command({}, "low.obj", dots), 3, "dots.png: is a picture, where a mesh is expected");
@@ -273,6 +284,10 @@ TEST_SUITE("cli") {
         check_refused(folder, {"normal-map", "low.obj", "--high", "high.obj", "-o", "none/n.png"}, 5,
                       "none/n.png: cannot be written");
         check_refused(folder, command({"--maps", "height,id", "--maps-out", "none/m"}), 5, "none/m_height.exr: cannot");
+        check_refused(folder, command({"--cage-out", "none/c.ply"}), 5, "none/c.ply: cannot be written");
+        check_refused(folder,
+                      {"normal-map", "low.obj", "--high", "high.obj", "-o", "none/n.png", "--cage-out", "c.ply"}, 5,
+                      "none/n.png: cannot be written");
         check_refused(folder, command({"--debug-rays", "none/d.glb"}), 5, "none/d.glb: cannot be written");
         // What was there stays as it was.
         good(folder, command({"--quiet"}));

@@ -3,6 +3,7 @@
 #include "inputs/choice.h"
 #include "inputs/file_kind.h"
 #include "inputs/name_list.h"
+#include "inputs/tile_names.h"
 
 namespace bake {
 namespace {
@@ -23,6 +24,9 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     sub.add_option("--cage", args.cage,
                    "The first mesh with its faces pushed out: rays start there [automatic, from the meshes' distance]")
         ->type_name("MESH");
+    sub.add_option("--cage-out", args.cage_out,
+                   "The automatic envelope as such a mesh, to be edited and given to --cage")
+        ->type_name("OUT.ply");
     add_choice<bool>(sub, "--match-names", args.match_names, {{"yes", true}, {"no", false}},
                      "Parts take detail from the parts of their name alone: low_wheel from high_wheel");
     add_length_option(sub, "--extrude", args.extrude, "Rays start this far outside of the first mesh [automatic]");
@@ -39,6 +43,8 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
         {{"smooth", HighNormals::smooth}, {"curved", HighNormals::curved}, {"facet", HighNormals::facet}},
         "Normals of the meshes of --high: as they are shaded, with the curvature between corners, or of "
         "facets");
+    add_length_option(sub, "--high-smooth", args.smooth,
+                      "Smooths the normals of --high over this length, as stairs of voxels need");
     add_choice<CastBy>(
         sub, "--cast", args.cast, {{"blend", CastBy::blend}, {"averaged", CastBy::averaged}, {"face", CastBy::face}},
         "Directions of rays: averaged at hard edges and perpendicular elsewhere, averaged, or of facets");
@@ -61,9 +67,9 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
         ->type_name("OUT.glb");
     sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
-    for (const char* flag :
-         {"--cage", "--match-names", "--extrude", "--max-distance", "--rays", "--max-error-deg", "--high-normals",
-          "--cast", "--maps", "--maps-out", "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
+    for (const char* flag : {"--cage", "--cage-out", "--match-names", "--extrude", "--max-distance", "--rays",
+                             "--max-error-deg", "--high-normals", "--high-smooth", "--cast", "--maps", "--maps-out",
+                             "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 
@@ -77,17 +83,28 @@ void complete(const HighArgs& args) {
     if (args.max_error_deg && args.rays == 1)
         throw usage(
             "--max-error-deg: adds rays to texels, and --rays 1 allows one alone; leave out --rays or give more");
+    if (args.smooth && args.normals == HighNormals::facet)
+        throw usage("--high-smooth, --high-normals facet: facets have one normal each; leave one of the two out");
     if (!args.cage.empty() && (args.extrude || args.max_distance))
         throw usage("--cage: brings its own distances; leave out --extrude and --max-distance");
+    if (!args.cage_out.empty()) {
+        if (!args.cage.empty() || args.extrude)
+            throw usage("--cage-out: writes the automatic envelope; leave out --cage and --extrude");
+        const MeshFormat format = mesh_format(args.cage_out);
+        if (format != MeshFormat::obj && format != MeshFormat::ply)
+            throw usage(
+                "--cage-out: name a file that ends in .ply or .obj; glTF has no faces of more than three corners");
+        expect_one_file("--cage-out", args.cage_out, "all tiles share one cage");
+    }
     if (args.max_distance && !args.extrude)
         throw usage("--max-distance: counts from where rays start; give --extrude too");
 }
 
-void refuse_height_options(const CLI::App& sub, const HighArgs& args) {
+void refuse_height_options(const CLI::App& sub, const std::string& instead) {
     for (const char* flag : {"--amplitude", "--midlevel", "--method", "--filter", "--wrap", "--wrap-u", "--wrap-v",
                              "--channel", "--invert", "--dequantise", "--extent", "--residual-of"})
-        if (args.given() && sub.count(flag) > 0)
-            throw Error(Refusal::usage, std::string(flag) + ": belongs to a height; leave it out with --high");
+        if (sub.count(flag) > 0)
+            throw Error(Refusal::usage, std::string(flag) + ": belongs to a height; leave it out with " + instead);
 }
 
 } // namespace bake

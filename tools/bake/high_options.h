@@ -7,11 +7,12 @@ namespace bake {
 
 struct HighArgs {
     std::vector<std::string> paths;
-    std::string cage;
+    std::string cage, cage_out;
     std::optional<Length> extrude, max_distance;
     std::optional<int> rays;             ///< along each side of a texel
     std::optional<double> max_error_deg; ///< of the mean over a texel
     HighNormals normals = HighNormals::smooth;
+    std::optional<Length> smooth; ///< of the normals, before the bake
     CastBy cast = CastBy::blend;
     bool strict = false, alpha = false, match_names = false;
     std::string debug_rays;
@@ -28,7 +29,7 @@ inline constexpr int default_rays = 1, most_rays_by_default = 8; ///< without an
 void add_high_options(CLI::App& sub, HighArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other.
 void complete(const HighArgs& args);
-/// Throws Error{Refusal::usage} for an option of a height beside --high.
-void refuse_height_options(const CLI::App& sub, const HighArgs& args);
+/// Throws Error{Refusal::usage} for an option of a height beside `instead`, as in --high.
+void refuse_height_options(const CLI::App& sub, const std::string& instead);
 
 } // namespace bake

@@ -1,4 +1,5 @@
 #include "high_report.h"
+#include "raster_notes.h"
 #include <algorithm>
 
 namespace bake {
@@ -76,6 +77,9 @@ std::string to_text(const HighReport& report) {
     if (options.max_error_deg > 0 && r.hit > 0)
         text += format("\n%.3g rays for each texel of the charts, up to %d, for means to %.3g deg",
                        double(r.rays) / double(r.hit + r.missed), options.rays * options.rays, options.max_error_deg);
+    if (!report.args.high.cage_out.empty())
+        text += "\nenvelope written as a cage to " + printable(report.args.high.cage_out);
+    if (report.smooth > 0) text += format("\nnormals of the high-poly mesh smoothed over %.4g", report.smooth);
     text += format("\ncharts cover %.1f %% of the map; %.2f %% of their texels find no detail; %.1f %% padded, %.1f %% "
                    "left flat",
                    share(r.hit + r.missed + r.unmatched, texels), share(r.missed, r.hit + r.missed + r.unmatched),
@@ -112,7 +116,11 @@ nlohmann::json to_json(const HighReport& report) {
             {"height", options.height},
             {"space", options.space == Space::tangent ? "tangent" : "object"},
             {"green", options.directx ? "down" : "up"},
-            {"high", {{"meshes", report.args.high.paths}, {"triangles", totals.triangles}}},
+            {"high",
+             {{"meshes", report.args.high.paths},
+              {"triangles", totals.triangles},
+              {"smooth", report.smooth},
+              {"cage_out", report.args.high.cage_out}}},
             {"reach", {{"front", totals.front}, {"back", totals.back}}},
             {"hard_edges", totals.hard_edges},
             {"rays", r.rays},
@@ -174,14 +182,7 @@ std::vector<std::string> notes_of(const HighReport& report) {
     }
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");
-    say(report.target.raster.overlapped, "texels lie in more than one face; the lowest face was baked");
-    // One map per tile leaves nothing out.
-    if (!report.all_tiles) say(report.target.raster.outside_faces, "faces lie outside the tile and were not baked");
-    say(report.target.raster.crossing_faces, "faces leave the tile; only their part inside was baked");
-    say(report.target.raster.degenerate, "triangles have no area in uv and were not baked");
-    if (!report.target.raster.tiles.empty())
-        out.push_back(low + ": its charts lie in " + report.target.raster.tiles +
-                      " of the uvs' tiles and are baked modulo 1");
+    for (std::string& line : notes_of(report.target.raster, low, report.all_tiles)) out.push_back(std::move(line));
     return out;
 }
 

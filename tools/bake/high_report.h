@@ -18,6 +18,7 @@ struct HighReport {
     Percentiles density, centre;      ///< texels per unit; degrees, of a bake with one ray
     const NameMatch* match = nullptr; ///< under --match-names
     bool all_tiles = false;           ///< whether this is the map of one tile of all
+    double smooth = 0;                ///< length over which the normals of the high-poly meshes were smoothed; 0: not
     std::vector<Witness> witnesses;   ///< misses, then the farthest texels
 };
 

@@ -1,7 +1,9 @@
 #include "high_to_low.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/relief/transfer/cage.h"
 #include "bake/relief/transfer/debug_rays.h"
 #include "bake/relief/transfer/reach.h"
+#include "bake/relief/transfer/smooth_normals.h"
 #include "high_report.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
@@ -13,12 +15,11 @@
 namespace bake {
 namespace {
 
-constexpr int default_size = 1024;
 constexpr std::size_t most_witnesses = 8;
 
 TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
     TransferOptions options;
-    std::tie(options.width, options.height) = args.size.value_or(std::pair(default_size, default_size));
+    std::tie(options.width, options.height) = args.size.value_or(std::pair(default_map_size, default_map_size));
     options.space = args.space, options.directx = args.directx;
     options.padding = args.padding, options.tile = args.tile;
     options.max_error_deg = args.high.max_error_deg.value_or(0);
@@ -113,6 +114,12 @@ public:
     };
     /// `args`: those of the constructor, with the names of one tile.
     Baked bake(const NormalMapArgs& args);
+    /// Under --cage-out.
+    void write_cage() const {
+        if (args_.high.cage_out.empty()) return;
+        write_mesh(args_.high.cage_out, envelope_cage(surface_, sources_));
+        watch_.lap("cage");
+    }
 
 private:
     void add_source(std::vector<HighMesh> meshes, std::span<const std::uint8_t> faces = {}) {
@@ -166,6 +173,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
                       .result = result.report,
                       .match = match_ ? &*match_ : nullptr,
                       .all_tiles = names_tiles(args_.out)};
+    if (args.high.smooth) report.smooth = args.high.smooth->in_units(diagonal(bounds(low_)));
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
     report.density = texel_density(target, options.width, options.height);
     if (options.rays == 1) report.centre = centre_error(result, options.space, options.directx);
@@ -205,8 +213,14 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     take_notes(args.mesh, low);
     for (const HighMesh& high : meshes) take_notes(high.name, high.mesh);
     watch.lap("read");
+    if (args.high.smooth) {
+        for (HighMesh& high : meshes) smooth_normals(high.mesh, args.high.smooth->in_units(diagonal(bounds(low))));
+        watch.lap("smoothing");
+    }
+    if (!args.high.cage_out.empty()) const OutputFile writable(args.high.cage_out);
     HighBake bake(args, depth, low, std::move(meshes), progress, watch, is_visible(common));
     const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
+    bake.write_cage();
     std::string text;
     std::int64_t missed = 0;
     nlohmann::json tiles = nlohmann::json::array();

@@ -1,5 +1,6 @@
 #include "normal_map_options.h"
 #include "bake/picture/texture_file.h"
+#include "bevel_bake.h"
 #include "inputs/file_kind.h"
 #include "inputs/tile_names.h"
 
@@ -7,7 +8,7 @@ namespace bake {
 
 void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
     add_height_path(sub, "--height", args.height);
-    add_size_option(sub, args.size, "Texels of the map [those of the height; with --high 1024]");
+    add_size_option(sub, args.size, "Texels of the map [those of the height; with --high and --bevel 1024]");
     std::vector<std::pair<std::string, NormalMethod>> methods;
     for (const NormalMethod method : all_normal_methods) methods.emplace_back(name(method), method);
     methods.emplace_back("lecture", NormalMethod::constant_scale); // its earlier name
@@ -22,6 +23,8 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
 }
 
 void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
+    add_integer_option(sub, "--padding", args.padding, 0, 4096, "Texels filled beyond the charts' borders")
+        ->default_str(std::to_string(args.padding));
     add_choice<MapDepth>(sub, "--depth", args.depth,
                          {{"auto", MapDepth::automatic},
                           {"8", MapDepth::u8},
@@ -91,7 +94,9 @@ Depth resolve_map_depth(const NormalMapArgs& args) {
 void complete(NormalMapArgs& args, const std::string& verb) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     complete(args.high);
-    if (args.high.given()) {
+    if (args.bevel) {
+        complete_bevel(args, verb);
+    } else if (args.high.given()) {
         if (args.mesh.empty())
             throw usage("--high: needs the low-poly mesh; name it first, as in bake " + verb + " LOW --high HIGH");
         if (!args.height.path.empty())
@@ -105,7 +110,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
                         (args.mesh.empty() ? "" : " " + args.mesh) + " --height bricks.png");
         std::swap(args.height.path, args.mesh);
     }
-    if (!args.high.given()) expect_picture(args.height.path);
+    if (!args.high.given() && !args.bevel) expect_picture(args.height.path);
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");

@@ -9,6 +9,9 @@ namespace bake {
 /// How the map's file stores its samples.
 enum class MapDepth { automatic, u8, u16, half, float32, bc5 };
 
+/// Texels of a map that takes no size from a height.
+inline constexpr int default_map_size = 1024;
+
 struct NormalMapArgs {
     std::string mesh, out;
     std::string displaced; ///< --residual-of
@@ -16,7 +19,8 @@ struct NormalMapArgs {
     std::optional<std::pair<int, int>> size;
     MeshOptions read;
     HeightInput height;
-    HighArgs high; ///< instead of a height
+    HighArgs high;               ///< instead of a height
+    std::optional<Length> bevel; ///< radius of rounded edges, instead of both
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
@@ -30,7 +34,7 @@ struct NormalMapArgs {
 
 /// The options that the normal of one texel depends on.
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
-/// --depth, --dither, --skip-mips, --roughness-map and --roughness.
+/// --padding, --depth, --dither, --skip-mips, --roughness-map and --roughness.
 void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.

@@ -1,5 +1,6 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "bake/relief/map/residual_map.h"
+#include "bevel_bake.h"
 #include "high_to_low.h"
 #include "inputs/tile_names.h"
 #include "normal_map_output.h"
@@ -87,6 +88,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     const Depth depth = resolve_map_depth(args);
     complete(args, "normal-map");
     if (args.high.given()) return bake_high(args, depth, common);
+    if (args.bevel) return bake_bevel(args, depth, common);
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
@@ -126,12 +128,11 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                       "name: one for each tile");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
+    add_bevel_option(sub, *args);
     sub.add_option("--residual-of", args->displaced,
                    "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
         ->type_name("DISPLACED.glb");
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
-    add_integer_option(sub, "--padding", args->padding, 0, 4096, "Texels filled beyond the charts' borders")
-        ->default_str(std::to_string(args->padding));
     add_texture_options(sub, *args);
     add_examples(
         sub,
@@ -143,7 +144,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% --residual-of displaced.glb -o "
         "detail.png\n");
     return [args, &common, &sub] {
-        refuse_height_options(sub, args->high);
+        if (args->high.given() || args->bevel) refuse_height_options(sub, args->bevel ? "--bevel" : "--high");
         return run(*args, common);
     };
 }
