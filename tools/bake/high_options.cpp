@@ -32,10 +32,10 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_length_option(sub, "--extrude", args.extrude, "Rays start this far outside of the first mesh [automatic]");
     add_length_option(sub, "--max-distance", args.max_distance,
                       "Length of the rays [with --extrude twice that, else automatic]");
-    add_integer_option(sub, "--rays", args.rays, 1, 16,
-                       format("Rays along each side of a texel, K x K in all; with --max-error-deg at most [%d; with "
-                              "--max-error-deg %d]",
-                              default_rays, most_rays_by_default));
+    add_integer_option(
+        sub, "--rays", args.rays, 1, 16,
+        format("Rays along each side of a texel; with --max-error-deg the most [%d; %d with --max-error-deg]",
+               default_rays, most_rays_by_default));
     add_number_option(sub, "--max-error-deg", args.max_error_deg, 1e-4, 180,
                       "Rays are added to a texel until its mean is known to so many degrees [all texels get K x K]");
     add_choice<HighNormals>(

@@ -75,8 +75,8 @@ std::string to_text(const HighReport& report) {
                options.directx ? "down (DirectX)" : "up (OpenGL)", totals.triangles, static_cast<long long>(r.rays),
                source_of_reach(report.args.high), double(totals.front), double(totals.back));
     if (options.max_error_deg > 0 && r.hit > 0)
-        text += format("\n%.3g rays for each texel of the charts, up to %d, for means to %.3g deg",
-                       double(r.rays) / double(r.hit + r.missed), options.rays * options.rays, options.max_error_deg);
+        text += format("\n%.3g rays for each texel of the charts, for means to %.3g deg",
+                       double(r.rays) / double(r.hit + r.missed), options.max_error_deg);
     if (!report.args.high.cage_out.empty())
         text += "\nenvelope written as a cage to " + printable(report.args.high.cage_out);
     if (report.smooth > 0) text += format("\nnormals of the high-poly mesh smoothed over %.4g", report.smooth);

@@ -63,7 +63,10 @@ double rays_of(const TransferOptions& options) {
         return std::find(options.details.maps.begin(), options.details.maps.end(), map) != options.details.maps.end();
     };
     const bool sky = asks(DetailMap::ambient_occlusion) || asks(DetailMap::bent_normal);
-    const double casts = double(options.width) * options.height * options.rays * options.rays;
+    constexpr double usual = 8; // rays of a texel that gets as many as it needs
+    const double rays = double(options.rays) * options.rays;
+    const double casts =
+        double(options.width) * options.height * (options.max_error_deg > 0 ? std::min(usual, rays) : rays);
     return casts * (sky ? 1 + options.details.sky_rays : 1);
 }
 

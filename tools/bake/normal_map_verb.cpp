@@ -62,8 +62,9 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     }
     const HeightField field(in.height, options.height_options, options.filter, options.width, options.height);
     progress.start("bake", options.height);
-    if (target) bake_mesh(in.height, field, *target, displaced, depth, progress, result);
-    else bake_plane(args, in.height, field, depth, progress, result);
+    const Depth judged = args.dither ? Depth::float32 : depth; // what dithering costs is measured in the file
+    if (target) bake_mesh(in.height, field, *target, displaced, judged, progress, result);
+    else bake_plane(args, in.height, field, judged, progress, result);
     progress.finish();
     watch.lap("bake");
     set_stored(result, file.write(result.map));

@@ -245,7 +245,7 @@ bool Bvh::occluded(const Ray& ray) const noexcept {
 }
 
 /// `filter`: asked about each triangle, or null. Hits of rays that are not active stay. Returns the rays that hit the back of a
-/// triangle; only where a ray is parallel to one does that need more digits than Embree's own normal has.
+/// triangle. Where a ray is nearly parallel to the triangle, Embree's own normal has too few digits to tell.
 PacketMask Bvh::Impl::intersect(std::span<const Ray, packet_size> rays, PacketMask active,
                                 std::span<Hit, packet_size> hits, RTCFilterFunctionN filter) const noexcept {
     constexpr float parallel = 1e-3f;

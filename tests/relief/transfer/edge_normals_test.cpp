@@ -45,7 +45,7 @@ double error_of(int n, bool curved) {
             if (std::min({p.x, p.y, 1 - p.x, 1 - p.y}) < 0.15f) continue;
             const auto n_of = [&](int k) { return normals[triangles[t].corner[k]]; };
             const Vec3f found = curved ? curved_normal({n_of(0), n_of(1), n_of(2)}, edges[t], b1, b2)
-                                   : glm::normalize(b0 * n_of(0) + b1 * n_of(1) + b2 * n_of(2));
+                                       : glm::normalize(b0 * n_of(0) + b1 * n_of(1) + b2 * n_of(2));
             most = std::max(most, oracle::angle_deg(Vec3d(found), normal_near(Vec3d(p))));
         }
     }
@@ -86,6 +86,25 @@ TEST_SUITE("unit") {
         const std::vector<EdgeNormals> edges = edge_normals(mesh, triangles, normals);
         for (std::size_t t = 0; t < triangles.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k) CHECK((edges[t][k] == normals[triangles[t].corner[0]]));
+    }
+
+    TEST_CASE("edge_normals: a zero of either sign is the same") {
+        const auto cylinder = [](bool signs) {
+            Mesh mesh;
+            add_patch(mesh, 24, 4, [](double s, double t) {
+                const double a = 2 * pi * s;
+                return PatchPoint{{std::cos(a), std::sin(a), t}, {std::cos(a), std::sin(a), 0}, {}};
+            });
+            std::vector<Vec3f> normals; // one for each corner
+            for (std::size_t c = 0; c < mesh.corners(); ++c) {
+                normals.push_back(mesh.normals[mesh.corner_normal[c]]);
+                if (signs && c / 4 % 2 == 1) normals.back().z = -0.0f;
+            }
+            return edge_normals(mesh, triangulate(mesh), normals);
+        };
+        const std::vector<EdgeNormals> one = cylinder(false), both = cylinder(true);
+        for (std::size_t t = 0; t < one.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) CHECK((one[t][k] == both[t][k]));
     }
 
     TEST_CASE("edge_normals: corners without a normal and triangles without area give finite normals") {

@@ -5,7 +5,7 @@
 namespace bake {
 
 /// Values in [0, 1] of any channels, each rounded up or down to a multiple of 1 / 255 so that the mean over neighbours is that of
-/// the values. The pattern is the interleaved gradient noise of Jimenez, Next Generation Post Processing in Call of Duty:
+/// the values. A value between two levels that is the same everywhere becomes a pattern of both. The pattern is the interleaved gradient noise of Jimenez, Next Generation Post Processing in Call of Duty:
 /// Advanced Warfare, SIGGRAPH 2014, another part of it for each channel.
 Image<float> dithered(const Image<float>& map);
 /// Each value rounded to the nearest multiple, as a file of 8 bits stores it.

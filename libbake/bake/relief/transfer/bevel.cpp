@@ -38,7 +38,7 @@ public:
 
 private:
     Vec3f in_map(const TexelHit& at, const RollingBall::Rounded& rounded) const noexcept {
-        return MapFrame(target_, at, options_.space).in_map(Vec3f(rounded.normal));
+        return MapFrame(target_, at.triangle, options_.space).in_map(Vec3f(rounded.normal), at);
     }
     /// As in a bake from high-poly meshes: what a bilinear filter reads on the border is then right on both sides of a seam.
     Vec3f beyond_border(const TexelHit& edge, int x, int y, const Vec3f& at_edge) const noexcept {

@@ -96,8 +96,8 @@ Mesh debug_rays(const BakeTarget& target, const TransferSources& sources, const 
         for (int x = step / 2; x < width; x += step) {
             const TexelHit& at = target.raster.hits.at(x, y);
             if (result.states.at(x, y) != TexelState::hit || at.triangle == no_index) continue;
-            const TransferSource& source = *sources.of(target.surface.triangles[at.triangle].face);
-            draw_cast(source.casting->at(at), *source.high, rays, out);
+            if (const TransferSource* const source = sources.of(target.surface.triangles[at.triangle].face))
+                draw_cast(source->casting->at(at), *source->high, rays, out);
         }
     for (const Witness& witness : witnesses)
         if (const TransferSource* const source = sources.of(witness.face); source && witness.state != TexelState::hit)

@@ -7,8 +7,7 @@
 namespace bake {
 namespace {
 
-constexpr float most_correction =
-    0.35f; ///< of the mean of two ends, about 20 degrees: what is more is no smooth surface
+constexpr float most_correction = 0.35f; ///< of the mean of two ends, about 20 degrees; a smooth surface needs less
 
 /// The sums of a least squares fit at an end: differences of normals as a linear function of the way in the tangent plane. Long
 /// edges count most, so that a narrow bevel does not bend the wide face beside it.
@@ -29,6 +28,9 @@ struct Fit {
         return ((yy * at.x - xy * at.y) * x + (xx * at.y - xy * at.x) * y) / determinant;
     }
 };
+
+/// The same for 0 and -0, which are one normal here and turn a Frame over.
+Frame frame_of(const Vec3f& n) noexcept { return Frame(n + Vec3f(0)); }
 
 /// Whether an edge lies in a flat face: both ends have one normal, to which it is perpendicular.
 bool is_flat(const Vec3f& a, const Vec3f& b, const Vec3f& way) noexcept {
@@ -59,7 +61,7 @@ std::vector<EdgeNormals> edge_normals(const Mesh& mesh, const std::vector<Triang
         const std::uint32_t begin = mesh.face_begin[f], count = mesh.face_begin[f + 1] - begin;
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t from = begin + i;
-            const Frame frame(normals[from]);
+            const Frame frame = frame_of(normals[from]);
             // All corners of a quad: how it is cut into triangles must not matter. Of large faces the next ones.
             for (const std::uint32_t step : {1u, 2u, count - 1}) {
                 if (step >= count || (step == 2 && count != 4)) continue;
@@ -74,8 +76,8 @@ std::vector<EdgeNormals> edge_normals(const Mesh& mesh, const std::vector<Triang
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = triangles[t].corner[k], b = triangles[t].corner[(k + 1) % 3];
                 const Vec3f way = position(b) - position(a);
-                Vec3f more = (fits[ends.number[a]].along(Frame(normals[a]), way) -
-                              fits[ends.number[b]].along(Frame(normals[b]), way)) /
+                Vec3f more = (fits[ends.number[a]].along(frame_of(normals[a]), way) -
+                              fits[ends.number[b]].along(frame_of(normals[b]), way)) /
                              8.0f;
                 const bool smooth = glm::dot(more, more) < most_correction * most_correction;
                 if (!smooth || is_flat(normals[a], normals[b], way)) more = Vec3f(0);

@@ -6,7 +6,8 @@ namespace bake {
 namespace {
 
 constexpr float wider_front = 2, wider_back = 3; ///< reaches of the second try, as multiples of the first
-constexpr int far_rows = 4; ///< so many rows have one texel in TexelCaster::far(); divides those of a task
+constexpr int far_rows = 4;                      ///< so many rows have one texel in TexelCaster::far()
+static_assert(PlaceRaster::band_rows % far_rows == 0, "two threads would write to one element");
 
 Ray ray_of(const Cast& cast, float front, float back) noexcept {
     Ray ray{cast.start - (front - 1) * cast.reach.front * cast.inward, cast.inward};
@@ -51,7 +52,8 @@ void TexelCaster::clear(int x, int y) noexcept {
 void TexelCaster::add(const TexelSample& sample, const TexelHit& at, RayPacket& packet, CastCounts& counts) noexcept {
     const TransferSource* const source = sources_.of(target_.surface.triangles[at.triangle].face);
     if (!source) {
-        out_.states.at(sample.x, sample.y) = TexelState::unmatched;
+        TexelState& state = out_.states.at(sample.x, sample.y);
+        if (state == TexelState::outside) state = TexelState::unmatched;
         return;
     }
     if (packet.count == packet_size || (packet.count > 0 && source != packet.source)) flush(packet, counts);
@@ -108,16 +110,17 @@ void TexelCaster::trace(RayPacket& packet, CastCounts& counts) const noexcept {
     }
 }
 
-/// A ray that finds nothing because it sees the low-poly mesh from behind is cast again from the front.
+/// A ray that finds nothing in the second try because it sees the low-poly mesh from behind is cast again from the front, as far.
 void TexelCaster::turn_to_facet(RayPacket& packet, std::size_t lane, CastCounts& counts) const noexcept {
     const std::optional<Cast> cast = packet.source->casting->facing(packet.at[lane]);
     if (!cast) return;
-    const Ray ray = ray_of(*cast, 1, 1);
+    const Ray ray = ray_of(*cast, wider_front, wider_back);
     const Hit hit = packet.source->high->land(ray);
     ++counts.rays;
     if (!hit) return;
+    ++counts.wider;
     packet.cast[lane] = *cast, packet.rays[lane] = ray, packet.hits[lane] = hit;
-    packet.start[lane] = cast->reach.front;
+    packet.start[lane] = wider_front * cast->reach.front;
 }
 
 /// Where both meshes end at the same place, a ray on the border of a chart can pass beside the high-poly mesh by a rounding. It is

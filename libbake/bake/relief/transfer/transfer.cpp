@@ -21,6 +21,8 @@ constexpr double differences_of_centre = 15, differences_of_rules = 2.5;
 /// texels long.
 constexpr float curvature_safety = 2.2f;
 
+constexpr unsigned char all_rays = 2; ///< of an open texel: it needs the rays of the last rule
+
 /// Length of the chord of an angle between unit vectors; it keeps the digits of small angles.
 double chord_of(double degrees) noexcept { return 2 * std::sin(std::min(180.0, degrees) * std::numbers::pi / 360); }
 
@@ -50,7 +52,7 @@ std::vector<Place> radon_rule() {
 }
 
 /// What follows on one ray for each texel: nothing, the rule of all texels, or with an error that is asked for rules of more and
-/// more rays, each for what the rules before it do not agree on.
+/// more rays, each for the texels on which the two rules before it do not agree.
 std::vector<std::vector<Place>> rules_of(const TransferOptions& options) {
     std::vector<std::vector<Place>> rules;
     if (options.max_error_deg > 0) {
@@ -102,6 +104,7 @@ private:
     void cast_rules(Band& band);
     void cast_rule(const std::vector<Place>& rule, int first_number, Band& band);
     void cast_centres(Band& band);
+    bool is_at_border(int x, int y) const noexcept;
     void open_by_centres();
     void reopen(Band& band, std::size_t rules);
 
@@ -113,7 +116,7 @@ private:
     TexelCaster caster_;
     std::optional<PlacedCharts> charts_;
     std::optional<PlaceRaster> raster_;
-    Image<unsigned char> open_; ///< texels that need the rays of the next rule
+    Image<unsigned char> open_; ///< not 0: texels that need the rays of the next rule
     std::vector<Band> slots_;
     double parallax_ = 0; ///< sum over the rays that landed
     std::int64_t landed_ = 0;
@@ -183,7 +186,7 @@ void Bake::cast_rules(Band& band) {
 void Bake::cast_rule(const std::vector<Place>& rule, int first_number, Band& band) {
     const std::size_t width = std::size_t(options_.width), texels = width * std::size_t(band.rows);
     const unsigned char* const open = open_.row(band.y);
-    if (std::find(open, open + texels, 1) == open + texels) return;
+    if (std::all_of(open, open + texels, [](unsigned char needed) { return needed == 0; })) return;
     band.hits.resize(texels * std::min<std::size_t>(rule.size(), packet_size));
     for (std::size_t begin = 0; begin < rule.size(); begin += packet_size) {
         const std::size_t places = std::min<std::size_t>(packet_size, rule.size() - begin);
@@ -205,8 +208,19 @@ void Bake::cast_rule(const std::vector<Place>& rule, int first_number, Band& ban
     caster_.flush(band.packet, band.counts);
 }
 
-/// Leaves open what the mean over the texel may be far from after one ray, by the second differences of the normals of neighbours:
-/// a texel that has no neighbour on one side, too.
+/// Whether a chart may end in the texel: one of its neighbours is empty, or its centre lies in no triangle. Charts that fill the map
+/// end at its edge.
+bool Bake::is_at_border(int x, int y) const noexcept {
+    for (int j = std::max(0, y - 1); j <= std::min(y + 1, options_.height - 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(x + 1, options_.width - 1); ++i) {
+            const TexelHit& at = target_.raster.hits.at(i, j);
+            if (at.triangle == no_index || is_on_edge(at)) return true;
+        }
+    return false;
+}
+
+/// Leaves open the texels whose mean may be far from what one ray has found, by the second differences of the normals of
+/// neighbours, those with a neighbour that has found nothing, and those at borders of charts.
 void Bake::open_by_centres() {
     const auto allowed = float(chord_of(options_.max_error_deg));
     const auto normal = [&](int x, int y) {
@@ -218,6 +232,10 @@ void Bake::open_by_centres() {
         for (int y = int(begin); y < int(end); ++y)
             for (int x = 0; x < options_.width; ++x) {
                 if (!open_.at(x, y)) continue;
+                if (is_at_border(x, y)) {
+                    open_.at(x, y) = all_rays;
+                    continue;
+                }
                 const Vec3f here = normal(x, y);
                 float error = 0;
                 for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}}) {
@@ -240,10 +258,11 @@ void Bake::reopen(Band& band, std::size_t rules) {
             unsigned char& open = open_.at(x, band.y + y);
             if (!open) continue;
             const float* const sum = &out_.map.at(x, band.y + y);
-            const bool beyond = rules == 0 && is_on_edge(target_.raster.hits.at(x, band.y + y)); // perhaps
+            const bool beyond = rules == 0 && open == all_rays; // the centre may lie outside of the chart
             const Vec3f mean = beyond ? Vec3f(0) : unit_or_zero(Vec3f(sum[0], sum[1], sum[2]));
             Vec3f& before = band.mean[std::size_t(y) * std::size_t(options_.width) + std::size_t(x)];
-            if (mean != Vec3f(0) && before != Vec3f(0) && glm::length(mean - before) <= agreed) open = 0;
+            const bool agree = mean != Vec3f(0) && before != Vec3f(0) && glm::length(mean - before) <= agreed;
+            if (agree && open != all_rays) open = 0;
             else caster_.clear(x, band.y + y);
             before = mean;
         }

@@ -19,8 +19,8 @@ struct TransferProgress {
 /// A texel that finds nothing is filled like those outside of the charts: in the first ring around texels with detail by linear
 /// continuation, up to `padding` texels away by the nearest one, else with the flat normal. Several rays are averaged over the part
 /// of the texel that lies in charts. They are the points of Gauss and Legendre's rule along both sides, so that the mean of a
-/// polynomial of degree 2 * rays - 1 along each side is exact. `target` has the size and the tile of the options. The result does
-/// not depend on the number of threads.
+/// polynomial of degree 2 * rays - 1 along each side is exact; under max_error_deg many texels have fewer. `target` has the size and
+/// the tile of the options. The result does not depend on the number of threads.
 Transfer transfer(const BakeTarget& target, const TransferSources& sources, const TransferOptions& options,
                   const std::string& path, TransferProgress* progress = nullptr);
 /// From one source.

@@ -15,11 +15,13 @@ struct TransferOptions {
     int rays = 1;         ///< along each side of a texel, from 1 to 16
     /// Above 0: texels get fewer rays than these where a few of them give the mean to within so many degrees. The error of one ray
     /// is estimated from the neighbours, that of several from how far rules of ever more rays differ. Detail that is shorter than
-    /// two texels and lies between the rays can be missed.
+    /// two texels and lies between the rays can be missed. Only the normals are judged, not the other maps.
     double max_error_deg = 0;
     bool alpha = false; ///< whether Transfer::alpha is wanted
     DetailOptions details;
-    bool try_wider = true; ///< a ray that finds nothing is cast again from twice as far out, three times as far in
+    /// A ray that finds nothing is cast again from twice as far out, three times as far in; and if that finds nothing and the ray
+    /// sees the low-poly mesh from behind, from the front.
+    bool try_wider = true;
 };
 
 enum class TexelState : unsigned char {
@@ -32,7 +34,7 @@ enum class TexelState : unsigned char {
 
 inline bool is_missed(TexelState state) noexcept { return state == TexelState::missed || state == TexelState::behind; }
 
-/// How many texels and rays found what.
+/// How many texels and rays found what. Under max_error_deg, rays count whose mean more rays replaced.
 struct TransferReport {
     std::int64_t rays = 0;      ///< cast, with those of the second try
     std::int64_t hit = 0;       ///< texels in charts with a normal of their own

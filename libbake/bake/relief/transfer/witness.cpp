@@ -1,11 +1,13 @@
 #include "bake/relief/transfer/witness.h"
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace bake {
 namespace {
 
-Witness witness_at(const BakeTarget& target, const TransferSources& sources, int x, int y) {
+/// Nothing where the centre of the texel lies on a part without a source; rays beside the centre can find detail there.
+std::optional<Witness> witness_at(const BakeTarget& target, const TransferSources& sources, int x, int y) {
     Witness out{.x = x, .y = y};
     const TexelHit& at = target.raster.hits.at(x, y);
     const Mesh& mesh = *target.surface.mesh;
@@ -13,7 +15,9 @@ Witness witness_at(const BakeTarget& target, const TransferSources& sources, int
     const double b[3] = {1.0 - double(at.b1) - double(at.b2), double(at.b1), double(at.b2)};
     for (std::size_t k = 0; k < 3; ++k) out.uv += b[k] * Vec2d(mesh.uvs[mesh.corner_uv[triangle.corner[k]]]);
     out.face = triangle.face;
-    out.cast = sources.of(out.face)->casting->at(at); // texels of parts without a source are no witnesses
+    const TransferSource* const source = sources.of(out.face);
+    if (!source) return {};
+    out.cast = source->casting->at(at);
     return out;
 }
 
@@ -39,7 +43,9 @@ std::vector<Witness> missed_texels(const BakeTarget& target, const TransferSourc
             const TexelState state = result.states.at(x, y);
             if (!is_missed(state)) continue;
             if (target.raster.hits.at(x, y).triangle == no_index) continue; // a sample beside the centre was in a chart
-            out.push_back(witness_at(target, sources, x, y));
+            const std::optional<Witness> witness = witness_at(target, sources, x, y);
+            if (!witness) continue;
+            out.push_back(*witness);
             out.back().state = state;
             set_nearest(out.back(), *sources.of(out.back().face)->high);
         }
@@ -52,7 +58,9 @@ std::vector<Witness> farthest_texels(const BakeTarget& target, const TransferSou
     for (const FarTexel& far : result.far) {
         if (out.size() == most) break;
         if (target.raster.hits.at(far.x, far.y).triangle == no_index) continue;
-        out.push_back(witness_at(target, sources, far.x, far.y));
+        const std::optional<Witness> witness = witness_at(target, sources, far.x, far.y);
+        if (!witness) continue;
+        out.push_back(*witness);
         out.back().state = TexelState::hit, out.back().height = far.height;
     }
     return out;

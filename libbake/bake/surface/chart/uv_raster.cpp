@@ -273,7 +273,7 @@ PlaceRaster::PlaceRaster(const Mesh& mesh, const std::vector<Triangle>& triangle
     const std::vector<TriangleExtent> extents = extents_of(mesh, triangles, TexelGrid(width, height));
     BandTriangles of_band = band_triangles(extents, (height + band_rows - 1) / band_rows);
     begin_ = std::move(of_band.begin), triangle_ = std::move(of_band.triangle);
-    begin_.pop_back(); // a place that is of use while they are sorted
+    begin_.pop_back(); // a spare element that band_triangles() needs while it counts
 }
 
 void PlaceRaster::band(int band, const Vec2d& place, std::span<TexelHit> hits) const {
