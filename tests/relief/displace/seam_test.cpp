@@ -172,11 +172,12 @@ TEST_SUITE("unit") {
                                          {0.2, 1}});
         const Relief waves = relief(
             picture(256, 256, [](double u, double v) { return std::sin(2 * pi * u) * std::cos(2 * pi * v); }), 0.1, 0);
-        for (int which = 0; which < 3; ++which) {
+        for (int which = 0; which < 4; ++which) {
             CAPTURE(which);
             const BaseSurface base = which == 0   ? BaseSurface(Mesh(quads))
                                      : which == 1 ? BaseSurface(Mesh(triangles))
-                                                  : BaseSurface(cube(), SubdivisionOptions{});
+                                     : which == 2 ? BaseSurface(cube(), SubdivisionOptions{})
+                                                  : BaseSurface(cube(true));
             double before = 0;
             for (const int level : {4, 5, 6}) {
                 const Displaced out = displace(base, waves, levels(level, Seam::blend));

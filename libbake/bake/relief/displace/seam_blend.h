@@ -14,6 +14,11 @@ namespace bake {
 
 using Vec4d = Vec4<double>;
 
+namespace detail {
+/// From 0 at 0 to 1 at 1, with slope 0 there.
+inline double smooth_step(double x) noexcept { return x * x * (3 - 2 * x); }
+} // namespace detail
+
 class SeamBlend {
 public:
     SeamBlend() = default;
