@@ -1,4 +1,5 @@
 // bake normal-map --high from outside: what each failure of a bake from high-poly meshes does, and what is printed.
+#include "bake/mesh/gltf/io.h"
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include "memory_limits.h"
@@ -308,6 +309,11 @@ TEST_SUITE("cli") {
         for (const char* key : {"out", "width", "height", "space", "green", "high", "reach", "hard_edges", "rays",
                                 "ray_lengths", "heights", "parallax_texels", "seams", "witnesses", "texels"})
             CHECK_MESSAGE(said.contains(key), std::string(key));
+        // What is drawn of the rays can be told apart.
+        const std::vector<GltfMaterial> drawn = read_gltf(folder / "d.glb").materials;
+        REQUIRE(drawn.size() == 3);
+        for (int k = 0; k < 3; ++k)
+            CHECK(glm::length(drawn[k].base_color_factor - drawn[(k + 1) % 3].base_color_factor) > 0.5f);
         CHECK(said["high"]["meshes"] == nlohmann::json({"high.obj"}));
         CHECK(said["high"]["triangles"] == 2);
         CHECK(said["rays"] == 256);

@@ -1,5 +1,6 @@
 #include "high_to_low.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/gltf/io.h"
 #include "bake/relief/transfer/cage.h"
 #include "bake/relief/transfer/debug_rays.h"
 #include "bake/relief/transfer/reach.h"
@@ -147,6 +148,20 @@ private:
     std::optional<NameMatch> match_; ///< its meshes are moved to the sources
 };
 
+/// Writes debug_rays(); with colours where the format has them: the cage grey, rays blue, misses red.
+void write_rays(const std::string& path, Mesh rays) {
+    if (mesh_format(path) != MeshFormat::gltf) {
+        write_mesh(path, rays);
+        return;
+    }
+    constexpr Vec4f colours[] = {{0.4f, 0.4f, 0.4f, 1}, {0.02f, 0.2f, 0.8f, 1}, {0.9f, 0.05f, 0.01f, 1}};
+    Gltf out{.mesh = std::move(rays)};
+    for (const Vec4f& colour : colours)
+        out.materials.push_back(
+            {.name = out.mesh.materials.at(out.materials.size()), .base_color_factor = colour, .metallic = 0});
+    write_gltf(path, out);
+}
+
 HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     TransferOptions options = options_;
     options.tile = args.tile;
@@ -183,7 +198,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     report.witnesses = missed_texels(target, sources_, result, most_witnesses);
     for (Witness& far : farthest_texels(target, sources_, result, most_witnesses)) report.witnesses.push_back(far);
     if (!args.high.debug_rays.empty())
-        write_mesh(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
+        write_rays(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
     watch_.lap("report");
     Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed + result.report.unmatched};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);

@@ -82,6 +82,58 @@ TEST_SUITE("unit") {
         CHECK(farthest == doctest::Approx(1).epsilon(1e-5)); // twice the height
     }
 
+    TEST_CASE("displace: with blend the faces beside a seam stay flat where another edge of theirs is hard, in any "
+              "position") {
+        // Two triangles in a plane with a seam between them; a third stands on them, behind a hard edge.
+        const std::vector<Vec3f> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0, -1}};
+        const std::vector<Vec2f> uvs = {{0, 0},       {0.3f, 0}, {0, 0.3f}, {0.9f, 0.5f}, {0.9f, 0.9f},
+                                        {0.5f, 0.9f}, {0.3f, 0}, {0, 0},    {0.2f, 0.3f}};
+        const Relief half = relief(picture(1, 1, [](double, double) { return 1.0; }), 0.5, 0);
+        for (int turn = 0; turn < 12; ++turn) {
+            CAPTURE(turn);
+            const double a = 0.5 * turn, b = 0.3 * turn;
+            const auto turned = [&](const Vec3f& p) {
+                const Vec3d q(p.x, std::cos(b) * p.y - std::sin(b) * p.z, std::sin(b) * p.y + std::cos(b) * p.z);
+                return Vec3f(Vec3d(std::cos(a) * q.x - std::sin(a) * q.y, std::sin(a) * q.x + std::cos(a) * q.y, q.z));
+            };
+            std::vector<Vec3f> there;
+            for (const Vec3f& p : points) there.push_back(turned(p));
+            const Vec3f up = turned({0, 0, 1}), front = turned({0, -1, 0});
+            const Mesh mesh =
+                polygons(there, {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}}, uvs, {up, up, up, up, up, up, front, front, front});
+            const Displaced out = displace(BaseSurface(Mesh(mesh)), half, levels(3, Seam::blend));
+            double off = 0; // of the faces in the plane
+            for (std::size_t f = 0; f < out.mesh.faces(); ++f)
+                for (std::uint32_t c = out.mesh.face_begin[f]; c < out.mesh.face_begin[f + 1]; ++c)
+                    if (out.mesh.face_begin[f] < 2 * out.mesh.corners() / 3)
+                        off = std::max(
+                            off, std::abs(double(glm::dot(out.mesh.positions[out.mesh.corner_position[c]], up)) - 0.5));
+            CHECK(off < 1e-6);
+            CHECK(out.report.height_min == doctest::Approx(0.5));
+            CHECK(out.report.height_max == doctest::Approx(0.5));
+        }
+    }
+
+    TEST_CASE("displace: with blend no point moves by more than twice the height, even where normals turn far along a "
+              "side between two mitres") {
+        // The normals of the first triangle are nearly opposite at the ends of its first side; each end is a mitre.
+        const std::vector<Vec3f> points = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {-0.5, 0, 1}, {1.5, 0, 1}};
+        const auto unit = [](float x, float y, float z) { return glm::normalize(Vec3f(x, y, z)); };
+        const Vec3f left = unit(-1, 0, 0.3f), right = unit(1, 0, 0.3f), far_left = unit(1, 0, 0.3f),
+                    far_right = unit(-1, 0, 0.3f), top = unit(0, 0, 1);
+        const Mesh mesh = polygons(points, {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}, std::vector<Vec2f>(9, Vec2f(0.5f)),
+                                   {left, right, top, far_left, top, far_left, far_right, far_right, top});
+        const Relief waves = relief(picture(1, 1, [](double, double) { return 1.0; }), 0.5, 0);
+        const Relief none = relief(picture(1, 1, [](double, double) { return 0.0; }), 0.5, 0);
+        const Displaced out = displace(BaseSurface(Mesh(mesh)), waves, levels(4, Seam::blend)),
+                        base = displace(BaseSurface(Mesh(mesh)), none, levels(4, Seam::blend));
+        double moved = 0;
+        for (std::size_t i = 0; i < out.mesh.positions.size(); ++i)
+            moved = std::max(moved, double(glm::length(out.mesh.positions[i] - base.mesh.positions[i])));
+        CHECK(moved < 1 + 1e-6);
+        CHECK(moved > 0.99); // the ends' mitres are cut
+    }
+
     TEST_CASE("displace: a texture that fits across its seams is not changed by any policy") {
         // A torus whose u = 0 and 1, v = 0 and 1 are seams in number only: repeats meet.
         const BaseSurface base(ParametricSurface("torus:R=1,r=0.4"), 8, 6);
@@ -120,11 +172,12 @@ TEST_SUITE("unit") {
                                          {0.2, 1}});
         const Relief waves = relief(
             picture(256, 256, [](double u, double v) { return std::sin(2 * pi * u) * std::cos(2 * pi * v); }), 0.1, 0);
-        for (int which = 0; which < 3; ++which) {
+        for (int which = 0; which < 4; ++which) {
             CAPTURE(which);
             const BaseSurface base = which == 0   ? BaseSurface(Mesh(quads))
                                      : which == 1 ? BaseSurface(Mesh(triangles))
-                                                  : BaseSurface(cube(), SubdivisionOptions{});
+                                     : which == 2 ? BaseSurface(cube(), SubdivisionOptions{})
+                                                  : BaseSurface(cube(true));
             double before = 0;
             for (const int level : {4, 5, 6}) {
                 const Displaced out = displace(base, waves, levels(level, Seam::blend));

@@ -1,28 +1,11 @@
 #include "bake/relief/displace/seam_blend.h"
 #include "bake/base/progress.h"
+#include "bake/relief/displace/mitre.h"
 #include "bake/relief/displace/shared_value.h"
 #include "bake/surface/patch/patch_domain.h"
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <type_traits>
 
 namespace bake {
 namespace {
-
-double step(double x) noexcept { return x * x * (3 - 2 * x); }
-double step_slope(double x) noexcept { return 6 * x * (1 - x); }
-
-/// A function of the patch's parameters.
-struct Graded {
-    double at, s, t;
-};
-Graded operator*(const Graded& a, const Graded& b) noexcept {
-    return {a.at * b.at, a.s * b.at + a.at * b.s, a.t * b.at + a.at * b.t};
-}
-Graded stepped(const Graded& x) noexcept {
-    const double slope = step_slope(x.at);
-    return {step(x.at), slope * x.s, slope * x.t};
-}
 
 /// The views of one side at x = k / count, k = 0..count.
 std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t patch, int side, bool backwards,
@@ -39,28 +22,30 @@ std::vector<SideView> views_along(const ReliefSurface& surface, std::uint32_t pa
     return views;
 }
 
-/// How far an edge or a corner of flat faces moves when each face moves by one along its normal: the shortest m with
-/// n_i . m = 1 for all faces. Its length is limited to 2, that of normals 120 degrees apart, as mitres are cut off.
-Vec3d mitre(std::span<const JunctionSide> sides, std::span<const SideView> views) {
-    Vec3d sum(0);
-    glm::dmat3 products(0);
-    std::uint32_t groups = 0;
-    for (std::size_t k = 0; k < views.size(); ++k) {
-        if (sides[k].normal_group != groups) continue;
-        const Vec3d& n = views[k].point.jet.n;
-        sum += n, products += glm::outerProduct(n, n), ++groups;
-    }
-    // Least squares, damped: two normals leave one direction free, several nearly equal ones leave two almost so.
-    const Vec3d m = glm::inverse(products + glm::dmat3(1e-9 * groups)) * sum;
-    const double length = glm::length(m);
-    return length > 2 ? 2 / length * m : m;
+/// The mitre of the sides' normals.
+Vec3d shared_direction(std::span<const JunctionSide> sides, std::span<const SideView> views) {
+    std::vector<Vec3d> normals; // groups are numbered in the order of their first side
+    for (std::size_t k = 0; k < views.size(); ++k)
+        if (sides[k].normal_group == normals.size()) normals.push_back(views[k].point.jet.n);
+    return mitre(normals);
 }
 
-/// The value that all sides approach. For heights of sides whose normals differ: the mean height along their mitre.
-Vec3d goal(const ReliefSurface& surface, std::span<const JunctionSide> sides, std::span<const SideView> views) {
+/// Heights whose direction a crease changes.
+bool has_directions(const ReliefSurface& surface) noexcept {
+    return surface.along_normal() && !surface.values_are_heights();
+}
+
+/// What is corrected: heights (b, 0, 0, 0), vectors (x, y, z, 0), or heights and their directions (b, x, y, z).
+Vec4d own_value(const ReliefSurface& surface, const SideView& view) {
+    if (has_directions(surface)) return {surface.height_of(view.point, view.value), view.point.jet.n};
+    return {view.value.at, 0};
+}
+
+/// The value that all sides approach.
+Vec4d goal(const ReliefSurface& surface, std::span<const JunctionSide> sides, std::span<const SideView> views) {
     const SharedValue shared = shared_value(surface, sides, views);
-    if (surface.along_normal() && !surface.values_are_heights()) return shared.height * mitre(sides, views);
-    return shared.value;
+    if (has_directions(surface)) return {shared.height, shared_direction(sides, views)};
+    return {shared.value, 0};
 }
 
 /// Whether the sides of a junction differ in their own values.
@@ -109,9 +94,10 @@ void SeamBlend::correct_corners(const ReliefSurface& surface, const JunctionTabl
             surface.base().evaluate(patch, {&st, 1}, {&views[k].point, 1});
             surface.values(patch, {&st, 1}, {&views[k].point, 1}, {&views[k].value, 1});
         }
-        const Vec3d shared = goal(surface, sides, views);
+        const Vec4d shared = goal(surface, sides, views);
         for (std::size_t k = 0; k < views.size(); ++k)
-            patch_at_seam(surface, sides[k].patch).corner[sides[k].corner_or_side] = shared - views[k].value.at;
+            patch_at_seam(surface, sides[k].patch).corner[sides[k].corner_or_side] =
+                shared - own_value(surface, views[k]);
     }
 }
 
@@ -126,15 +112,15 @@ void SeamBlend::correct_sides(const ReliefSurface& surface, const JunctionTable&
         std::vector<std::vector<SideView>> along;
         for (const JunctionSide& s : sides)
             along.push_back(views_along(surface, s.patch, s.corner_or_side, s.reversed, count));
-        std::vector<std::vector<Vec3d>> corrections(sides.size(), std::vector<Vec3d>(count + 1));
+        std::vector<std::vector<Vec4d>> corrections(sides.size(), std::vector<Vec4d>(count + 1));
         views.resize(sides.size());
         for (std::uint32_t k = 0; k <= count; ++k) {
             for (std::size_t s = 0; s < sides.size(); ++s) views[s] = along[s][k];
-            const Vec3d shared = goal(surface, sides, views);
-            for (std::size_t s = 0; s < sides.size(); ++s) corrections[s][k] = shared - views[s].value.at;
+            const Vec4d shared = goal(surface, sides, views);
+            for (std::size_t s = 0; s < sides.size(); ++s) corrections[s][k] = shared - own_value(surface, views[s]);
         }
         for (std::size_t s = 0; s < sides.size(); ++s) {
-            std::vector<Vec3d>& own = corrections[s];
+            std::vector<Vec4d>& own = corrections[s];
             if (sides[s].reversed) std::reverse(own.begin(), own.end());
             const Curve c = curve(own, own.front(), own.back());
             patch_at_seam(surface, sides[s].patch).side[sides[s].corner_or_side] = c;
@@ -150,14 +136,17 @@ void SeamBlend::correct_poles(const ReliefSurface& surface) {
             throw_if_interrupted();
             const std::vector<SideView> along = views_along(surface, p, i, false, samples_along(surface, p, i));
             Patch& patch = patch_at_seam(surface, p);
-            const Vec3d shared = along.front().value.at + patch.corner[i];
-            std::vector<Vec3d> own(along.size());
-            for (std::size_t k = 0; k < own.size(); ++k) own[k] = shared - along[k].value.at;
+            const Vec4d shared = own_value(surface, along.front()) + patch.corner[i];
+            std::vector<Vec4d> own(along.size());
+            for (std::size_t k = 0; k < own.size(); ++k) own[k] = shared - own_value(surface, along[k]);
             patch.side[i] = curve(own, patch.corner[i], patch.corner[(i + 1) % patch.sides]);
         }
 }
 
-SeamBlend::SeamBlend(const ReliefSurface& surface) : components_(surface.values_are_heights() ? 1 : 3) {
+SeamBlend::SeamBlend(const ReliefSurface& surface)
+    : components_(surface.values_are_heights() ? 1
+                  : has_directions(surface)    ? 4
+                                               : 3) {
     of_.assign(surface.base().complex().patches.size(), no_index);
     const auto& [edges, vertices] = surface.base().junctions();
     correct_corners(surface, vertices);
@@ -170,107 +159,23 @@ std::uint64_t SeamBlend::bytes() const noexcept {
            nodes_.capacity() * sizeof(double);
 }
 
-SeamBlend::Curve SeamBlend::curve(const std::vector<Vec3d>& values, const Vec3d& at_begin, const Vec3d& at_end) {
+SeamBlend::Curve SeamBlend::curve(const std::vector<Vec4d>& values, const Vec4d& at_begin, const Vec4d& at_end) {
     const auto count = int(values.size()) - 1;
     const Curve c{std::uint32_t(nodes_.size() / (2 * components_)), std::uint32_t(count)};
-    std::vector<Vec3d> rest(values.size()); // less the contribution of the corners
+    std::vector<Vec4d> rest(values.size()); // less the contribution of the corners
     for (int k = 0; k <= count; ++k) {
-        const double x = step(double(k) / count);
+        const double x = detail::smooth_step(double(k) / count);
         rest[k] = values[k] - (1 - x) * at_begin - x * at_end;
     }
     for (int k = 0; k <= count; ++k) {
-        Vec3d slope;
+        Vec4d slope;
         if (k == 0) slope = (-3.0 * rest[0] + 4.0 * rest[1] - rest[2]) / 2.0;
         else if (k == count) slope = (3.0 * rest[k] - 4.0 * rest[k - 1] + rest[k - 2]) / 2.0;
         else if (k == 1 || k == count - 1) slope = (rest[k + 1] - rest[k - 1]) / 2.0;
         else slope = (8.0 * (rest[k + 1] - rest[k - 1]) - (rest[k + 2] - rest[k - 2])) / 12.0;
-        for (const Vec3d& v : {rest[k], slope}) nodes_.insert(nodes_.end(), &v.x, &v.x + components_);
+        for (const Vec4d& v : {rest[k], slope}) nodes_.insert(nodes_.end(), &v.x, &v.x + components_);
     }
     return c;
-}
-
-namespace {
-
-template <class Value> Value value_at(const double* components) noexcept {
-    if constexpr (std::is_same_v<Value, double>) return components[0];
-    else return {components[0], components[1], components[2]};
-}
-
-} // namespace
-
-template <class Value> SeamBlend::Node<Value> SeamBlend::along(const Curve& curve, double x) const noexcept {
-    constexpr std::size_t components = sizeof(Value) / sizeof(double);
-    const double place = std::clamp(x, 0.0, 1.0) * curve.count;
-    const auto k = std::min(std::uint32_t(place), curve.count - 1);
-    const double u = place - k, w = 1 - u;
-    const double* const node = nodes_.data() + 2 * components * (curve.first + k);
-    const Value a = value_at<Value>(node), a_slope = value_at<Value>(node + components),
-                b = value_at<Value>(node + 2 * components), b_slope = value_at<Value>(node + 3 * components);
-    return {w * w * (1 + 2 * u) * a + u * u * (3 - 2 * u) * b + u * w * (w * a_slope - u * b_slope),
-            double(curve.count) * (6 * u * w * (b - a) + w * (1 - 3 * u) * a_slope + u * (3 * u - 2) * b_slope)};
-}
-
-template <class Value>
-SeamBlend::Correction<Value> SeamBlend::correction(const Patch& p, const Vec2d& st) const noexcept {
-    Correction<Value> sum;
-    const auto add_term = [&](const Graded& weight, const Value& v, const Value& v_s, const Value& v_t) {
-        sum.at += weight.at * v;
-        sum.s += weight.s * v + weight.at * v_s;
-        sum.t += weight.t * v + weight.at * v_t;
-    };
-    const auto corner = [&](int i) { return value_at<Value>(&p.corner[i].x); };
-    if (p.sides == 4) {
-        // Distance from the start of the side, and from the opposite side.
-        const Graded s{st.x, 1, 0}, t{st.y, 0, 1}, s_back{1 - st.x, -1, 0}, t_back{1 - st.y, 0, -1};
-        const Graded along_side[4] = {s, t, s_back, t_back};
-        const Graded near_side[4] = {stepped(t_back), stepped(s), stepped(t), stepped(s_back)};
-        for (int i = 0; i < 4; ++i) {
-            add_term(near_side[i] * near_side[(i + 3) % 4], corner(i), Value(0), Value(0));
-            if (p.side[i].first == no_index) continue;
-            const Node<Value> node = along<Value>(p.side[i], along_side[i].at);
-            add_term(near_side[i], node.value, along_side[i].s * node.slope, along_side[i].t * node.slope);
-        }
-        return sum;
-    }
-    const Graded near_corner[3] = {{1 - st.x - st.y, -1, -1}, {st.x, 1, 0}, {st.y, 0, 1}};
-    for (int i = 0; i < 3; ++i) {
-        add_term(stepped(near_corner[i]), corner(i), Value(0), Value(0));
-        if (p.side[i].first == no_index) continue;
-        const Graded &a = near_corner[i], &b = near_corner[(i + 1) % 3];
-        const Graded both{a.at + b.at, a.s + b.s, a.t + b.t};
-        if (!(both.at > 0)) continue; // at the opposite corner, where the weight vanishes
-        const double x = b.at / both.at;
-        const Node<Value> node = along<Value>(p.side[i], x);
-        add_term(stepped(both), node.value, (b.s - x * both.s) / both.at * node.slope,
-                 (b.t - x * both.t) / both.at * node.slope);
-    }
-    return sum;
-}
-
-void SeamBlend::add(std::uint32_t patch, const Vec2d& st, const SurfacePoint& point,
-                    ReliefValue& value) const noexcept {
-    const Patch& p = patches_[of_[patch]];
-    Correction<Vec3d> c;
-    if (components_ == 1) {
-        const Correction<double> height = correction<double>(p, st);
-        c = {Vec3d(height.at, 0, 0), Vec3d(height.s, 0, 0), Vec3d(height.t, 0, 0)};
-    } else c = correction<Vec3d>(p, st);
-    value.at += c.at;
-    if (!along_chart(point)) {
-        value.s += c.s, value.t += c.t;
-        return;
-    }
-    // The jet runs along a chart that is bilinear in the patch.
-    Vec2d uv_s = p.uv[1] - p.uv[0], uv_t = p.uv[2] - p.uv[0];
-    if (p.sides == 4) {
-        const Vec2d twist = p.uv[0] - p.uv[1] + p.uv[2] - p.uv[3];
-        uv_s = p.uv[1] - p.uv[0] + st.y * twist;
-        uv_t = p.uv[3] - p.uv[0] + st.x * twist;
-    }
-    const double area = uv_s.x * uv_t.y - uv_s.y * uv_t.x;
-    if (area == 0) return;
-    value.s += (uv_t.y * c.s - uv_s.y * c.t) / area;
-    value.t += (uv_s.x * c.t - uv_t.x * c.s) / area;
 }
 
 SeamedRelief seamed(const BaseSurface& base, const Relief& relief, Seam seam) {
