@@ -127,7 +127,9 @@ TEST_SUITE("cli") {
         CHECK(json["tiles"][1]["tile"] == 1002);
         CHECK(json["tiles"][1]["out"] == "j1002.png");
         baked.insert(baked.end(), {"--tile", "1001"});
-        test::check_refused(folder, baked, 2, "all tiles");
+        test::check_refused(folder, baked, 2, "--tile: <UDIM> in the name of the map asks for all tiles");
+        test::check_refused(folder, {"surface", "udim.obj", "--maps-out", "m<UDIM>", "--tile", "1001"}, 2,
+                            "--tile: <UDIM> in the name of the maps asks for all tiles");
         cast.insert(cast.end(), {"-o", "<UDIM>.png", "--maps", "height", "--maps-out", "one"});
         test::check_refused(folder, cast, 2, "of all files or in none");
         test::write_file(folder / "below.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt -1 0\nvt 0 0\nvt 0 1\nf 1/1 2/2 3/3\n");

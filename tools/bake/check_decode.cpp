@@ -2,11 +2,10 @@
 #include "bake/mesh/file/mesh_io.h"
 #include "inputs/file_kind.h"
 #include "inputs/tile_names.h"
-#include <algorithm>
 
 namespace bake {
 
-CLI::Option* add_decode_options(CLI::App& sub, DecodeArgs& args) {
+void add_decode_options(CLI::App& sub, DecodeArgs& args) {
     CLI::Option* const maps =
         sub.add_option(
                "--decode", args.maps,
@@ -16,14 +15,10 @@ CLI::Option* add_decode_options(CLI::App& sub, DecodeArgs& args) {
             ->type_name("NORMAL MESH");
     add_tile_option(sub, args.tile);
     sub.get_option("--tile")->needs(maps);
-    return maps;
 }
 
-void complete(const DecodeArgs& args) {
-    if (args.tile == 0) return;
-    if (std::any_of(args.maps.begin(), args.maps.end(), [](const auto& one) { return names_tiles(one.first); }))
-        throw Error(Refusal::usage,
-                    "--tile: <UDIM> in the name of the map asks for all tiles; leave one of the two out");
+void check_usage(const DecodeArgs& args) {
+    for (const auto& [map, mesh] : args.maps) expect_tile_or_all("the map", map, args.tile);
 }
 
 void check_decode(CheckResults& results, const DecodeArgs& args, bool directx, const InspectOptions& options,

@@ -9,10 +9,9 @@ struct DecodeArgs {
     int tile = 0;                                          ///< of the maps; 0: all charts, modulo 1
 };
 
-/// Returns --decode.
-CLI::Option* add_decode_options(CLI::App& sub, DecodeArgs& args);
+void add_decode_options(CLI::App& sub, DecodeArgs& args);
 /// Throws Error{Refusal::usage} for a tile and maps of all tiles at once.
-void complete(const DecodeArgs& args);
+void check_usage(const DecodeArgs& args);
 /// `directx`: green that points down is right.
 void check_decode(CheckResults& results, const DecodeArgs& args, bool directx, const InspectOptions& options,
                   const CommonArgs& common);

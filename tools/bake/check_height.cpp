@@ -13,7 +13,7 @@ ReliefReport inspect_height(const std::string& file, const HeightInput& input, c
     return inspect_relief(file, mesh, input.path, height, input.filter, relief);
 }
 
-CLI::Option* add_height_check(CLI::App& sub, HeightInput& input) {
+void add_height_check(CLI::App& sub, HeightInput& input) {
     CLI::Option* height = add_height_path(sub, "--height", input);
     height->description(
         "Report what each method does wrong with the relief of this picture on the meshes, as predicted");
@@ -22,7 +22,6 @@ CLI::Option* add_height_check(CLI::App& sub, HeightInput& input) {
     for (const char* flag : {"--amplitude", "--midlevel", "--filter", "--wrap", "--wrap-u", "--wrap-v", "--channel",
                              "--invert", "--dequantise"})
         sub.get_option(flag)->needs(height);
-    return height;
 }
 
 void check_height_usage(const HeightInput& input, const std::vector<std::string>& files) {

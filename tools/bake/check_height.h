@@ -5,8 +5,8 @@
 
 namespace bake {
 
-/// Adds --height, which it returns, and the options of the other verbs that say how it is read.
-CLI::Option* add_height_check(CLI::App& sub, HeightInput& input);
+/// Adds --height, and the options of the other verbs that say how it is read.
+void add_height_check(CLI::App& sub, HeightInput& input);
 /// Throws Error{Refusal::usage} for meshes and pictures that --height does not go with.
 void check_height_usage(const HeightInput& input, const std::vector<std::string>& files);
 /// `height`: loaded from the input.

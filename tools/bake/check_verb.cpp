@@ -49,26 +49,43 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
 }
 
+void check_usage(const CheckArgs& args) {
+    const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
+    check_height_usage(args.height, args.files);
+    check_usage(args.decode);
+    const bool green = !args.pairs.empty() || !args.decode.maps.empty();
+    if (args.files.empty() && !green && args.brdfs.empty())
+        throw usage("check: no file given; name meshes, images, a --pair, a map to --decode or a --brdf; see bake "
+                    "check --help");
+    if (args.options.directx && !green)
+        throw usage("--expect: says which green a --pair or a map to --decode has; give one of them");
+    const bool others = green || !args.brdfs.empty() || !args.height.path.empty();
+    if (!args.against.empty() && (args.files.empty() || others || args.options.audit))
+        throw usage("check: --against takes meshes alone; run --audit, --height, --pair, --decode and --brdf "
+                    "separately");
+    for (const std::string& spec : args.brdfs) parse_brdf("--brdf", spec); // refused before a file is read
+}
+
 } // namespace
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
-    const auto files = sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to inspect");
-    const auto height = add_height_check(sub, args->height);
-    const auto pair = sub.add_option("--pair", args->pairs,
-                                     "A height texture and the normal map said to be of it; may be given again")
-                          ->allow_extra_args(false) // a file may follow
-                          ->type_name("HEIGHT NORMAL");
+    sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to inspect");
+    add_height_check(sub, args->height);
+    sub.add_option("--pair", args->pairs,
+                   "A height texture and the normal map said to be of it; may be given again")
+        ->allow_extra_args(false) // a file may follow
+        ->type_name("HEIGHT NORMAL");
     add_channel_option(sub, "--height-channel", args->options.height_channel, "Grey of the pair's height");
     add_choice<std::optional<bool>>(sub, "--expect", args->options.directx, {{"opengl", false}, {"directx", true}},
                                     "With --pair: exit with 1 unless the green of the normal map points up (opengl) or "
                                     "down (directx); with --decode: the green that is right [opengl]");
-    const auto maps = add_decode_options(sub, args->decode);
-    const auto brdf = sub.add_option("--brdf", args->brdfs,
-                                     "A reflection model, or several joined by +: whether it is positive, conserves "
-                                     "energy and is reciprocal; may be given again")
-                          ->allow_extra_args(false)
-                          ->type_name("NAME[:KEY=VALUE,...]");
+    add_decode_options(sub, args->decode);
+    sub.add_option("--brdf", args->brdfs,
+                   "A reflection model, or several joined by +: whether it is positive, conserves "
+                   "energy and is reciprocal; may be given again")
+        ->allow_extra_args(false)
+        ->type_name("NAME[:KEY=VALUE,...]");
     add_mesh_options(sub, args->options.read);
     add_integer_option(sub, "--overlap-size", args->options.uv.overlap_size, 0, 8192,
                        "Samples along a UV tile for measuring overlaps; 0: not measured")
@@ -100,21 +117,8 @@ std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
                  "  bake check --brdf lambert:albedo=.5+normalised-blinn:n=32,specular=.3\n\n"
                  "Reflection models of --brdf, their keys and defaults:\n" +
                      brdf_models());
-    return [args, &common, files, pair, maps, brdf, height] {
-        check_height_usage(args->height, args->files);
-        complete(args->decode);
-        if (files->empty() && pair->empty() && maps->empty() && brdf->empty())
-            throw Error(Refusal::usage, "check: no file given; name meshes, images, a --pair, a map to --decode or a "
-                                        "--brdf; see bake check --help");
-        if (args->options.directx && pair->empty() && maps->empty())
-            throw Error(Refusal::usage,
-                        "--expect: says which green a --pair or a map to --decode has; give one of them");
-        const bool others = !pair->empty() || !maps->empty() || !brdf->empty() || !height->empty();
-        if (!args->against.empty() && (files->empty() || others || args->options.audit))
-            throw Error(Refusal::usage,
-                        "check: --against takes meshes alone; run --audit, --height, --pair, --decode and "
-                        "--brdf separately");
-        for (const std::string& spec : args->brdfs) parse_brdf("--brdf", spec); // refused before a file is read
+    return [args, &common] {
+        check_usage(*args);
         return run(*args, common);
     };
 }

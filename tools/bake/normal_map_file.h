@@ -1,4 +1,5 @@
-// The files of the verb normal-map: the map as a picture or as a texture with all levels, and the roughness of the levels.
+// The files of the verb normal-map: the map as a picture or as a texture with all levels, and the roughness of the
+// levels.
 #pragma once
 #include "bake/base/block_writer.h"
 #include "bake/picture/image_io.h"
@@ -23,8 +24,8 @@ class NormalMapFile {
 public:
     /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it.
     NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth);
-    /// Writes and completes them. Says how a texture or a dithered picture was stored; nothing for another picture. `alpha`: the fourth channel of a picture
-    /// under --alpha.
+    /// Writes and completes them. Says how a texture or a dithered picture was stored; nothing for another picture.
+    /// `alpha`: the fourth channel of a picture under --alpha.
     std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});
 
 private:

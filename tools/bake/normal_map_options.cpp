@@ -127,8 +127,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     for (const std::string& name : {args.high.maps_out, args.high.debug_rays, args.roughness_map})
         if (!name.empty() && names_tiles(name) != names_tiles(args.out))
             throw usage("-o " + args.out + ": <UDIM> stands in the names of all files or in none");
-    if (names_tiles(args.out) && args.tile != 0)
-        throw usage("--tile: <UDIM> in the name of the map asks for all tiles; leave one of the two out");
+    expect_tile_or_all("the map", args.out, args.tile);
     if (args.mesh.empty()) expect_one_file("-o", args.out, "there is no mesh; give the map one name");
     if (args.space == Space::object && args.directx)
         throw usage("--directx: turns the green of tangent space; leave it out with --space object");

@@ -50,8 +50,7 @@ void check_usage(const SurfaceArgs& args) {
         throw usage("surface: nothing to write; give -o for a mesh, --maps-out for maps, or both");
     if (args.maps_out.empty() && !args.maps.empty())
         throw usage("--maps: needs --maps-out, what the maps' names begin with");
-    if (names_tiles(args.maps_out) && args.tile != 0)
-        throw usage("--tile: <UDIM> in the names of the maps asks for all tiles; leave one of the two out");
+    expect_tile_or_all("the maps", args.maps_out, args.tile);
     if (args.resolution && args.surface.shape.empty() && !args.surface.scheme)
         throw usage("--resolution: a mesh is taken as it is, with its own faces; --subdivide makes a smooth surface of "
                     "it");

@@ -19,9 +19,9 @@ inline constexpr Decoding all_decodings[] = {Decoding::mikktspace, Decoding::gre
 const char* name(Decoding decoding) noexcept;
 std::string viewers_of(Decoding decoding, bool directx);
 
-/// The unit normal at a point, zero where there is none. `t`: decoded from the map with green up; of unit length or not.
-/// uv_derivatives: Mikkelsen's perturbation by derivatives, as Schueler, Normal Mapping without Precomputed Tangents, ShaderX 5,
-/// 2006, has it; T and B keep their ratio of lengths.
+/// The unit normal at a point, zero where there is none. `t`: decoded from the map with green up; of any length.
+/// uv_derivatives: Mikkelsen's perturbation by derivatives, as Schueler, Normal Mapping without Precomputed Tangents,
+/// ShaderX 5, 2006, has it; T and B keep their ratio of lengths.
 Vec3f decoded(const BakeTarget& target, const TexelHit& at, const Vec3f& t, Decoding decoding) noexcept;
 
 /// Degrees between a decoding and MikkTSpace, over texels of the charts.
@@ -42,8 +42,9 @@ struct DecodeReport {
     Findings findings;
 };
 
-/// `directx`: the map was made with green down. `tile`: UDIM number of the tile that it was baked for; 0: all charts, modulo 1. Throws as read_image() and read_mesh(), and Error{Refusal::unsuitable} for a mesh
-/// without uvs and a picture with one channel or values that are not finite.
+/// `directx`: the map was made with green down. `tile`: UDIM number of the tile that it was baked for; 0: all charts,
+/// modulo 1. Throws as read_image() and read_mesh(), and Error{Refusal::unsuitable} for a mesh without uvs and a
+/// picture with one channel or values that are not finite.
 DecodeReport inspect_decoding(const std::string& map_path, const std::string& mesh_path, bool directx,
                               const InspectOptions& options = {}, int tile = 0);
 

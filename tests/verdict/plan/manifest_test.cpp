@@ -124,7 +124,8 @@ TEST_SUITE("unit") {
         ScenePlan plan;
         plan.objects = {shown_by("ring one", "normal", {0}), shown_by("wheel", "displace+normal:8", {2})};
         for (const int mesh : {0, 2})
-            plan.textures.push_back({.kind = "normal", .channels = 2, .bits = bc5_bits, .meshes = {mesh}});
+            plan.textures.push_back(
+                {.kind = "normal", .width = 256, .height = 256, .channels = 2, .bits = bc5_bits, .meshes = {mesh}});
         plan.textures.push_back({.file = hall.folder / "n.png", .kind = "normal", .bits = bc5_bits, .materials = {0}});
         const Manifest manifest = plan_manifest(hall.entries, plan, hall.folder / "b.toml");
         REQUIRE(manifest.bakes.size() == 3);
@@ -132,9 +133,15 @@ TEST_SUITE("unit") {
                                                      "--amplitude=0.125", "--depth=bc5", "--out=ring_one_normal.ktx2"});
         CHECK(manifest.bakes[2].outputs[0].second == "wheel_detail.ktx2");
         plan.textures[0].width = plan.textures[0].height = 64;
-        plan.textures[0].source_width = plan.textures[0].source_height = 256;
-        CHECK(plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes[0].options.back() ==
-              std::pair<std::string, std::string>("skip-mips", "2"));
+        const auto skipped = [&] {
+            const auto option = plan_manifest(hall.entries, plan, hall.folder / "b.toml").bakes[0].options.back();
+            CHECK(option.first == "skip-mips");
+            return option.second;
+        };
+        for (const int source : {256, 128, 64}) { // of the height, or of what "relief-size" leaves of it
+            plan.textures[0].source_width = plan.textures[0].source_height = source;
+            CHECK(skipped() == "2");
+        }
         REQUIRE(manifest.notes.size() == 1);
         CHECK(manifest.notes[0].starts_with("n.png: no command stores a file of normals in BC5"));
     }

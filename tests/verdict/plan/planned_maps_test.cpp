@@ -51,7 +51,7 @@ translate = [0, -1, 0]
 )";
 
 struct Balls : Round {
-    Balls() : Round(two_balls) {
+    explicit Balls(const std::string& file_text = two_balls) : Round(file_text) {
         for (const char* file : {"dots.png", "dots_normal.png"}) fs::copy_file(own_meshes() / file, folder / file);
         const Scene scene = load(entries);
         textures = scene_textures(scene, &entries);
@@ -170,6 +170,47 @@ TEST_SUITE("unit") {
         CHECK(!planned_entries(round.entries, round.plan).materials[0].normal_bc5);
         map.source_bits = bc5_bits;
         CHECK(round.planned() == round.text);
+    }
+
+    TEST_CASE("planned maps: what a scene shows in BC5 is shown as floats where another form is chosen") {
+        std::string text = two_balls;
+        text.insert(text.find("shade = \"normal\""), "normal-depth = \"bc5\"\n");
+        Balls round(text);
+        round.set("dots_normal.png", 128), round.set("left", 32), round.set("right", 256);
+        round.planned_map("right").channels = 2, round.planned_map("right").bits = bc5_bits; // as it is
+        REQUIRE(round.planned_map("left").source_bits == bc5_bits);
+        CHECK(new_lines(text, round.planned()) ==
+              "name = \"studs normal 32 float\"\nrelief-size = 32\nnormal-depth = \"float\"\n"
+              "material = \"studs normal 32 float\"\n");
+        const auto material = [&](const SceneEntries& entries, std::size_t mesh) {
+            return entries.materials[std::size_t(entries.meshes[mesh].material)];
+        };
+        const SceneEntries entries = planned_entries(round.entries, round.plan);
+        for (const SceneEntries* scene : {&std::as_const(round.read), &entries}) {
+            CHECK(!material(*scene, 0).normal_bc5);
+            CHECK(material(*scene, 0).relief_size == 32);
+            CHECK(material(*scene, 1).normal_bc5);
+            CHECK(material(*scene, 1).relief_size == 0);
+        }
+        check_same_picture(round);
+    }
+
+    TEST_CASE("planned maps: the key of a file that is no longer in BC5 is cleared, and none is written without one") {
+        Round round("[[material]]\nname = \"m\"\nnormal = \"n.png\"\nnormal-depth = \"bc5\" # small\n"
+                    "[[material]]\nname = \"k\"\nnormal = \"n.ktx2\"\n[[mesh]]\nshape = \"plane\"\nmaterial = \"m\"\n");
+        for (const int material : {0, 1}) {
+            TexturePlan& map =
+                round.plan.textures.emplace_back(TexturePlan{.kind = "normal", .channels = 2, .bits = 8});
+            map.width = map.height = 4, map.source_width = map.source_height = 8;
+            map.source_channels = 2, map.source_bits = bc5_bits, map.materials = {material};
+        }
+        const std::string text = round.planned();
+        CHECK(new_lines(round.text, text) == "relief-size = 4\nnormal-depth = \"float\" # small\nrelief-size = 4\n");
+        for (const SceneEntries& entries : {planned_entries(round.entries, round.plan), round.read})
+            for (const MaterialEntry& material : entries.materials) {
+                CHECK(!material.normal_bc5);
+                CHECK(material.relief_size == 4);
+            }
     }
 
     TEST_CASE("planned maps: nothing is written of maps that keep their size") {

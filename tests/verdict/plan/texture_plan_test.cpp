@@ -43,6 +43,31 @@ PartOptions options(double budget) {
     return out;
 }
 
+/// Normals as a texture file in BC5 has them, whose blocks are other ones when they are encoded again.
+Texture noisy_blocks() {
+    Image<float> noise(64, 64, 3);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise.data()[i] = 0.1f * float(std::sin(double(i * i)));
+    bc5_round(noise);
+    Image<float> again = copied(noise);
+    bc5_round(again);
+    REQUIRE(!std::equal(noise.data(), noise.data() + noise.size(), again.data()));
+    return std::make_shared<const Image<float>>(std::move(noise));
+}
+
+/// A square as load() gives it, with the last material: the first one is that of meshes without one, then come those of
+/// the entries, and copies of these.
+Scene read_square(std::vector<Material> materials, int pixels = 16) {
+    Scene scene;
+    scene.shapes.push_back(make_shape(plane_mesh()));
+    scene.materials.push_back(std::make_unique<Material>());
+    for (Material& material : materials) scene.materials.push_back(std::make_unique<Material>(std::move(material)));
+    add_instance(scene, *scene.shapes[0], *scene.materials.back());
+    scene.settings.width = scene.settings.height = pixels;
+    scene.lights = {directional({1, 0, 1})};
+    build(scene);
+    return scene;
+}
+
 } // namespace
 
 TEST_SUITE("unit") {
@@ -204,19 +229,10 @@ TEST_SUITE("unit") {
     }
 
     TEST_CASE("texture plan: a file of 8 bits that may err like RGB8 stays, because that errs by nothing") {
-        Scene scene;
         SceneEntries entries;
         entries.materials.emplace_back().normal_map = "waves.png";
-        scene.shapes.push_back(make_shape(plane_mesh()));
-        scene.materials.push_back(std::make_unique<Material>());
-        const SceneTexture source{.use = TextureUse::normal, .picture = waves(16, 3, 0.3f)};
-        Material material =
-            with_normals(std::make_shared<const Image<float>>(stored(*source.picture, source.use, {0, 16, 16, 3, 8})));
-        scene.materials.push_back(std::make_unique<Material>(material));
-        add_instance(scene, *scene.shapes[0], *scene.materials[1]);
-        scene.settings.width = scene.settings.height = 16;
-        scene.lights = {directional({1, 0, 1})};
-        build(scene);
+        const Image<float> read = stored(*waves(16, 3, 0.3f), TextureUse::normal, {0, 16, 16, 3, 8});
+        const Scene scene = read_square({with_normals(std::make_shared<const Image<float>>(copied(read)))});
         PartOptions like = options(1);
         like.like_rgb8 = true;
         const auto plan = plan_textures(scene, &entries, like)[0];
@@ -228,14 +244,7 @@ TEST_SUITE("unit") {
 
     TEST_CASE(
         "texture plan: a texture file of normals is known to be in BC5, although its blocks are not found again") {
-        Image<float> noise(64, 64, 3);
-        for (std::size_t i = 0; i < noise.size(); ++i) noise.data()[i] = 0.1f * float(std::sin(double(i * i)));
-        bc5_round(noise);
-        Image<float> again = copied(noise);
-        bc5_round(again);
-        REQUIRE(!std::equal(noise.data(), noise.data() + noise.size(), again.data()));
-        SceneTexture texture{.name = "n.ktx2", .use = TextureUse::normal};
-        texture.picture = std::make_shared<const Image<float>>(std::move(noise));
+        SceneTexture texture{.name = "n.ktx2", .use = TextureUse::normal, .picture = noisy_blocks()};
         CHECK(source_form(texture) == TextureForm{0, 64, 64, 2, bc5_bits});
         texture.name = "n.exr";
         CHECK(source_form(texture).bits == 32);
@@ -243,6 +252,49 @@ TEST_SUITE("unit") {
         texture.picture =
             std::make_shared<const Image<float>>(stored(*waves(16, 3, 0.3f), TextureUse::normal, {0, 16, 16, 3, 8}));
         CHECK(source_form(texture).bits == 8);
+    }
+
+    TEST_CASE("texture plan: a file is known to be in BC5 only if it can be, whatever its texels are") {
+        Image<float> tilted(8, 8, 3);
+        for (std::size_t i = 0; i < tilted.size(); ++i) tilted.data()[i] = i % 3 == 0 ? 0.6f : i % 3 == 1 ? 0 : 0.8f;
+        bc5_round(tilted);
+        SceneTexture texture{.use = TextureUse::normal};
+        texture.picture = std::make_shared<const Image<float>>(std::move(tilted));
+        for (const auto& [name, blocks] :
+             {std::pair("n.dds", true), {"n.ktx2", true}, {"n.png", false}, {"n.exr", false}}) {
+            texture.name = name;
+            CHECK_MESSAGE(source_form(texture).in_bc5() == blocks, name);
+        }
+    }
+
+    TEST_CASE("texture plan: blocks of a file that nothing smaller replaces stay as they are, for later textures too") {
+        SceneEntries entries;
+        entries.materials.emplace_back().normal_map = "n.ktx2";
+        Material material = with_normals(noisy_blocks());
+        material.albedo = texture(1, 1, 3, [](float, float, float* t) { t[0] = t[1] = t[2] = 1; }); // made, not read
+        const Scene scene = read_square({material});
+        PartOptions like = options(1);
+        like.like_rgb8 = true;
+        const auto plans = plan_textures(scene, &entries, like);
+        REQUIRE(plans.size() == 2);
+        CHECK(plans[0].bytes == plans[0].source_bytes);
+        CHECK(plans[0].rgb8_rmse > 0);
+        CHECK(plans[0].why.starts_with("nothing smaller errs as little"));
+        CHECK(plans[0].error.square == 0);
+        CHECK(plans[1].kind == "albedo");
+        CHECK(plans[1].error.square == 0);
+    }
+
+    TEST_CASE("texture plan: a baked map that the scene shows in BC5 errs by nothing as it is") {
+        SceneEntries entries;
+        entries.materials.emplace_back().normal_bc5 = true;
+        entries.meshes.emplace_back().material = 0;
+        const Scene scene = read_square({Material(), with_normals(noisy_blocks())});
+        const auto plan = plan_textures(scene, &entries, options(0))[0];
+        CHECK(plan.meshes == std::vector{0});
+        CHECK(form_of(plan).in_bc5());
+        CHECK(plan.bytes == plan.source_bytes);
+        CHECK(plan.error.square == 0);
     }
 
     TEST_CASE("texture plan: the same for any number of threads") {

@@ -37,4 +37,10 @@ void expect_one_file(const std::string& flag, const std::string& path, const std
         throw Error(Refusal::usage, flag + " " + path + ": <UDIM> stands for tiles of a mesh's uvs, and " + why);
 }
 
+void expect_tile_or_all(const std::string& what, const std::string& path, int tile) {
+    if (tile != 0 && names_tiles(path))
+        throw Error(Refusal::usage,
+                    "--tile: <UDIM> in the name of " + what + " asks for all tiles; leave one of the two out");
+}
+
 } // namespace bake

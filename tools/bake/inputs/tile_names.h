@@ -15,5 +15,8 @@ std::string file_of_tile(const std::string& path, int tile);
 std::vector<int> udim_tiles(const Mesh& mesh, const std::string& path);
 /// Throws Error{Refusal::usage} if the name has <UDIM> in it: for outputs of which there is one.
 void expect_one_file(const std::string& flag, const std::string& path, const std::string& why);
+/// Throws Error{Refusal::usage} if --tile chose a tile (0: it did not) and the name has <UDIM> in it, which asks for
+/// all tiles. `what` has the name, for the message: "the map".
+void expect_tile_or_all(const std::string& what, const std::string& path, int tile);
 
 } // namespace bake

@@ -58,7 +58,9 @@ private:
     std::string add(Bake bake, const std::string& object, const std::string& ending);
     std::string output_of(const std::string& bake) const;
     const char* obstacle(const Job& job) const;
+    ImageInfo height_info(const ReliefEntry& relief) const;
     std::string amplitude(const Job& job, bool of_mesh);
+    int halvings(const Job& job) const;
     void height_options(const Job& job, Bake& bake, bool of_mesh);
     void mesh_options(const MeshEntry& mesh, Bake& bake) const;
     void table(const Job& job);
@@ -126,6 +128,20 @@ const char* Lister::obstacle(const Job& job) const {
     return nullptr;
 }
 
+ImageInfo Lister::height_info(const ReliefEntry& relief) const {
+    const auto known = entries_.pictures.find(relief.file);
+    return known != entries_.pictures.end() ? known->second->info : read_image_info(relief.file);
+}
+
+/// From the map that the command bakes, which has the size of the height, to the planned one. The map of the scene may be
+/// smaller, by "relief-size".
+int Lister::halvings(const Job& job) const {
+    const ImageInfo height = height_info(job.relief);
+    TexturePlan baked = *job.map;
+    baked.source_width = height.width, baked.source_height = height.height;
+    return form_of(baked).halvings;
+}
+
 /// In object units; empty: that of the command.
 std::string Lister::amplitude(const Job& job, bool of_mesh) {
     const ReliefEntry& relief = job.relief;
@@ -138,9 +154,7 @@ std::string Lister::amplitude(const Job& job, bool of_mesh) {
     one.meshes[0].material = -1, one.meshes[0].own_materials = false, one.meshes[0].placement = {};
     one.any_light = true;
     const double size = diagonal(bounds(load(one)));
-    const auto known = entries_.pictures.find(relief.file);
-    const ImageInfo info = known != entries_.pictures.end() ? known->second->info : read_image_info(relief.file);
-    return text_of(float(relief_options(relief, info, size).height.amplitude));
+    return text_of(float(relief_options(relief, height_info(relief), size).height.amplitude));
 }
 
 void Lister::height_options(const Job& job, Bake& bake, bool of_mesh) {
@@ -210,8 +224,8 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     const bool bc5 = job.map && job.map->bits == bc5_bits;
     if (bc5) {
         bake.options.emplace_back("depth", "bc5");
-        if (const int halvings = form_of(*job.map).halvings; halvings > 0)
-            bake.options.emplace_back("skip-mips", std::to_string(halvings));
+        if (const int skipped = halvings(job); skipped > 0)
+            bake.options.emplace_back("skip-mips", std::to_string(skipped));
     }
     if (job.map && job.map->bits == 8) bake.options.emplace_back("depth", "8");
     if (!displaced.empty()) {
@@ -243,7 +257,7 @@ void Lister::add(const std::string& object, int index, const ShadeMethod& method
 
 /// Files of normals are not baked again: what no command makes of them is told.
 void Lister::add(const TexturePlan& texture) {
-    if (texture.materials.empty() || !map_form(texture).bc5) return;
+    if (texture.materials.empty() || map_form(texture).depth != NormalDepth::bc5) return;
     manifest_.notes.push_back(path(texture.file) +
                               ": no command stores a file of normals in BC5; bake it anew to .ktx2, or leave "
                               "\"normal-depth\" in the scene, which shows it so");

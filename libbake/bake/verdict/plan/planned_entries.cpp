@@ -28,8 +28,7 @@ SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan)
             while (!names.insert(wanted).second) wanted += "'";
             own.name = wanted;
             if (method) own.relief.shade = method;
-            if (form.size > 0) own.relief_size = form.size;
-            if (form.bc5) own.normal_bc5 = true;
+            set_relief_form(own, form);
             planned.materials.push_back(std::move(own));
         }
         planned.meshes[i].material = at->second;

@@ -19,8 +19,12 @@ void set_form(TextEdits& edits, const toml::table& material, const TexturePlan& 
 
 MapForm map_form(const TexturePlan& texture) noexcept {
     const bool smaller = texture.width < texture.source_width || texture.height < texture.source_height;
-    const bool blocks = texture.bits == bc5_bits && (smaller || texture.source_bits != bc5_bits);
-    return {smaller ? std::max(texture.width, texture.height) : 0, blocks};
+    const bool blocks = texture.bits == bc5_bits, were_blocks = texture.source_bits == bc5_bits;
+    // A halved map is in floats, even if it was read from blocks.
+    const bool set = blocks && (smaller || !were_blocks), cleared = !blocks && were_blocks;
+    return {smaller ? std::max(texture.width, texture.height) : 0, set       ? NormalDepth::bc5
+                                                                   : cleared ? NormalDepth::floats
+                                                                             : NormalDepth::unchanged};
 }
 
 MapForm baked_form(const ScenePlan& plan, int mesh) noexcept {
@@ -41,14 +45,22 @@ void reduce_maps(SceneEntries& entries, const ScenePlan& plan) {
             if (m >= count) continue; // a copy
             MaterialEntry& material = entries.materials[std::size_t(m)];
             const MapForm form = map_form(texture);
-            if (form.size > 0) (is_albedo(texture) ? material.albedo_size : material.relief_size) = form.size;
-            if (form.bc5) material.normal_bc5 = true;
+            if (!is_albedo(texture)) set_relief_form(material, form);
+            else if (form.size > 0) material.albedo_size = form.size;
         }
+}
+
+void set_relief_form(MaterialEntry& material, const MapForm& form) noexcept {
+    if (form.size > 0) material.relief_size = form.size;
+    if (form.depth != NormalDepth::unchanged) material.normal_bc5 = form.depth == NormalDepth::bc5;
 }
 
 void set_relief_form(TextEdits& edits, const toml::table& material, const MapForm& form) {
     if (form.size > 0) set_material_key(edits, material, "relief-size", std::to_string(form.size));
-    if (form.bc5) set_material_key(edits, material, "normal-depth", "\"bc5\"");
+    if (form.depth == NormalDepth::bc5) set_material_key(edits, material, "normal-depth", "\"bc5\"");
+    // Without the key a map is of floats; the blocks were those of its file.
+    if (form.depth == NormalDepth::floats && material.contains("normal-depth"))
+        set_material_key(edits, material, "normal-depth", "\"float\"");
 }
 
 void reduce_maps(TextEdits& edits, const toml::table& root, const ScenePlan& plan) {

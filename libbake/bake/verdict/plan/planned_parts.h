@@ -13,11 +13,18 @@ void remove_lights(SceneEntries& entries, const ScenePlan& plan);
 /// and `entries` are of that text. Throws Error{Refusal::unreadable} if they have other lights.
 void remove_lights(TextEdits& edits, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan);
 
+/// What a plan makes of "normal-depth".
+enum class NormalDepth {
+    unchanged,
+    bc5,
+    floats, ///< of a map that was in BC5: the key, if there is one, is cleared
+};
+
 /// What a scene file says of a map: the values of "relief-size" or "albedo-size" and of "normal-depth".
 struct MapForm {
     int size = 0; ///< most texels along an edge, if it is planned smaller than it is; else 0
-    bool bc5 = false;
-    bool as_it_is() const noexcept { return size == 0 && !bc5; }
+    NormalDepth depth = NormalDepth::unchanged;
+    bool as_it_is() const noexcept { return size == 0 && depth == NormalDepth::unchanged; }
     auto operator<=>(const MapForm&) const = default;
 };
 MapForm map_form(const TexturePlan& texture) noexcept;
@@ -29,6 +36,7 @@ bool scene_says_form(const TexturePlan& texture) noexcept;
 void reduce_maps(SceneEntries& entries, const ScenePlan& plan);
 void reduce_maps(TextEdits& edits, const toml::table& root, const ScenePlan& plan);
 /// Sets the keys of a bump table or normal map that is not as it is.
+void set_relief_form(MaterialEntry& material, const MapForm& form) noexcept;
 void set_relief_form(TextEdits& edits, const toml::table& material, const MapForm& form);
 
 /// Shows the sky as planned, by the keys of `[sky]` that reduce it.

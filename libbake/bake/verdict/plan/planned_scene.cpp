@@ -28,6 +28,10 @@ struct Version {
     bool other_shade = false; ///< than the file has
 };
 
+const char* name_of(NormalDepth depth) noexcept {
+    return depth == NormalDepth::bc5 ? " bc5" : depth == NormalDepth::floats ? " float" : "";
+}
+
 class Planner {
 public:
     Planner(const std::string& text, const toml::table& root, const SceneEntries& entries, const ScenePlan& plan)
@@ -105,7 +109,7 @@ std::vector<Version> Planner::versions(int material) {
         for (Version& one : list)
             if (one.shade == shade && one.map == map) return one;
         const std::string wanted =
-            entry.name + " " + shade + (map.size > 0 ? " " + std::to_string(map.size) : "") + (map.bc5 ? " bc5" : "");
+            entry.name + " " + shade + (map.size > 0 ? " " + std::to_string(map.size) : "") + name_of(map.depth);
         const std::string own = list.empty() ? entry.name : unused_name(wanted);
         return list.emplace_back(Version{shade, map, own, shade != was});
     };

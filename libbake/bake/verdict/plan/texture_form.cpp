@@ -133,12 +133,12 @@ bool is_grey(const Image<float>& image) noexcept {
     return true;
 }
 
-TextureForm lossless_form(const Image<float>& source, TextureUse use) {
+TextureForm lossless_form(const Image<float>& source, TextureUse use, bool blocks) {
     const bool grey = use == TextureUse::albedo && is_grey(source);
     // What is read from integers is computed in float.
     constexpr float rounding = 1e-6f;
     for (const TextureForm& form : texture_forms(use, source.width(), source.height(), grey)) {
-        if (form.halvings > 0) continue;
+        if (form.halvings > 0 || (form.in_bc5() && !blocks)) continue;
         const Image<float> read = stored(source, use, form);
         const auto same = [&](float a, float b) { return std::abs(a - b) <= rounding * std::max(1.0f, std::abs(a)); };
         if (std::equal(read.data(), read.data() + read.size(), source.data(), same)) return form;

@@ -42,7 +42,8 @@ Image<float> stored(const Image<float>& halving, TextureUse use, const TextureFo
 
 bool is_grey(const Image<float>& image) noexcept;
 
-/// The smallest form at full size that holds the source without loss; 32 bits if no other one does.
-TextureForm lossless_form(const Image<float>& source, TextureUse use);
+/// The smallest form at full size that holds the source without loss; 32 bits if no other one does. `blocks`: BC5 is
+/// tried too.
+TextureForm lossless_form(const Image<float>& source, TextureUse use, bool blocks = false);
 
 } // namespace bake

@@ -115,6 +115,14 @@ TexturePlan start(const SceneTexture& texture, const TextureForm& source) {
     return plan;
 }
 
+/// The texels of a form as they are read back. `halvings`: of the texture. In the form of a map that the scene shows in
+/// BC5 it stays as it is, because the encoder need not find its blocks again.
+Image<float> texels_of(const SceneTexture& texture, const std::vector<Image<float>>& halvings,
+                       const TextureForm& form) {
+    const Image<float>& halving = halvings[std::size_t(form.halvings)];
+    return texture.bc5 && form == source_form(texture) ? copied(halving) : stored(halving, texture.use, form);
+}
+
 /// The first form that errs no more than RGB of 8 bits at full size does on the same pixels, by the same random numbers. That
 /// one is among the forms of a map that has more bits. Leaves the twin with the chosen form.
 TexturePlan decide_like_rgb8(const SceneTexture& texture, const PartOptions& options, WorstProbe& probe, Scene& twin) {
@@ -122,8 +130,7 @@ TexturePlan decide_like_rgb8(const SceneTexture& texture, const PartOptions& opt
     TexturePlan plan = start(texture, source);
     const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
     const auto show = [&](const TextureForm& form) {
-        set_texture(twin, texture.materials, texture.use,
-                    stored(halvings[std::size_t(form.halvings)], texture.use, form));
+        set_texture(twin, texture.materials, texture.use, texels_of(texture, halvings, form));
     };
     show({0, texture.picture->width(), texture.picture->height(), 3, 8});
     const SquareEstimate rgb8 = probe.measure(twin, compared).error;
@@ -144,8 +151,8 @@ TexturePlan decide_like_rgb8(const SceneTexture& texture, const PartOptions& opt
         }
         smaller = form.text() + " errs by " + error_text(error);
     }
-    show(source);
-    plan.error = probe.measure(twin, compared).error;
+    set_texture(twin, texture.materials, texture.use, copied(halvings[0]));
+    plan.error.all = true;
     plan.why = "nothing smaller errs as little as RGB of 8 bits in full size, which errs by " + error_text(rgb8) +
                (smaller.empty() ? std::string() : "; " + smaller);
     return plan;
@@ -166,7 +173,7 @@ TexturePlan decide(const SceneTexture& texture, const PartOptions& options, Wors
     const std::vector<Image<float>> halvings = halvings_of(*texture.picture);
     std::string smaller; // the last form that was not enough
     for (const TextureForm& form : forms) {
-        set_texture(twin, texture.materials, texture.use, stored(halvings[form.halvings], texture.use, form));
+        set_texture(twin, texture.materials, texture.use, texels_of(texture, halvings, form));
         const WorstProbe::Result result = probe.judge(twin, budget);
         if (result.within || (texture.baked && form == forms.back())) {
             set_form(plan, form);
@@ -226,9 +233,10 @@ TextureForm source_form(const SceneTexture& texture) {
     const TextureForm blocks{0, image.width(), image.height(), 2, bc5_bits};
     if (texture.bc5) return blocks;
     if (!texture.baked) {
-        const TextureForm form = lossless_form(image, texture.use);
+        const bool container = texture_container(texture.name).has_value();
+        const TextureForm form = lossless_form(image, texture.use, container);
         // The blocks of a texture file need not be what the encoder finds again.
-        const bool unknown = form.bits == 32 && texture.use == TextureUse::normal && texture_container(texture.name);
+        const bool unknown = form.bits == 32 && texture.use == TextureUse::normal && container;
         return unknown ? blocks : form;
     }
     if (texture.use == TextureUse::normal) return {0, image.width(), image.height(), 3, 8, false};
