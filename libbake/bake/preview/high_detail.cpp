@@ -5,6 +5,7 @@
 #include "bake/preview/texture_size.h"
 #include "bake/relief/transfer/reach.h"
 #include "bake/relief/transfer/transfer.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
@@ -21,16 +22,20 @@ void note_misses(const HighEntry& high, const TransferReport& report, std::vecto
 
 } // namespace
 
+int detail_rays(int size) noexcept { return std::clamp(1024 / size, 1, 16); }
+
 Texture high_normal_map(const HighEntry& high, const Mesh& low, const std::string& name,
                         std::vector<std::string>& notes) {
     Mesh detail = read_mesh(high.file);
     make_absolute(detail, high.file, notes);
     TransferOptions options;
     options.width = options.height = high.size;
+    options.rays = detail_rays(high.size);
     std::vector<HighMesh> meshes;
     meshes.push_back({std::move(detail), high.file});
     const BakeTarget target = make_bake_target(low, name, high.size, high.size);
-    const HighSurface surface(std::move(meshes), low.origin, HighNormals::smooth, double(high.size) * high.size);
+    const double rays = double(high.size) * high.size * options.rays * options.rays;
+    const HighSurface surface(std::move(meshes), low.origin, HighNormals::smooth, rays);
     const Casting casting(target.surface, CastBy::blend, measured_reach(target.surface, surface));
     Transfer baked = transfer(target, surface, casting, options, name);
     note_misses(high, baked.report, notes);

@@ -1,4 +1,5 @@
 #include "bake/verdict/plan/manifest_high.h"
+#include "bake/preview/high_detail.h"
 #include "bake/verdict/plan/texture_form.h"
 
 namespace bake {
@@ -12,7 +13,9 @@ bool is_bc5(const HighEntry& entry, const TexturePlan* map) noexcept {
 
 Bake high_bake(const HighEntry& entry, const std::string& low, const std::string& high, const TexturePlan* map) {
     Bake bake{.verb = "normal-map", .files = {low}, .inputs = {{"high", high}}, .use = "normal"};
-    bake.options.emplace_back("size", std::to_string(map ? map->width : entry.size));
+    const int size = map ? map->width : entry.size;
+    bake.options.emplace_back("size", std::to_string(size));
+    if (const int rays = detail_rays(size); rays > 1) bake.options.emplace_back("rays", std::to_string(rays));
     if (is_bc5(entry, map)) bake.options.emplace_back("depth", "bc5");
     else if (map && map->bits == 8) bake.options.emplace_back("depth", "8");
     return bake;

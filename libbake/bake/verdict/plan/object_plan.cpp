@@ -69,6 +69,7 @@ void Decider::list_rungs(Candidate& c) const {
     for (const ShadeMethod& method : c.has_high() ? plan_high_rungs() : plan_rungs(c.cost.triangles)) {
         Rung rung;
         rung.method = method, rung.cost = model_cost(c.cost, method);
+        if (method.shade == Shade::high) rung.known = Known::bound, rung.note = "it is the reference";
         plan.rungs.push_back(std::move(rung));
     }
     const CostWeights& weights = work_.options.weights;

@@ -52,19 +52,19 @@ void look_at(Candidate& candidate, const PlannedObject& object) {
 }
 
 double pixels_in_view(const PlanWork& work, const Candidate& candidate) {
+    const auto most_of = [&](const AssembledScene& shown) {
+        const ProbedScene scene = candidate.of(shown);
+        std::size_t most = 0;
+        for (std::size_t camera = 0; camera < work.scenes.cameras().size(); ++camera)
+            most = std::max(most, object_pixels(std::span(&scene, 1), probe_options(work, camera, "")).size());
+        return double(most);
+    };
+    const double plain = most_of(*work.plain);
+    if (plain > 0 || !candidate.has_high()) return plain;
     const auto object = std::size_t(candidate.decision->object);
-    std::vector<ProbedScene> scenes = {candidate.of(*work.plain)};
-    std::unique_ptr<AssembledScene> high;
-    if (candidate.has_high()) {
-        BakedModels models(work.scenes.objects().size());
-        models[object] = work.scenes.objects()[object].high_model;
-        high = work.scenes.assemble(std::move(models));
-        scenes.push_back(candidate.of(*high));
-    }
-    std::size_t most = 0;
-    for (std::size_t camera = 0; camera < work.scenes.cameras().size(); ++camera)
-        most = std::max(most, object_pixels(scenes, probe_options(work, camera, "")).size());
-    return double(most);
+    BakedModels models(work.scenes.objects().size());
+    models[object] = work.scenes.objects()[object].high_model;
+    return most_of(*work.scenes.assemble(std::move(models)));
 }
 
 ShadeMethod reference_at(const Candidate& candidate, int level) noexcept {

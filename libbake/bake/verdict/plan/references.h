@@ -46,7 +46,7 @@ struct Candidate {
 
 /// Sets what the object tells of its cost and its relief.
 void look_at(Candidate& candidate, const PlannedObject& object);
-/// Of the camera that sees most of the object without relief, or of it and its high-poly mesh.
+/// Of the camera that sees most of the object without relief; of its high-poly mesh where no camera sees that.
 double pixels_in_view(const PlanWork& work, const Candidate& candidate);
 /// The reference by its level. A high-poly mesh is one at level 0, and there is no finer one.
 ShadeMethod reference_at(const Candidate& candidate, int level) noexcept;
