@@ -62,12 +62,13 @@ void expect_new(const char* flag, const std::string& file, const char* other_fla
 } // namespace
 
 void add_plan_options(CLI::App& sub, PlanArgs& args) {
-    sub.add_option("scene", args.scene, "Scene (.toml) whose objects have heights")->required();
+    sub.add_option("scene", args.scene, "Scene (.toml) whose objects have heights or high-poly meshes")->required();
     sub.add_option("--budget", args.budget,
                    "Largest error of an object: strict (rmse=0.005), normal (rmse=0.01), loose (rmse=0.02), or a "
                    "number. rmse: of exposed linear light, each sample clamped to [0, 1] before samples are averaged, "
                    "over the area that the object covers in the picture, of the worst camera, against true "
-                   "displacement. flip: mean FLIP over the same. deg: mean angle between the shading normals")
+                   "displacement or the high-poly mesh. flip: mean FLIP over the same. deg: mean angle between the "
+                   "shading normals")
         ->type_name("strict|normal|loose|rmse=E|flip=E|deg=E")
         ->capture_default_str();
     sub.add_option("--camera", args.cameras, "Names of the scene's cameras with commas between them; all: each of them")

@@ -26,6 +26,7 @@ constexpr std::pair<std::string_view, Shade> words[] = {
     {"normal", Shade::normal},
     {"displace", Shade::displace},
     {"displace+normal", Shade::displace_normal},
+    {"high", Shade::high},
 };
 
 /// Tables and maps of slopes per unit of u and v.
@@ -153,7 +154,7 @@ std::optional<ShadeMethod> parse_shade(const std::string& word) {
     const std::size_t colon = word.find(':');
     const std::string_view name = word == "lecture" ? "constant-scale" : std::string_view(word).substr(0, colon);
     for (const auto& [known, shade] : words) {
-        if (known != name) continue;
+        if (known != name || shade == Shade::high) continue; // of meshes, not of heights
         ShadeMethod method{shade};
         if (displaces(shade) != (colon != std::string::npos)) return {};
         if (colon == std::string::npos) return method;
@@ -189,7 +190,8 @@ ReliefModel with_relief(const Material& material, const Shape& shape, const Heig
             m.height_mips = spline_mips(height, options);
     };
     switch (options.method.shade) {
-    case Shade::plain: break;
+    case Shade::plain:
+    case Shade::high: break;
     case Shade::roughness: widen(m, slope_variance(height, options, mean_scale(shape.surface))); break;
     case Shade::constant_scale:
         by_height(NormalMethod::constant_scale);

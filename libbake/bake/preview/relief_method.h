@@ -20,6 +20,7 @@ enum class Shade {
     normal,          ///< looks up a tangent-space map of exact normals: normal_map()
     displace,        ///< a displaced mesh: displace()
     displace_normal, ///< a displaced mesh with a map of the exact normals relative to it: residual_map()
+    high,            ///< the high-poly mesh itself, of an object that has one (high_entry.h); of no height
 };
 
 /// Whether the mesh itself is displaced.
@@ -58,7 +59,7 @@ struct ReliefModel {
     std::vector<std::string> notes;
 };
 
-/// Bakes what the method needs, by the functions that the commands call. Throws their errors: Error{Refusal::unsuitable} for
+/// Bakes what the method, which is not Shade::high, needs, by the functions that the commands call. Throws their errors: Error{Refusal::unsuitable} for
 /// a shape without uvs, and for a displacement that does not fit in memory.
 ReliefModel with_relief(const Material& material, const Shape& shape, const HeightTexture& height,
                         const ReliefOptions& options);

@@ -9,6 +9,7 @@
 #include "bake/preview/counted_twice.h"
 #include "bake/preview/default_lights.h"
 #include "bake/preview/gltf_objects.h"
+#include "bake/preview/high_detail.h"
 #include "bake/preview/outline_doubt.h"
 #include "bake/preview/relief_doubt.h"
 #include "bake/preview/scene_positions.h"
@@ -17,6 +18,7 @@
 #include "bake/preview/texture_size.h"
 #include "bake/relief/height/picture_height.h"
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <tuple>
@@ -45,6 +47,8 @@ using HeightCache = std::map<std::string, std::shared_ptr<const HeightTexture>>;
 
 /// Materials and shapes with the relief of a material on a shape, by both.
 using ReliefCache = std::map<std::pair<const Shape*, int>, std::pair<const Material*, Shape*>>;
+/// Materials with the normals of a high-poly mesh, by the shape, the material and the entry's high-poly mesh, size and form.
+using DetailCache = std::map<std::tuple<const Shape*, int, std::string, int, bool>, const Material*>;
 /// glTF files with their own materials, by all options of reading.
 using GltfCache = std::map<std::tuple<std::string, bool, bool, float, float>, std::vector<GltfObject>>;
 
@@ -54,6 +58,7 @@ struct Loaded {
     ShapeCache shapes;
     HeightCache heights;
     ReliefCache reliefs;
+    DetailCache details;
     std::set<std::pair<const Shape*, const Material*>> compared; ///< by note_relief()
     GltfCache gltf;
     std::map<std::string, std::vector<GltfLight>> lights; ///< of glTF files
@@ -156,8 +161,33 @@ bool load_gltf(const MeshEntry& entry, Loaded& loaded, Scene& scene) {
     return !found->second.empty();
 }
 
+/// The material with the normals of the high-poly mesh, which are baked for this shape.
+const Material& with_detail(const MeshEntry& entry, bool repeats, const Material& material, const Shape& shape,
+                            Loaded& loaded, Scene& scene) {
+    if (repeats)
+        throw Error(Refusal::unsuitable, "\"shade\" normal bakes a map, and the uvs repeat; give a repeat of 1, or "
+                                         "another \"shade\"");
+    const HighEntry& high = entry.high;
+    const Material*& shown = loaded.details[{&shape, entry.material, high.file, high.size, high.normal_bc5}];
+    if (shown) return *shown;
+    auto own = std::make_unique<Material>(material);
+    own->normal_map = high_normal_map(high, shape.mesh, entry.file, scene.notes);
+    shown = own.get();
+    scene.materials.push_back(std::move(own));
+    return *shown;
+}
+
 void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& loaded, Scene& scene) {
     throw_if_interrupted();
+    const HighEntry& high = entry.high;
+    if (!high.file.empty() && high.shade == Shade::high) {
+        MeshEntry in_place = entry; // read as the low-poly mesh is
+        in_place.file = high.file, in_place.high = {};
+        return load_mesh(entries, in_place, loaded, scene);
+    }
+    // A plan reads it, and a scene that it cannot be read of should not render first.
+    if (!high.file.empty() && !std::filesystem::exists(high.file))
+        throw Error(Refusal::unreadable, high.file + ": no such file; check the name");
     if (entry.own_materials && is_gltf(entry) && load_gltf(entry, loaded, scene)) return;
     const Material& material = *scene.materials[entry.material + 1];
     const ReliefEntry relief = entry.material < 0 ? ReliefEntry{} : entries.materials[entry.material].relief;
@@ -180,6 +210,9 @@ void load_mesh(const SceneEntries& entries, const MeshEntry& entry, Loaded& load
     if (textured && shape->mesh.corner_uv.empty())
         throw Error(Refusal::unsuitable, entry.file + ": has no uvs, which the textures of material \"" +
                                              material.name + "\" need; unwrap the mesh or remove the textures");
+    if (high.shade == Shade::normal)
+        return add_instance(scene, *shape, with_detail(entry, repeat != Vec2f(1), material, *shape, loaded, scene),
+                            entry.placement);
     if (relief.file.empty()) {
         add_instance(scene, *shape, material, entry.placement);
         return note_relief(entry, material, *shape, loaded, scene);
@@ -269,8 +302,14 @@ Scene load(const SceneEntries& entries) {
     for (const MaterialEntry& entry : entries.materials)
         scene.materials.push_back(at_line(
             entries, entry.line, [&] { return load_material(entry, textures, entries.pictures, scene.notes); }));
-    Loaded loaded{
-        .entries = entries, .shapes = {}, .heights = {}, .reliefs = {}, .compared = {}, .gltf = {}, .lights = {}};
+    Loaded loaded{.entries = entries,
+                  .shapes = {},
+                  .heights = {},
+                  .reliefs = {},
+                  .details = {},
+                  .compared = {},
+                  .gltf = {},
+                  .lights = {}};
     for (const MeshEntry& entry : entries.meshes)
         at_line(entries, entry.line, [&] {
             load_mesh(entries, entry, loaded, scene);

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/environment/filter/sky_reduction.h"
 #include "bake/preview/camera_entry.h"
+#include "bake/preview/high_entry.h"
 #include "bake/preview/material_entry.h"
 #include "bake/preview/scene.h"
 #include "bake/surface/subdivision/types.h"
@@ -14,6 +15,7 @@ struct MeshEntry {
     std::string name;                ///< for instances; may be empty
     std::string shape;               ///< see shape_mesh()
     int columns = 0, rows = 0;       ///< of a shape, see shape_mesh()
+    HighEntry high;                  ///< of a file; the material has neither a height nor a map of normals or slopes
     std::optional<Scheme> subdivide; ///< the file is a cage, and its limit is shown; columns: segments of an edge
     Vec2f repeat{1};                 ///< factor on the uvs
     int material = -1;               ///< index in materials; -1 is plain grey

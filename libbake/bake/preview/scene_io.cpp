@@ -174,8 +174,9 @@ void read_material(const Section& in, SceneEntries& scene) {
 namespace {
 
 void read_mesh_entry(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat",
-                    "flip-v", "uv-set", "subdivide", "repeat", "lights"});
+    allow_only(in,
+               {"file", "shape", "segments", "name", "material", "translate", "rotate-deg", "scale", "flat", "flip-v",
+                "uv-set", "subdivide", "repeat", "lights", "high", "shade", "normal-size", "normal-depth"});
     MeshEntry m;
     read_mesh_source(in, m);
     read_mesh_name(in, scene, m);
@@ -187,6 +188,7 @@ void read_mesh_entry(const Section& in, SceneEntries& scene) {
     read(in, "flat", m.flat);
     read(in, "flip-v", m.flip_v);
     read(in, "uv-set", m.uv_set, 0, 99);
+    read_high(in, scene, m);
     scene.meshes.push_back(std::move(m));
 }
 

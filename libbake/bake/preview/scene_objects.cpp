@@ -51,6 +51,30 @@ void read_camera(const Section& in, SceneEntries& scene) {
     scene.cameras.push_back(std::move(camera));
 }
 
+constexpr const char* detail_keys[] = {"shade", "normal-size", "normal-depth"};
+
+/// Of a mesh without a high-poly mesh.
+void refuse_detail(const Section& in) {
+    for (const char* key : detail_keys)
+        if (const toml::node* node = in.table.get(key))
+            refuse(in, *node, in_quotes(key) + " is of a [[mesh]] with \"high\"; give that a high-poly mesh");
+}
+
+/// The keys of a mesh that has a high-poly mesh. Refuses one whose material has a relief of its own.
+void read_detail(const Section& in, const SceneEntries& scene, MeshEntry& mesh) {
+    read(in, "normal-size", mesh.high.size, 1, 16384);
+    read_choice<bool>(in, "normal-depth", mesh.high.normal_bc5, {{"float", false}, {"bc5", true}});
+    read_choice<Shade>(in, "shade", mesh.high.shade,
+                       {{"plain", Shade::plain}, {"normal", Shade::normal}, {"high", Shade::high}});
+    if (mesh.material < 0) return;
+    const MaterialEntry& material = scene.materials[std::size_t(mesh.material)];
+    if (material.relief.file.empty() && material.bump_table.empty() && material.normal_map.empty()) return;
+    const toml::node* node = in.table.get("high");
+    refuse(in, node ? *node : in.table,
+           "\"high\" is the relief of this mesh, and its material " + in_quotes(material.name) +
+               " has one, too; give it a material without \"height\", \"bump\" and \"normal\"");
+}
+
 } // namespace
 
 void read_cameras(const toml::table& root, SceneEntries& scene) {
@@ -81,7 +105,7 @@ void read_ground(const Section& in, SceneEntries& scene) {
 }
 
 void read_instance(const Section& in, SceneEntries& scene) {
-    allow_only(in, {"mesh", "material", "translate", "rotate-deg", "scale"});
+    allow_only(in, {"mesh", "material", "shade", "normal-size", "normal-depth", "translate", "rotate-deg", "scale"});
     std::string name;
     if (!read(in, "mesh", name)) refuse(in, in.table, "\"mesh\" is missing; give the name of a [[mesh]]");
     MeshEntry instance = scene.meshes[index_named(in, "mesh", name, scene.meshes, "[[mesh]]")];
@@ -89,9 +113,24 @@ void read_instance(const Section& in, SceneEntries& scene) {
     instance.placement = {};
     instance.line = line_of(in.table);
     read_material_name(in, scene, instance.material);
-    instance.own_materials = instance.material < 0;
+    instance.own_materials = instance.material < 0 && instance.high.file.empty();
+    if (instance.high.file.empty()) refuse_detail(in);
+    else read_detail(in, scene, instance);
     read_placement(in, instance.placement);
     scene.meshes.push_back(std::move(instance));
+}
+
+void read_high(const Section& in, const SceneEntries& scene, MeshEntry& mesh) {
+    const toml::node* node = in.table.get("high");
+    if (!read_path(in, "high", mesh.high.file)) return refuse_detail(in);
+    if (mesh.file.empty() || mesh.subdivide)
+        refuse(in, *node,
+               "\"high\" is the detail of a \"file\" with faces of its own; write the surface as a file first");
+    if (mesh.flat)
+        refuse(in, *node,
+               "\"high\" needs the smooth normals of the low-poly mesh, and \"flat\" takes facets; leave one out");
+    mesh.own_materials = false;
+    read_detail(in, scene, mesh);
 }
 
 void read_placement(const Section& in, Placement& placement) {

@@ -20,6 +20,8 @@ void read_placement(const Section& in, Placement& placement);
 void read_repeat(const Section& in, Vec2f& repeat);
 /// "file", or "shape" and "segments": exactly one of the two.
 void read_mesh_source(const Section& in, MeshEntry& mesh);
+/// "high", "shade", "normal-size" and "normal-depth". Reads a mesh whose source, material and "flat" are known.
+void read_high(const Section& in, const SceneEntries& scene, MeshEntry& mesh);
 /// "name", which no other mesh has.
 void read_mesh_name(const Section& in, const SceneEntries& scene, MeshEntry& mesh);
 /// "material": sets the index of the material of that name, if the key exists.

@@ -4,6 +4,7 @@
 #include "bake/preview/shape_mesh.h"
 #include "bake/surface/analytic/parametric.h"
 #include "bake/verdict/plan/folder_from.h"
+#include "bake/verdict/plan/manifest_high.h"
 #include "bake/verdict/plan/manifest_sky.h"
 #include "bake/verdict/plan/planned_parts.h"
 #include "bake/verdict/plan/planned_scene.h"
@@ -66,6 +67,8 @@ private:
     void table(const Job& job);
     std::string displaced(const Job& job);
     void normals(const Job& job, const std::string& displaced);
+    void detail(const std::string& object, const MeshEntry& mesh, const TexturePlan* map);
+    void note_missing(const std::string& object, const ShadeMethod& method, const char* why);
     std::string shape_file(const Job& job, Bake& bake);
 
     const SceneEntries& entries_;
@@ -236,20 +239,34 @@ void Lister::normals(const Job& job, const std::string& displaced) {
     add(std::move(bake), job.object, kind + (bc5 ? ".ktx2" : ".png"));
 }
 
+void Lister::detail(const std::string& object, const MeshEntry& mesh, const TexturePlan* map) {
+    for (const std::string& file : {mesh.file, mesh.high.file})
+        if (file.find_first_of(reserved_in_paths) != std::string::npos)
+            return note_missing(object, {Shade::normal}, reserved_path);
+    Bake bake = high_bake(mesh.high, path(mesh.file), path(mesh.high.file), map);
+    mesh_options(mesh, bake);
+    add(std::move(bake), object, high_ending(mesh.high, map));
+}
+
+void Lister::note_missing(const std::string& object, const ShadeMethod& method, const char* why) {
+    const std::string line = object + ": no command bakes its " + bake::name(method) + ": " + why;
+    if (std::find(manifest_.notes.begin(), manifest_.notes.end(), line) == manifest_.notes.end())
+        manifest_.notes.push_back(line);
+}
+
 void Lister::add(const std::string& object, int index, const ShadeMethod& method) {
     const MeshEntry& mesh = entries_.meshes[std::size_t(index)];
     const TexturePlan* map = nullptr;
     for (const TexturePlan& texture : plan_.textures)
         if (std::find(texture.meshes.begin(), texture.meshes.end(), index) != texture.meshes.end()) map = &texture;
+    if (!mesh.high.file.empty()) {
+        if (method.shade == Shade::normal) detail(object, mesh, map);
+        return;
+    }
     const Job job{object, mesh, entries_.materials[std::size_t(mesh.material)].relief, method, map};
     const Shade shade = method.shade;
     if (!bakes_table(shade) && !bakes_map(shade) && !displaces(shade)) return;
-    if (const char* why = obstacle(job)) {
-        const std::string line = object + ": no command bakes its " + bake::name(method) + ": " + why;
-        if (std::find(manifest_.notes.begin(), manifest_.notes.end(), line) == manifest_.notes.end())
-            manifest_.notes.push_back(line);
-        return;
-    }
+    if (const char* why = obstacle(job)) return note_missing(object, method, why);
     if (bakes_table(shade)) return table(job);
     const std::string mesh_bake = displaces(shade) ? displaced(job) : std::string();
     if (bakes_map(shade)) normals(job, mesh_bake);
@@ -287,12 +304,14 @@ Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const
         for (const int mesh : object.meshes) {
             const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
             const auto method = planned_method(plan, mesh);
-            if (entry.material >= 0 && method) lister.add(object.object, mesh, *method);
+            if ((entry.material >= 0 || !entry.high.file.empty()) && method) lister.add(object.object, mesh, *method);
         }
     for (const TexturePlan& texture : plan.textures) {
         lister.add(texture);
         for (const int mesh : texture.meshes) { // whose models are those of the scene
-            const auto& shade = entries.materials[std::size_t(entries.meshes[std::size_t(mesh)].material)].relief.shade;
+            const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
+            const auto shade = entry.high.file.empty() ? entries.materials[std::size_t(entry.material)].relief.shade
+                                                       : ShadeMethod{entry.high.shade};
             if (!planned_method(plan, mesh) && shade) lister.add(texture.file, mesh, *shade);
         }
     }

@@ -2,9 +2,8 @@
 #include "bake/base/error.h"
 #include "bake/base/progress.h"
 #include "bake/base/text.h"
+#include "bake/verdict/plan/high_words.h"
 #include "bake/verdict/plan/references.h"
-#include "bake/verdict/plan/relief_scale.h"
-#include "bake/verdict/plan/relief_waves.h"
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +30,7 @@ public:
 private:
     void begin(Candidate& c);
     void list_rungs(Candidate& c) const;
-    double pixels_in_view(const Candidate& c) const;
+    void leave_out_dearer_than_high(ObjectPlan& plan) const;
     bool is_settled_unseen(Candidate& c);
     bool tries_half(Candidate& c) const;
     std::unique_ptr<AssembledScene> next_scene();
@@ -64,33 +63,36 @@ void Decider::list_rungs(Candidate& c) const {
     const PlannedObject& object = work_.scenes.objects()[std::size_t(c.decision->object)];
     ObjectPlan& plan = c.plan();
     plan.object = object.name, plan.material = object.material, plan.meshes = object.meshes;
+    plan.high = object.high.file;
     plan.budget = work_.options.budget.value;
     plan.rgb8_bytes = map_bytes(c.cost.width, c.cost.height, 3);
-    for (const ShadeMethod& method : plan_rungs(c.cost.triangles)) {
+    for (const ShadeMethod& method : c.has_high() ? plan_high_rungs() : plan_rungs(c.cost.triangles)) {
         Rung rung;
         rung.method = method, rung.cost = model_cost(c.cost, method);
+        if (method.shade == Shade::high) rung.known = Known::bound, rung.note = "it is the reference";
         plan.rungs.push_back(std::move(rung));
     }
     const CostWeights& weights = work_.options.weights;
     std::stable_sort(plan.rungs.begin(), plan.rungs.end(),
                      [&](const Rung& a, const Rung& b) { return a.cost.total(weights) < b.cost.total(weights); });
-    plan.reference = {Shade::displace, first_level(c)};
+    if (c.has_high()) leave_out_dearer_than_high(plan);
+    plan.reference = reference_at(c, first_level(c));
     plan.reference_cost = model_cost(c.cost, plan.reference);
+}
+
+/// Nothing is gained by what costs more than the reference.
+void Decider::leave_out_dearer_than_high(ObjectPlan& plan) const {
+    while (plan.rungs.back().method.shade != Shade::high) {
+        work_.note(plan.object + ": its \"" + name(plan.rungs.back().method) +
+                   "\" costs more than the high-poly mesh and is no candidate");
+        plan.rungs.pop_back();
+    }
 }
 
 void Decider::begin(Candidate& c) {
     const PlannedObject& object = work_.scenes.objects()[std::size_t(c.decision->object)];
-    const Image<float>& height = object.height->values;
-    c.cost = {std::int64_t(object.shape->surface.triangles.size()), int(object.instances.size()), height.width(),
-              height.height()};
-    c.edge = edge_texels(*object.shape, height.width(), height.height());
-    const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
-    c.shortest = std::min(waves.u, waves.v);
-    const HeightOptions& options = object.relief.height;
-    c.has_relief =
-        options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
-                                              [&](float value) { return double(value) != options.midlevel; });
-    const double pixels = pixels_in_view(c);
+    look_at(c, object);
+    const double pixels = pixels_in_view(work_, c);
     c.first_triangles = std::clamp(least_triangles * pixels, candidates_.size() > 1 ? 4e3 : 2e4, 1e5);
     const double together = triangles_together / double(candidates_.size());
     c.most_refined = std::min(5e6, together);
@@ -107,15 +109,6 @@ void Decider::begin(Candidate& c) {
     plan.why = "not in view";
 }
 
-/// Of the camera that sees most of the object without relief.
-double Decider::pixels_in_view(const Candidate& c) const {
-    const ProbedScene plain = c.of(*work_.plain);
-    std::size_t most = 0;
-    for (std::size_t camera = 0; camera < work_.scenes.cameras().size(); ++camera)
-        most = std::max(most, object_pixels(std::span(&plain, 1), probe_options(work_, camera, "")).size());
-    return double(most);
-}
-
 /// Settles rungs by what is known without rendering, up to one that needs a probe. True if the object is done.
 bool Decider::is_settled_unseen(Candidate& c) {
     const Budget& budget = work_.options.budget;
@@ -125,7 +118,8 @@ bool Decider::is_settled_unseen(Candidate& c) {
         // Clamped values differ by no more than 1, and neither does FLIP.
         if (std::isinf(budget.value) || (budget.metric != Budget::Metric::degrees && budget.value >= 1))
             bound = ErrorBound{1, "no error is larger than the budget"};
-        else if (budget.metric == Budget::Metric::rmse) bound = c.facts->bound(rung.method.shade);
+        else if (rung.method.shade == Shade::high) bound = ErrorBound{0, "it is the reference"};
+        else if (budget.metric == Budget::Metric::rmse && !c.has_high()) bound = c.facts->bound(rung.method.shade);
         // Nothing but the reference is without error, unless there is no relief.
         if (budget.value == 0 && c.has_relief) {
             finish(c, nothing_cheaper);
@@ -224,7 +218,8 @@ void Decider::probe(Candidate& c, AssembledScene& scene) {
 void Decider::choose(Candidate& c, Known known) {
     c.rung().known = known;
     c.plan().chosen = int(c.next);
-    finish(c, why_enough(c.rung().method, c.facts->worst()));
+    finish(c, c.has_high() ? why_of_high(c.rung(), c.cost, work_.options.budget.metric)
+                           : why_enough(c.rung().method, c.facts->worst()));
 }
 
 void Decider::finish(Candidate& c, const std::string& why) {

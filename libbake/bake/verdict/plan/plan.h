@@ -59,7 +59,8 @@ struct Rung {
 
 struct ObjectPlan {
     std::string object;
-    std::string material;    ///< name in the scene file
+    std::string material;    ///< name in the scene file; empty: none
+    std::string high;        ///< file of the high-poly mesh; empty: the object has a height
     std::vector<int> meshes; ///< indices in SceneEntries::meshes
     std::vector<Rung> rungs; ///< cheapest first
     int chosen = -1;         ///< index in rungs; -1: nothing is cheap enough, the reference is taken
@@ -140,6 +141,8 @@ struct ScenePlan {
 /// Models without displacement, then displaced grids with and without a residual map, cheapest first by the weights: of an
 /// object of this many triangles. The reference is at least 4 times finer per edge than the finest of them.
 std::vector<ShadeMethod> plan_rungs(std::int64_t triangles);
+/// Of an object with a high-poly mesh: without its detail, with a normal map of it, and that mesh, which is the reference too.
+std::vector<ShadeMethod> plan_high_rungs();
 
 /// Stopped by Ctrl-C it returns the decisions made. Throws the errors of load(), and Error{Refusal::usage} for a camera that is
 /// not in the scene.

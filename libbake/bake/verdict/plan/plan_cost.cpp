@@ -36,8 +36,8 @@ std::int64_t map_bytes(int width, int height, int channels) noexcept {
 
 RungCost model_cost(const CostInput& input, const ShadeMethod& method) noexcept {
     RungCost cost;
-    const std::int64_t own =
-        displaces(method.shade) ? input.triangles << (2 * std::clamp(method.levels, 0, 20)) : input.triangles;
+    std::int64_t own = method.shade == Shade::high ? input.high : input.triangles;
+    if (displaces(method.shade)) own <<= 2 * std::clamp(method.levels, 0, 20);
     cost.triangles = own * input.meshes;
     if (const int channels = channels_of(method.shade))
         cost.texture_bytes = map_bytes(input.width, input.height, channels);

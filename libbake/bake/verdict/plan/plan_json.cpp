@@ -80,11 +80,13 @@ Json json_of(const ObjectPlan& object) {
     json["saved"] = {{"triangles", object.reference_cost.triangles - cost.triangles},
                      {"object_bytes", object.reference_cost.object_bytes - cost.object_bytes},
                      {"ms", number(object.reference_cost.ms - cost.ms)}};
+    if (!object.high.empty()) json["high"] = object.high;
     if (object.rgb8_bytes > 0) {
         json["rgb8_bytes"] = object.rgb8_bytes;
         json["saved"]["bytes_against_rgb8"] = object.rgb8_bytes - cost.texture_bytes;
     }
-    Json& facts = json["facts"] = Json::array();
+    Json& facts = json["facts"] = Json::array(); // of a height
+    if (!object.high.empty()) return json;
     for (const ReliefFacts& one : object.facts) facts.push_back(json_of(one));
     return json;
 }

@@ -4,6 +4,7 @@
 #include "bake/verdict/compare/picture_errors.h"
 #include "bake/verdict/plan/plan_words.h"
 #include "bake/verdict/report/page_tables.h"
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace bake {
@@ -13,7 +14,10 @@ using Json = nlohmann::ordered_json;
 using Shows = PlanPicture::Shows;
 
 const char* name(const ScenePlan& plan, Shows shows) {
-    if (shows == Shows::reference) return plan.objects.empty() ? "as it is" : "displaced in full";
+    const bool displaced = std::all_of(plan.objects.begin(), plan.objects.end(),
+                                       [](const ObjectPlan& object) { return object.high.empty(); });
+    if (shows == Shows::reference)
+        return plan.objects.empty() ? "as it is" : displaced ? "displaced in full" : "in full";
     return shows == Shows::planned ? "planned" : "everything bumped";
 }
 

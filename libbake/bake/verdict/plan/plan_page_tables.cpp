@@ -54,7 +54,7 @@ std::string decision_head(const char* metric) {
         return format("<th scope=\"colgroup\" colspan=\"%d\"><span>%s</span></th>", columns, title);
     };
     return "<thead><tr><th rowspan=\"2\" scope=\"col\">object</th><th rowspan=\"2\" scope=\"col\">model</th>" +
-           group(metric, 3) + group("Costs", 3) + group("Saves against full displacement", 3) +
+           group(metric, 3) + group("Costs", 3) + group("Saves against the reference", 3) +
            group("against an RGB8 map", 1) + "</tr>\n<tr>" + th("error") + th("two standard errors") + th("budget") +
            th("triangles") + th("textures, MB") + th("ms") + th("triangles") + th("MB in all") + th("ms") +
            th("textures, MB") + "</tr></thead>\n";

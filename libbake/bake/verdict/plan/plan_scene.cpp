@@ -40,11 +40,8 @@ float chosen_exposure(PlanScenes& scenes) {
     BakedModels models(count);
     for (std::size_t i = 0; i < count; ++i) {
         const PlannedObject& object = scenes.objects()[i];
-        const double own = double(object.shape->surface.triangles.size());
         const double most = std::min(reference_triangles, group_triangles / double(count));
-        int levels = 0;
-        while (levels < 10 && own * double(object.instances.size()) * std::exp2(2.0 * levels) < most) ++levels;
-        models[i] = scenes.bake(int(i), {Shade::displace, levels});
+        models[i] = scenes.bake(int(i), full_method(object, most / double(object.instances.size()), 10));
     }
     return small_picture_exposure(scenes.assemble(std::move(models))->scene, scenes.settings());
 }
@@ -145,7 +142,8 @@ ScenePlan plan_scene(const SceneEntries& entries, const PlanOptions& options, Pr
                   .progress = progress,
                   .notes = {}};
     std::vector<ObjectDecision> decisions;
-    if (scenes.objects().empty()) plan.notes.push_back("no mesh has a material with a height: no model is chosen");
+    if (scenes.objects().empty())
+        plan.notes.push_back("no mesh has a high-poly mesh or a material with a height: no model is chosen");
     else if (options.decide_objects) plan_objects(work, decisions, plan);
     const SceneEntries modelled = scenes.as_seen(planned_entries(entries, plan));
     if (!plan.interrupted) plan_parts(modelled, options, plan, progress);

@@ -19,7 +19,7 @@ namespace {
 auto key_of(const MeshEntry& mesh) {
     return std::tuple(mesh.file, mesh.shape, mesh.columns, mesh.rows, mesh.flat, mesh.flip_v, mesh.uv_set,
                       mesh.subdivide ? 1 + int(*mesh.subdivide) : 0, mesh.repeat.x, mesh.repeat.y, mesh.material,
-                      mesh.own_materials);
+                      mesh.own_materials, mesh.high.file, mesh.high.size, mesh.high.normal_bc5);
 }
 
 /// `wanted`, or with the first number behind it that makes it new.
@@ -32,6 +32,9 @@ std::string new_name(const std::string& wanted, std::set<std::string>& names) {
 /// What load() refuses, too.
 void refuse_unsuitable(const PlannedObject& object, const ShadeMethod& method) {
     const Shade shade = method.shade;
+    const bool of_high = shade == Shade::plain || shade == Shade::normal || shade == Shade::high;
+    if (!object.high.file.empty() && !of_high)
+        throw Error(Refusal::unsuitable, "it needs a height, and the object has a high-poly mesh");
     if ((shade == Shade::normal || shade == Shade::displace_normal) && object.repeats)
         throw Error(Refusal::unsuitable, "it bakes a map, and the uvs repeat");
     if ((shade == Shade::bump || shade == Shade::bump_roughness) && object.relief.height.wrap_u != Wrap::repeat)
@@ -44,12 +47,22 @@ bool has_sky(const SceneEntries& entries) {
 
 } // namespace
 
+ShadeMethod full_method(const PlannedObject& object, double triangles, int most_levels) noexcept {
+    if (!object.high.file.empty()) return {Shade::high};
+    const auto own = double(object.shape->surface.triangles.size());
+    int levels = 0;
+    while (levels < most_levels && own * std::exp2(2.0 * levels) < triangles) ++levels;
+    return {Shade::displace, levels};
+}
+
 PlanScenes::PlanScenes(const SceneEntries& entries, const std::vector<std::string>& cameras) : entries_(entries) {
     for (const std::string& name : cameras) find_camera(entries.cameras, name, entries.file);
     entries_.any_light = true; // load() adds no light; place_cameras() does
     choose_objects();
     const std::optional<GroundEntry> ground = std::exchange(entries_.ground, std::nullopt);
     load_plain();
+    for (int i = 0; i < int(objects_.size()); ++i)
+        if (!objects_[std::size_t(i)].high.file.empty()) objects_[std::size_t(i)].high_model = bake(i, {Shade::high});
     place_cameras(entries, cameras);
     if (ground) fix_ground(*ground);
 }
@@ -61,18 +74,22 @@ void PlanScenes::choose_objects() {
     for (const MaterialEntry& material : entries_.materials) materials.insert(material.name);
     for (int i = 0; i < int(entries_.meshes.size()); ++i) {
         MeshEntry& mesh = entries_.meshes[std::size_t(i)];
-        if (mesh.material < 0 || entries_.materials[std::size_t(mesh.material)].relief.file.empty()) continue;
+        const bool plain = mesh.material < 0 || entries_.materials[std::size_t(mesh.material)].relief.file.empty();
+        if (plain && mesh.high.file.empty()) continue;
         const auto [at, added] = known.try_emplace(key_of(mesh), int(objects_.size()));
         if (added) {
-            MaterialEntry material = entries_.materials[std::size_t(mesh.material)];
+            MaterialEntry material =
+                mesh.material < 0 ? MaterialEntry{} : entries_.materials[std::size_t(mesh.material)];
             PlannedObject& object = objects_.emplace_back();
             object.name = new_name(object_name(mesh), names);
             object.material = material.name;
+            object.high = mesh.high;
             material.name = new_name(material.name + " of " + object.name, materials);
             material.relief.shade = ShadeMethod{Shade::plain};
             own_materials_.push_back(material.name);
             entries_.materials.push_back(std::move(material));
         }
+        mesh.high.shade = Shade::plain;
         objects_[std::size_t(at->second)].meshes.push_back(i);
     }
     for (std::size_t i = 0; i < objects_.size(); ++i) {
@@ -109,6 +126,8 @@ void PlanScenes::find_parts() {
         for (const auto& shape : plain_.shapes)
             if (shape.get() == instance.shape) object.shape = shape.get();
         object.base = instance.material;
+        object.repeats = mesh.repeat * material.repeat != Vec2f(1);
+        if (!object.high.file.empty()) continue;
         auto& height = heights[material.relief.file];
         if (!height) {
             const LoadedPicture& picture = *entries_.pictures.at(material.relief.file);
@@ -118,7 +137,6 @@ void PlanScenes::find_parts() {
         object.height = height;
         object.relief = relief_options(material.relief, height->info, diagonal(bounds(object.shape->mesh)));
         object.relief.mips = entries_.settings.filter != TextureFilter::off;
-        object.repeats = mesh.repeat * material.repeat != Vec2f(1);
         add_derivatives(object.shape->surface);
         if (!mesh.shape.empty() && !object.repeats && !mesh.flat && !object.shape->smooth)
             object.shape->smooth = shape_surface(mesh.shape, mesh.columns, mesh.rows);
@@ -153,11 +171,9 @@ void PlanScenes::fix_ground(const GroundEntry& ground) {
         constexpr double enough_triangles = 3e4;
         BakedModels models;
         for (int i = 0; i < int(objects_.size()); ++i) {
-            int levels = 0;
-            const auto triangles = double(objects_[std::size_t(i)].shape->surface.triangles.size());
-            while (levels < 6 && triangles * std::exp2(2 * levels) < enough_triangles) ++levels;
             Scene displaced;
-            const std::shared_ptr<const BakedModel> model = bake(i, {Shade::displace, levels});
+            const std::shared_ptr<const BakedModel> model =
+                bake(i, full_method(objects_[std::size_t(i)], enough_triangles, 6));
             for (const std::uint32_t at : objects_[std::size_t(i)].instances) {
                 displaced.instances.push_back(plain_.instances[at]);
                 displaced.instances.back().shape = model->shape.get();
@@ -177,19 +193,46 @@ std::vector<std::uint8_t> PlanScenes::instances_of(int object) const {
     return flags;
 }
 
+std::shared_ptr<BakedModel> PlanScenes::bake_height(const PlannedObject& object, const ShadeMethod& method) {
+    ReliefOptions options = object.relief;
+    options.method = method;
+    ReliefModel relief = with_relief(*object.base, *object.shape, *object.height, options);
+    auto model = std::make_shared<BakedModel>();
+    model->material = std::make_unique<Material>(std::move(relief.material));
+    model->shape = std::move(relief.shape);
+    return model;
+}
+
+/// As load() shows the object alone.
+std::shared_ptr<BakedModel> PlanScenes::bake_high(const PlannedObject& object, Shade shade) const {
+    auto model = std::make_shared<BakedModel>();
+    if (shade == Shade::plain) {
+        model->material = std::make_unique<Material>(*object.base);
+        return model;
+    }
+    SceneEntries alone = entries_;
+    alone.sky = {}, alone.labels = false, alone.ground.reset();
+    alone.settings.sky_light = SkyLighting::off;
+    alone.meshes = {entries_.meshes[std::size_t(object.meshes.front())]};
+    alone.meshes[0].placement = {}, alone.meshes[0].lights = false;
+    alone.meshes[0].high.shade = shade;
+    Scene scene = load(alone);
+    const Instance& shown = scene.instances.front();
+    for (auto& material : scene.materials)
+        if (material.get() == shown.material) model->material = std::move(material);
+    for (auto& shape : scene.shapes)
+        if (shape.get() == shown.shape && shade == Shade::high) model->shape = std::move(shape);
+    return model;
+}
+
 std::shared_ptr<const BakedModel> PlanScenes::bake(int object, const ShadeMethod& method) {
     throw_if_interrupted();
     auto& known = baked_[{object, name(method)}];
     if (auto model = known.lock()) return model;
     const PlannedObject& of = objects_[std::size_t(object)];
     refuse_unsuitable(of, method);
-    ReliefOptions options = of.relief;
-    options.method = method;
-    ReliefModel relief = with_relief(*of.base, *of.shape, *of.height, options);
-    auto model = std::make_shared<BakedModel>();
+    const auto model = of.high.file.empty() ? bake_height(of, method) : bake_high(of, method.shade);
     model->method = method;
-    model->material = std::make_unique<Material>(std::move(relief.material));
-    model->shape = std::move(relief.shape);
     Shape& shape = model->shape ? *model->shape : *of.shape;
     model->triangles = std::int64_t(shape.surface.triangles.size());
     if (model->material->normal_map) add_tangents(shape);

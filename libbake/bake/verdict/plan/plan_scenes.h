@@ -6,17 +6,21 @@
 
 namespace bake {
 
-/// A mesh with a height, and all meshes like it, which share their model.
+struct BakedModel;
+
+/// A mesh with a height or a high-poly mesh, and all meshes like it, which share their model.
 struct PlannedObject {
-    std::string name;                     ///< no other object has it
-    std::string material;                 ///< as in the scene file
-    std::vector<int> meshes;              ///< in SceneEntries::meshes
-    std::vector<std::uint32_t> instances; ///< in all scenes of the plan
-    Shape* shape = nullptr;               ///< without relief
-    const Material* base = nullptr;       ///< likewise
-    std::shared_ptr<const HeightTexture> height;
-    ReliefOptions relief; ///< its method is not looked at
-    bool repeats = false; ///< the uvs are those of the mesh times a factor
+    std::string name;                             ///< no other object has it
+    std::string material;                         ///< as in the scene file; empty: none
+    std::vector<int> meshes;                      ///< in SceneEntries::meshes
+    std::vector<std::uint32_t> instances;         ///< in all scenes of the plan
+    Shape* shape = nullptr;                       ///< without relief
+    const Material* base = nullptr;               ///< likewise
+    std::shared_ptr<const HeightTexture> height;  ///< null: `high` is given
+    ReliefOptions relief;                         ///< of the height; its method is not looked at
+    HighEntry high;                               ///< its shade is not looked at
+    std::shared_ptr<const BakedModel> high_model; ///< by Shade::high; null: `height` is given
+    bool repeats = false;                         ///< the uvs are those of the mesh times a factor
 };
 
 /// A camera, and the lights that the scene has for it: a scene without lights has some that stand relative to the camera.
@@ -34,6 +38,8 @@ struct BakedModel {
     std::unique_ptr<Shape> shape; ///< displaced; null: that of the object
     std::int64_t triangles = 0;   ///< of one mesh
 };
+/// A model of about so many triangles of one mesh that shows the whole relief of an object.
+ShadeMethod full_method(const PlannedObject& object, double triangles, int most_levels) noexcept;
 /// One per object; null: without relief.
 using BakedModels = std::vector<std::shared_ptr<const BakedModel>>;
 
@@ -67,6 +73,8 @@ public:
 
 private:
     void choose_objects();
+    static std::shared_ptr<BakedModel> bake_height(const PlannedObject& object, const ShadeMethod& method);
+    std::shared_ptr<BakedModel> bake_high(const PlannedObject& object, Shade shade) const;
     void load_plain();
     void find_parts();
     void place_cameras(const SceneEntries& given, const std::vector<std::string>& names);

@@ -70,8 +70,8 @@ std::string verification(const ScenePlan& plan) {
 
 std::string to_text(const ScenePlan& plan) {
     const char* metric = unit(plan.budget.metric);
-    std::string text =
-        counted(plan.objects.size(), "object") + " within " + budget_words(plan.budget) + " of true displacement\n";
+    std::string text = counted(plan.objects.size(), "object") + " within " + budget_words(plan.budget) + " of " +
+                       reference_words(plan) + "\n";
     if (!plan.cameras.empty()) text += row("cameras", camera_words(plan));
     text += row("exposure", format("%+g stops", double(plan.exposure)));
     if (!plan.objects.empty()) text += head(plan);

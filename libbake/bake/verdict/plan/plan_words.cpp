@@ -3,6 +3,7 @@
 #include "bake/base/text.h"
 #include "bake/verdict/plan/rung_words.h"
 #include "bake/verdict/plan/texture_form.h"
+#include <algorithm>
 #include <cmath>
 
 namespace bake::plan_words {
@@ -69,6 +70,14 @@ std::string budget_words(const Budget& budget) {
     return std::string(unit(budget.metric)) + " " + shown(budget.value) + " (" + budget.name + ")";
 }
 
+std::string reference_words(const ScenePlan& plan) {
+    const auto has_high = [](const ObjectPlan& object) { return !object.high.empty(); };
+    if (std::none_of(plan.objects.begin(), plan.objects.end(), has_high)) return "true displacement";
+    if (!std::all_of(plan.objects.begin(), plan.objects.end(), has_high))
+        return "true displacement or the high-poly mesh";
+    return plan.objects.size() == 1 ? "the high-poly mesh" : "the high-poly meshes";
+}
+
 std::string camera_words(const ScenePlan& plan) {
     std::string cameras;
     for (const std::string& camera : plan.cameras)
@@ -87,6 +96,7 @@ std::vector<Line> reasons(const ObjectPlan& object, const char* metric) {
     const auto line = [&](const char* label, const std::string& rest) {
         if (!rest.empty()) lines.push_back({label, rest});
     };
+    line("high-poly", printable(object.high));
     line("why", printable(object.why));
     if (chosen && chosen->known == Known::not_settled)
         line("not settled", "the probes end before its error is told from the budget: " + std::string(metric) + " " +

@@ -28,6 +28,8 @@ template <class Text> std::string less(double part, double whole, const Text& te
 
 /// "rmse 0.0100 (normal)".
 std::string budget_words(const Budget& budget);
+/// "true displacement", "the high-poly mesh": what the objects are judged against.
+std::string reference_words(const ScenePlan& plan);
 /// "front, top; the worst one counts", or "" without cameras.
 std::string camera_words(const ScenePlan& plan);
 /// Of the model that is shown, be it the reference.

@@ -17,6 +17,7 @@ SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan)
     std::map<std::tuple<int, std::string, MapForm>, int> made;
     for (std::size_t i = 0; i < entries.meshes.size(); ++i) {
         const int material = entries.meshes[i].material;
+        if (!entries.meshes[i].high.file.empty()) continue; // set_high()
         const MapForm form = baked_form(plan, int(i));
         const std::optional<ShadeMethod> method = planned_method(plan, int(i));
         if (material < 0 || (!method && form.as_it_is())) continue;
@@ -33,6 +34,7 @@ SceneEntries planned_entries(const SceneEntries& entries, const ScenePlan& plan)
         }
         planned.meshes[i].material = at->second;
     }
+    set_high(planned, plan);
     reduce_sky(planned, plan);
     remove_lights(planned, plan);
     return planned;

@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/verdict/plan/plan.h"
 #include "bake/verdict/plan/text_edits.h"
+#include <span>
 #include <toml++/toml.h>
 
 namespace bake {
@@ -38,6 +39,12 @@ void reduce_maps(TextEdits& edits, const toml::table& root, const ScenePlan& pla
 /// Sets the keys of a bump table or normal map that is not as it is.
 void set_relief_form(MaterialEntry& material, const MapForm& form) noexcept;
 void set_relief_form(TextEdits& edits, const toml::table& material, const MapForm& form);
+
+/// Meshes with a high-poly mesh are shown by the model, and with the normal map, that was planned.
+void set_high(SceneEntries& entries, const ScenePlan& plan);
+/// `meshes`: the tables of SceneEntries::meshes.
+void set_high(TextEdits& edits, std::span<const toml::table* const> meshes, const SceneEntries& entries,
+              const ScenePlan& plan);
 
 /// Shows the sky as planned, by the keys of `[sky]` that reduce it.
 void reduce_sky(SceneEntries& entries, const ScenePlan& plan);

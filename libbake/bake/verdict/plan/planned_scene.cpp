@@ -77,7 +77,7 @@ void Planner::move_path(const toml::node* node, const fs::path& folder) {
 
 void Planner::move_paths(const fs::path& folder) {
     for (const toml::table* mesh : tables(root_, "mesh")) {
-        move_path(mesh->get("file"), folder);
+        for (const char* key : {"file", "high"}) move_path(mesh->get(key), folder);
         const auto* shape = mesh->get_as<std::string>("shape");
         if (!shape) continue;
         const std::string moved = shape_beside((folder / "scene").string(), shape->get());
@@ -194,6 +194,7 @@ void Planner::set_methods() {
 }
 
 void Planner::set_parts() {
+    set_high(edits_, meshes_, entries_, plan_);
     reduce_sky(edits_, root_, plan_);
     remove_lights(edits_, root_, entries_, plan_);
 }

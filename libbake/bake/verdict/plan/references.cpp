@@ -1,6 +1,7 @@
 #include "bake/verdict/plan/references.h"
 #include "bake/base/error.h"
-#include "bake/base/text.h"
+#include "bake/verdict/plan/relief_scale.h"
+#include "bake/verdict/plan/relief_waves.h"
 #include <algorithm>
 #include <cmath>
 
@@ -28,13 +29,55 @@ int wanted_level(const Candidate& c) noexcept {
                                                                          : first;
 }
 
+void look_at_height(Candidate& c, const PlannedObject& object) {
+    const Image<float>& height = object.height->values;
+    c.cost.width = height.width(), c.cost.height = height.height();
+    c.edge = edge_texels(*object.shape, height.width(), height.height());
+    const ReliefWaves waves = relief_waves(*object.height, object.relief.height.wrap_u, object.relief.height.wrap_v);
+    c.shortest = std::min(waves.u, waves.v);
+    const HeightOptions& options = object.relief.height;
+    c.has_relief =
+        options.amplitude != 0 && std::any_of(height.data(), height.data() + height.size(),
+                                              [&](float value) { return double(value) != options.midlevel; });
+}
+
 } // namespace
 
+void look_at(Candidate& candidate, const PlannedObject& object) {
+    candidate.cost.triangles = std::int64_t(object.shape->surface.triangles.size());
+    candidate.cost.meshes = int(object.instances.size());
+    if (!object.high_model) return look_at_height(candidate, object);
+    candidate.cost.width = candidate.cost.height = object.high.size;
+    candidate.cost.high = object.high_model->triangles;
+}
+
+double pixels_in_view(const PlanWork& work, const Candidate& candidate) {
+    const auto most_of = [&](const AssembledScene& shown) {
+        const ProbedScene scene = candidate.of(shown);
+        std::size_t most = 0;
+        for (std::size_t camera = 0; camera < work.scenes.cameras().size(); ++camera)
+            most = std::max(most, object_pixels(std::span(&scene, 1), probe_options(work, camera, "")).size());
+        return double(most);
+    };
+    const double plain = most_of(*work.plain);
+    if (plain > 0 || !candidate.has_high()) return plain;
+    const auto object = std::size_t(candidate.decision->object);
+    BakedModels models(work.scenes.objects().size());
+    models[object] = work.scenes.objects()[object].high_model;
+    return most_of(*work.scenes.assemble(std::move(models)));
+}
+
+ShadeMethod reference_at(const Candidate& candidate, int level) noexcept {
+    return candidate.has_high() ? ShadeMethod{Shade::high} : ShadeMethod{Shade::displace, level};
+}
+
 double displaced_triangles(const Candidate& candidate, int level) noexcept {
+    if (candidate.has_high()) return double(candidate.cost.high) * candidate.cost.meshes;
     return double(candidate.cost.triangles) * candidate.cost.meshes * std::exp2(2.0 * level);
 }
 
 int first_level(const Candidate& candidate) noexcept {
+    if (candidate.has_high()) return 0;
     int level = 0;
     while (level < most_levels && displaced_triangles(candidate, level) < candidate.first_triangles) ++level;
     // One that is coarser by a level tells the error of the reference.
@@ -46,14 +89,14 @@ int first_level(const Candidate& candidate) noexcept {
 void References::bake(Candidate& c) {
     for (;; --c.level) {
         try {
-            c.decision->reference = work_.scenes.bake(c.decision->object, {Shade::displace, c.level});
+            c.decision->reference = work_.scenes.bake(c.decision->object, reference_at(c, c.level));
             break;
         } catch (const Error& error) {
             if (error.refusal != Refusal::unsuitable || c.level == 0) throw;
             c.most_level = c.level - 1;
         }
     }
-    c.plan().reference = {Shade::displace, c.level};
+    c.plan().reference = reference_at(c, c.level);
     c.plan().reference_cost = model_cost(c.cost, c.plan().reference);
 }
 
@@ -139,14 +182,14 @@ bool References::is_too_coarse(const Candidate& c) const noexcept {
 }
 
 bool References::is_limited_by_memory(const Candidate& c) noexcept {
-    return c.level >= 0 && c.level == c.most_level && c.level < most_levels;
+    return !c.has_high() && c.level >= 0 && c.level == c.most_level && c.level < most_levels;
 }
 
 void References::prepare(std::vector<Candidate>& candidates) {
     bool changed = !scene_;
     for (Candidate& c : candidates) {
         if (c.done) continue;
-        if (c.level < 0) c.most_level = most_levels;
+        if (c.level < 0) c.most_level = c.has_high() ? 0 : most_levels;
         changed = raise(c, wanted_level(c), c.most_triangles) || changed;
         if (c.waits) changed = raise(c, c.level + 1, c.most_refined) || changed;
         c.waits = false;

@@ -1,4 +1,5 @@
-// The displaced meshes that objects are judged against, and how far these are from finer ones. Internal to this room.
+// The displaced and the high-poly meshes that objects are judged against, and how far displaced ones are from finer ones. Internal
+// to this room.
 //
 // A reference is small at first. It becomes at least four times finer per edge than a displaced rung in question, and finer
 // where its own error leaves the judgement of a rung open, or is shown because no rung is within the budget. With d the error of a mesh of twice the edges against it, its own error is
@@ -20,7 +21,7 @@ struct Candidate {
     CostInput cost;
     double edge = 0;        ///< of the mesh, texels
     double shortest = 0;    ///< wave of the height, texels
-    bool has_relief = true; ///< some height is not 0
+    bool has_relief = true; ///< some height is not 0, or there is a high-poly mesh
     std::size_t next = 0;   ///< rung
     std::size_t last = 0;   ///< the last one that was probed before
     bool probed = false;    ///< whether there is one
@@ -36,13 +37,20 @@ struct Candidate {
     bool halved = false;            ///< no rung will do, and grids of half the reference's segments are tried
     std::vector<ErrorMeter> meters; ///< one per camera
 
+    bool has_high() const noexcept { return cost.high > 0; }
     ObjectPlan& plan() const noexcept { return decision->plan; }
     Rung& rung() const noexcept { return decision->plan.rungs[next]; }
     bool has_rung() const noexcept { return next < decision->plan.rungs.size(); }
     ProbedScene of(const AssembledScene& scene) const noexcept { return {&scene.scene, instances}; }
 };
 
-/// Triangles of all meshes of an object, displaced.
+/// Sets what the object tells of its cost and its relief.
+void look_at(Candidate& candidate, const PlannedObject& object);
+/// Of the camera that sees most of the object without relief; of its high-poly mesh where no camera sees that.
+double pixels_in_view(const PlanWork& work, const Candidate& candidate);
+/// The reference by its level. A high-poly mesh is one at level 0, and there is no finer one.
+ShadeMethod reference_at(const Candidate& candidate, int level) noexcept;
+/// Triangles of all meshes of an object, displaced, or those of its high-poly mesh.
 double displaced_triangles(const Candidate& candidate, int level) noexcept;
 /// With which a reference begins.
 int first_level(const Candidate& candidate) noexcept;

@@ -47,7 +47,8 @@ std::string rung_chart(const ScenePlan& plan, const ObjectPlan& object) {
     }
     if (chart.dots.empty()) return {};
     const RungCost& full = object.reference_cost;
-    if (full.triangles > 0)
+    const bool is_shown = chosen && chosen->method.shade == Shade::high; // it is the reference
+    if (full.triangles > 0 && !is_shown)
         chart.dots.push_back({name(object.reference) + (chosen ? " (reference)" : " (reference, chosen)"),
                               full.total(plan.weights), object.reference_error});
     return scatter_svg(chart);

@@ -22,4 +22,6 @@ std::vector<ShadeMethod> plan_rungs(std::int64_t triangles) {
     return rungs;
 }
 
+std::vector<ShadeMethod> plan_high_rungs() { return {{Shade::plain}, {Shade::normal}, {Shade::high}}; }
+
 } // namespace bake

@@ -65,8 +65,8 @@ bool is_in_bc5(const SceneEntries& entries, const SceneTexture& texture) {
     const auto says = [&](int material) { return entries.materials[std::size_t(material)].normal_bc5; };
     return std::any_of(texture.entries.begin(), texture.entries.end(), says) ||
            std::any_of(texture.meshes.begin(), texture.meshes.end(), [&](int mesh) {
-               const int material = entries.meshes[std::size_t(mesh)].material;
-               return material >= 0 && says(material);
+               const MeshEntry& entry = entries.meshes[std::size_t(mesh)];
+               return entry.high.normal_bc5 || (entry.material >= 0 && says(entry.material));
            });
 }
 
