@@ -11,7 +11,7 @@ HighEntry planned_high(const ScenePlan& plan, int mesh, HighEntry high) {
     if (const auto method = planned_method(plan, mesh)) high.shade = method->shade;
     const MapForm form = baked_form(plan, mesh);
     if (form.size > 0) high.size = form.size;
-    high.normal_bc5 = high.normal_bc5 || form.bc5;
+    if (form.depth != NormalDepth::unchanged) high.normal_bc5 = form.depth == NormalDepth::bc5;
     return high;
 }
 
