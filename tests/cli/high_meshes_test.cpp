@@ -96,4 +96,30 @@ TEST_SUITE("cli") {
         CHECK(text.out.find("envelope written as a cage to cage.ply") != std::string::npos);
     }
 
+    TEST_CASE("high to low: --report-map writes a picture in which texels without detail are red") {
+        const Folder folder;
+        write_file(folder / "low.obj",
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+        write_file(folder / "half.obj", "v -1 -1 .01\nv .5 -1 .01\nv .5 2 .01\nv -1 2 .01\nf 1 2 3 4\n");
+        const Run run = run_bake(folder, {"normal-map", "low.obj", "--high", "half.obj", "-o", "n.png", "--size", "16",
+                                          "--report-map", "r.png"});
+        CHECK(run.code == 0);
+        const Image<float> map = read_image(folder / "r.png");
+        REQUIRE(map.width() == 16);
+        int red = 0, grey = 0;
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x) {
+                const float* const rgb = &map.at(x, y);
+                red += x >= 8 && rgb[0] == 1 && rgb[1] == 0 && rgb[2] == 0;
+                grey += x < 8 && rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 0.2f;
+            }
+        CHECK(red == 128);
+        CHECK(grey == 128);
+        check_refused(folder, {"normal-map", "low.obj", "--high", "half.obj", "-o", "n.png", "--report-map", "r.jpg"},
+                      2, "r.jpg");
+        check_refused(folder,
+                      {"normal-map", "low.obj", "--high", "half.obj", "-o", "n.<UDIM>.png", "--report-map", "r.png"}, 2,
+                      "<UDIM> stands in the names of all files or in none");
+    }
+
 } // TEST_SUITE

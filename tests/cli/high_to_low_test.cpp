@@ -251,6 +251,7 @@ TEST_SUITE("cli") {
                                     {"--sky-rays", "4"},
                                     {"--sky-distance", "1"},
                                     {"--debug-rays", "d.glb"},
+                                    {"--report-map", "r.png"},
                                     {"--strict"}}) {
             Strings all = {"normal-map", "low.obj", "--height", dots, "-o", "n.png"};
             all.insert(all.end(), more.begin(), more.end());

@@ -53,7 +53,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
             {"",         "TEXT",         "Excludes:",  "Needs:",       "MESH",      "PREFIX",        "NAMES",
              "HEIGHT",   "CAMERA",       "NAME",       "KEY",          "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]",
              "OUT.html", "PLANNED.toml", "BAKES.toml", "NAME,...|all", "HIGH.ply",  "LIST",          "NORMAL",
-             "OUT.glb",  "OUT.ply"}))
+             "OUT.glb",  "OUT.png",      "OUT.ply"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");

@@ -65,11 +65,14 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
     add_length_option(sub, "--sky-distance", args.sky_distance, "Nothing farther away occludes [no limit]");
     sub.add_option("--debug-rays", args.debug_rays, "Mesh of the envelope, some rays and the misses, to look at")
         ->type_name("OUT.glb");
+    sub.add_option("--report-map", args.report_map,
+                   "Picture of the texels: red misses, grey by how far the normal bends within a texel")
+        ->type_name("OUT.png");
     sub.add_flag("--alpha", args.alpha, "A fourth channel: 0 where a texel found no detail or lies beyond the padding");
     sub.add_flag("--strict", args.strict, "Exit code 1 if a texel finds no detail");
     for (const char* flag : {"--cage", "--cage-out", "--match-names", "--extrude", "--max-distance", "--rays",
                              "--max-error-deg", "--high-normals", "--high-smooth", "--cast", "--maps", "--maps-out",
-                             "--sky-rays", "--sky-distance", "--debug-rays", "--alpha", "--strict"})
+                             "--sky-rays", "--sky-distance", "--debug-rays", "--report-map", "--alpha", "--strict"})
         sub.get_option(flag)->needs(high);
 }
 

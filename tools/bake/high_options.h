@@ -15,7 +15,7 @@ struct HighArgs {
     std::optional<Length> smooth; ///< of the normals, before the bake
     CastBy cast = CastBy::blend;
     bool strict = false, alpha = false, match_names = false;
-    std::string debug_rays;
+    std::string debug_rays, report_map;
     std::vector<DetailMap> maps;
     std::string maps_out;
     int sky_rays = DetailOptions{}.sky_rays;

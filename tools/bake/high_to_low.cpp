@@ -169,6 +169,10 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     NormalMapFile file(args, options.width, options.height, depth_);
     const auto map_writers = open_maps(args.high, options);
     if (!args.high.debug_rays.empty()) const OutputFile writable(args.high.debug_rays);
+    std::optional<ImageWriter> report_map_file;
+    if (!args.high.report_map.empty())
+        report_map_file.emplace(args.high.report_map, options.width, options.height, 3,
+                                WriteOptions{.depth = Depth::u8, .channels = {"R", "G", "B"}});
     const BakeTarget target = make_bake_target(low_, args.mesh, options.width, options.height, options.tile);
     watch_.lap("surface, tangents, raster");
     const Transfer result = [&] {
@@ -199,6 +203,10 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     for (Witness& far : farthest_texels(target, sources_, result, most_witnesses)) report.witnesses.push_back(far);
     if (!args.high.debug_rays.empty())
         write_rays(args.high.debug_rays, debug_rays(target, sources_, result, report.witnesses));
+    if (report_map_file) {
+        report_map_file->write(report_map(result, options.space, options.directx).data(), options.height);
+        report_map_file->finish();
+    }
     watch_.lap("report");
     Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed + result.report.unmatched};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);

@@ -124,7 +124,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         if (args.space == Space::object)
             throw usage("--residual-of: normals in object space are the same on both meshes; leave one of the two out");
     }
-    for (const std::string& name : {args.high.maps_out, args.high.debug_rays, args.roughness_map})
+    for (const std::string& name : {args.high.maps_out, args.high.debug_rays, args.high.report_map, args.roughness_map})
         if (!name.empty() && names_tiles(name) != names_tiles(args.out))
             throw usage("-o " + args.out + ": <UDIM> stands in the names of all files or in none");
     expect_tile_or_all("the map", args.out, args.tile);
@@ -139,7 +139,8 @@ std::vector<NormalMapArgs> args_of_tiles(const NormalMapArgs& args, const Mesh& 
     for (const int tile : udim_tiles(mesh, args.mesh)) {
         NormalMapArgs one = args;
         one.tile = tile;
-        for (std::string* name : {&one.out, &one.roughness_map, &one.high.maps_out, &one.high.debug_rays})
+        for (std::string* name :
+             {&one.out, &one.roughness_map, &one.high.maps_out, &one.high.debug_rays, &one.high.report_map})
             *name = file_of_tile(*name, tile);
         out.push_back(std::move(one));
     }

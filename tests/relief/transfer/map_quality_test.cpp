@@ -2,6 +2,7 @@
 #include "bake/relief/map/normal_code.h"
 #include "bake/relief/transfer/map_quality.h"
 #include "relief/transfer/transfer_meshes.h"
+#include <algorithm>
 
 using namespace bake;
 using namespace bake::test;
@@ -40,5 +41,41 @@ TEST_SUITE("oracle") {
         CHECK(error.median == doctest::Approx(most / std::sqrt(2)).epsilon(0.05));
         for (std::size_t i = 0; i < result.states.size(); ++i) result.states.data()[i] = TexelState::missed;
         CHECK(centre_error(result, Space::tangent, false).max == 0);
+    }
+}
+
+TEST_SUITE("unit") {
+
+    TEST_CASE("map_quality: the picture of the texels has a colour for each state, and grey by the bend where there is "
+              "detail") {
+        Transfer result;
+        result.map = Image<float>(5, 3, 3);
+        result.states = Image<TexelState>(5, 3, 1);
+        for (std::size_t i = 0; i < 15; ++i) {
+            const float flat[] = {0.5f, 0.5f, 1};
+            std::copy_n(flat, 3, result.map.data() + 3 * i);
+            result.states.data()[i] = TexelState::hit;
+        }
+        const TexelState states[] = {TexelState::outside, TexelState::missed, TexelState::behind,
+                                     TexelState::unmatched};
+        std::copy_n(states, 4, result.states.row(0));
+        result.map.at(4, 0, 2) = 0.2f; // inward
+        const auto colour = [&](int x, int y) {
+            const Image<float> map = report_map(result, Space::tangent, false);
+            return Vec3f(map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2));
+        };
+        CHECK(glm::length(colour(0, 0)) < 0.1f);
+        CHECK((colour(1, 0) == Vec3f(1, 0, 0)));
+        CHECK((colour(2, 0) == Vec3f(1, 0.5f, 0)));
+        CHECK((colour(3, 0) == Vec3f(0, 0.2f, 1)));
+        CHECK((colour(4, 0) == Vec3f(1, 0, 1)));
+        CHECK((colour(0, 2) == Vec3f(0.15f))); // at the edge: not known
+        std::fill_n(result.states.data(), 15, TexelState::hit);
+        CHECK((colour(2, 1) == Vec3f(0.15f)));
+        result.map.at(2, 0, 0) = 0.5f + 0.5f * 0.24f; // bends by 0.24 / 24 = 0.01, about .57 degrees
+        CHECK(double(colour(2, 1).x) == doctest::Approx(0.15 + 0.85 * 0.573).epsilon(0.01));
+        result.map.at(2, 0, 0) = 1; // 1.19 degrees
+        CHECK((colour(2, 1) == Vec3f(1)));
+        CHECK((report_map(result, Space::object, false).at(4, 0, 1) > 0)); // object space has no inward normals
     }
 }

@@ -17,4 +17,9 @@ Percentiles texel_density(const BakeTarget& target, int width, int height);
 /// four neighbours that found detail; of maps of more than four million texels in some rows.
 Percentiles centre_error(const Transfer& result, Space space, bool directx);
 
+/// A picture of what the texels found, three channels from 0 to 1: near black outside of the charts, red where rays find nothing,
+/// orange where they find nothing but backs, blue where the part has no counterpart, magenta where the normal points into the
+/// low-poly mesh; elsewhere grey by the angle of centre_error(), white from one degree on.
+Image<float> report_map(const Transfer& result, Space space, bool directx);
+
 } // namespace bake
