@@ -17,4 +17,12 @@ std::vector<std::string> notes_of(const UvRaster& raster, const std::string& pat
     return out;
 }
 
+nlohmann::json to_json(const SeamDisagreement& seams) {
+    return {{"edges", seams.seams},
+            {"samples", seams.samples},
+            {"mean_deg", seams.mean},
+            {"p95_deg", seams.percentile_95},
+            {"max_deg", seams.max}};
+}
+
 } // namespace bake
