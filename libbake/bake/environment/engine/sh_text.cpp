@@ -1,4 +1,5 @@
 #include "bake/environment/engine/sh_text.h"
+#include "bake/base/block_writer.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/base/vec.h"
@@ -37,6 +38,12 @@ std::string to_text(const ShCoefficients& series) {
     for (std::size_t i = 0; i < series.values.size(); ++i)
         text += format("%.9g", series.values[i]) + ((i + 1) % std::size_t(series.channels) == 0 ? "\n" : " ");
     return text;
+}
+
+void write_sh_text(const std::string& path, const ShCoefficients& series) {
+    BlockWriter out(path);
+    out.write(to_text(series));
+    out.commit();
 }
 
 } // namespace bake

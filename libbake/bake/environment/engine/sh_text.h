@@ -12,5 +12,7 @@ ShCoefficients engine_sh(const Cube& sky, int bands, ShForm form);
 
 /// One line of text per coefficient in the order of the list, the channels with blanks between them.
 std::string to_text(const ShCoefficients& series);
+/// The same as a file. Throws as OutputFile.
+void write_sh_text(const std::string& path, const ShCoefficients& series);
 
 } // namespace bake
