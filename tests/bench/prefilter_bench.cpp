@@ -11,7 +11,11 @@
 // that it does not matter how a program orients its cubes.
 // prefilter_bench --errors ALPHA FACES ...: mean, 95th percentile and largest error of one or more levels of GGX, FACES
 // being a name with %s; on stderr the root mean square of each level.
+// prefilter_bench --errors-ktx FILE: the same of the levels after the first of a KTX (version 1) for Filament, of half floats or
+// of R11F_G11F_B10F, which cmgen writes.
+#include "bake/base/file_bytes.h"
 #include "bake/base/vec.h"
+#include "bake/environment/engine/consumer.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/environment/filter/convolve.h"
 #include "bake/environment/filter/irradiance.h"
@@ -22,6 +26,7 @@
 #include "environment/skies.h"
 #include "oracle/zonal.h"
 #include <ctime>
+#include <half.h>
 
 using namespace bake;
 
@@ -177,21 +182,66 @@ void make_cross(int faces, const char* file) {
     write_image(file, paste_faces(sky, CubeLayout::hcross), {.depth = Depth::float32});
 }
 
-/// `levels`: alpha, name of the faces, alpha, name, ...
-void print_errors(char** levels, int count) {
-    std::vector<float> all;
-    for (int i = 0; i + 1 < count; i += 2) {
-        const double alpha = std::atof(levels[i]);
+/// The errors of levels, one after the other.
+class LevelErrors {
+public:
+    void add(double alpha, const Cube& cube) {
         const oracle::ConvolvedSun exact(sun, [=](double c) { return oracle::ggx_kernel(c, alpha); });
-        const Cube cube = read_faces(find_faces(levels[i + 1]).files);
         const auto expected = [&](const Vec3d& n) { return exact(n.y) / exact.norm; };
         std::vector<float> errors;
         const Found measured = measure(cube, expected, &errors);
-        all.insert(all.end(), errors.begin(), errors.end());
-        std::fprintf(stderr, "%s%g: %.2g", i > 0 ? ", " : "", alpha, measured.rmse);
+        std::fprintf(stderr, "%s%.3g: %.2g", all_.empty() ? "" : ", ", alpha, measured.rmse);
+        all_.insert(all_.end(), errors.begin(), errors.end());
     }
-    const bench::Errors e = bench::errors_of(all);
-    std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
+    void print() const {
+        const bench::Errors e = bench::errors_of(all_);
+        std::printf("%.4g,%.4g,%.4g\n", e.mean, e.p95, e.max);
+    }
+
+private:
+    std::vector<float> all_;
+};
+
+/// `levels`: alpha, name of the faces, alpha, name, ...
+void print_errors(char** levels, int count) {
+    LevelErrors errors;
+    for (int i = 0; i + 1 < count; i += 2)
+        errors.add(std::atof(levels[i]), read_faces(find_faces(levels[i + 1]).files));
+    errors.print();
+}
+
+void print_ktx_errors(const char* path) {
+    const FileBytes file = read_file(path);
+    const std::string_view bytes(file.begin(), file.size);
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value |= std::uint32_t(static_cast<unsigned char>(bytes.at(at + i))) << 8 * i;
+        return value;
+    };
+    const auto half = [](std::uint32_t bits) {
+        Imath::half value;
+        value.setBits(std::uint16_t(bits));
+        return float(value);
+    };
+    const bool halves = word(16) == 0x140b;
+    const std::vector<double> ladder = roughness_ladder(Consumer::filament, int(word(36)));
+    std::size_t at = 64 + word(60);
+    LevelErrors errors;
+    for (std::size_t level = 0; level < std::min<std::size_t>(ladder.size(), word(56)); ++level) {
+        at += 4;
+        Cube cube = make_cube(std::max(1, int(word(36)) >> level), 3);
+        for (Image<float>& face : cube.faces)
+            for (std::size_t i = 0; i < face.size(); i += 3, at += halves ? 8 : 4) {
+                const std::uint32_t w = word(at),
+                                    v = halves ? word(at + 4) : 0; // floats of 11, 11 and 10 bits, or of 16
+                face.data()[i] = half(halves ? w & 0xffff : (w & 0x7ff) << 4);
+                face.data()[i + 1] = half(halves ? w >> 16 : (w >> 11 & 0x7ff) << 4);
+                face.data()[i + 2] = half(halves ? v & 0xffff : w >> 22 << 5);
+            }
+        if (level > 0) errors.add(ladder[level], cube);
+    }
+    errors.print();
 }
 
 } // namespace
@@ -200,6 +250,7 @@ int main(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
     if (first == "--make" && argc == 4) return make_cross(std::atoi(argv[2]), argv[3]), 0;
     if (first == "--errors" && argc > 3) return print_errors(argv + 2, argc - 2), 0;
+    if (first == "--errors-ktx" && argc == 3) return print_ktx_errors(argv[2]), 0;
     const int faces = argc > 1 ? std::atoi(argv[1]) : 256;
     if (argc > 2 || faces < 32 || faces > 2048)
         return std::fprintf(

@@ -13,34 +13,6 @@ bool names_folder(const std::string& out) {
     return !out.empty() && (out.back() == '/' || ending(out).empty() || std::filesystem::is_directory(out));
 }
 
-nlohmann::json to_json(const EngineFile& file) {
-    nlohmann::json json = {{"file", file.path}, {"what", file.what}, {"bytes", file.bytes}};
-    if (file.levels == 0) return json;
-    json["size"] = file.edge, json["levels"] = file.levels;
-    if (file.what == "panorama") return json;
-    json["texels"] = file.what == "dfg" ? "half" : name(file.texels);
-    if (file.what == "dfg") return json;
-    json["rmse"] = file.error.rmse, json["relative_rmse"] = file.error.relative;
-    json["flux_error"] = file.error.flux, json["clamped"] = file.error.over;
-    return json;
-}
-
-std::string line_of(const EngineFile& file) {
-    std::string line = printable(file.path) + ": " + file.what;
-    if (file.what == "panorama") return line + format(", %d x %d", file.edge, file.edge / 2);
-    if (file.levels == 0) return line;
-    line += format(", %d x %d", file.edge, file.edge);
-    if (file.levels > 1) line += format(", %d levels", file.levels);
-    line += format(", %s, %.2f MB", file.what == "dfg" ? "half" : name(file.texels), double(file.bytes) / 1e6);
-    if (file.what == "dfg") return line;
-    line += format(", read back: error %.2g of the values, %.2g of the mean, flux %.1g", file.error.relative,
-                   file.error.rmse, file.error.flux);
-    if (file.error.over > 0)
-        line +=
-            format("; %lld values above the format's largest were clamped", static_cast<long long>(file.error.over));
-    return line;
-}
-
 } // namespace
 
 void add_engine_options(CLI::App& sub, CubemapArgs& args) {
@@ -105,6 +77,9 @@ void EngineOutput::check() const {
         roughness_ladder(*args_.engine.consumer, args_.target.size);
 }
 
+namespace {
+
+/// Filters and writes. Returns what is printed.
 std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output, const Environment& sky,
                              Progress& progress, nlohmann::json& json) {
     const EngineOptions options = args.engine.options(args.target.size, output.is_folder());
@@ -130,31 +105,25 @@ std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output
     }
     std::string lines;
     for (const EngineFile& file : files) {
-        json["files"].push_back(to_json(file));
+        json["files"].push_back(file_json(file));
         if (!lines.empty()) lines += '\n';
-        lines += line_of(file);
+        lines += file_line(file);
     }
     return text + lines;
 }
 
-nlohmann::json sh_json(const ShCoefficients& series) {
-    nlohmann::json json = nlohmann::json::array();
-    for (std::size_t i = 0; i < series.values.size(); i += std::size_t(series.channels))
-        json.push_back(std::vector<double>(series.values.begin() + std::ptrdiff_t(i),
-                                           series.values.begin() + std::ptrdiff_t(i) + series.channels));
-    return json;
-}
+} // namespace
 
-std::string sh_lines(const ShCoefficients& series) {
-    std::string lines;
-    for (int l = 0; l < series.bands; ++l)
-        for (int m = -l; m <= l; ++m) {
-            if (!lines.empty()) lines += '\n';
-            lines += format("sh %d %2d:", l, m);
-            for (int c = 0; c < series.channels; ++c)
-                lines += format(" %.6g", series.values[std::size_t((l * l + l + m) * series.channels + c)]);
-        }
-    return lines;
+int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const EngineOutput& output, const ReadSky& read,
+                   Progress& progress, Stopwatch& watch) {
+    const std::vector<std::string> notes = reading_notes(read.report);
+    nlohmann::json json = {{"from", name(read.report.format)}, {"notes", notes}};
+    const std::string text = write_for_engine(args, output, read.sky, progress, json);
+    progress.finish();
+    watch.lap("convert, filter and write");
+    for (const std::string& line : notes) note(common, line);
+    print_result(common, text + "; ", json, watch);
+    return 0;
 }
 
 } // namespace bake

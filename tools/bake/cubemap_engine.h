@@ -25,10 +25,17 @@ private:
     OutputFolder folder_;
 };
 
-/// Filters and writes. `cube`: gives the sky as six faces with texel centres inside. Returns what is printed.
-std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output, const Environment& sky,
-                             Progress& progress, nlohmann::json& json);
+struct ReadSky {
+    const Environment& sky;
+    const EnvironmentReport& report;
+};
 
+/// Filters, writes and prints the result. Returns the exit code.
+int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const EngineOutput& output, const ReadSky& read,
+                   Progress& progress, Stopwatch& watch);
+
+nlohmann::json file_json(const EngineFile& file);
+std::string file_line(const EngineFile& file);
 /// {l m} as lists of channels.
 nlohmann::json sh_json(const ShCoefficients& series);
 /// One line per coefficient.

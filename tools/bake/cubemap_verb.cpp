@@ -100,17 +100,6 @@ void check_output(const CubemapArgs& args) {
                  edge);
 }
 
-int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const EngineOutput& output,
-                   const Environment& sky, const EnvironmentReport& report, Progress& progress, Stopwatch& watch) {
-    nlohmann::json json = {{"from", name(report.format)}, {"notes", reading_notes(report)}};
-    const std::string text = write_for_engine(args, output, sky, progress, json);
-    progress.finish();
-    watch.lap("convert, filter and write");
-    for (const std::string& line : reading_notes(report)) note(common, line);
-    print_result(common, text + "; ", json, watch);
-    return 0;
-}
-
 int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     check_cubemap_options(args);
     const EngineOutput engine(args);
@@ -123,7 +112,7 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     const Environment sky = load_sky(args, common, progress, report);
     check(); // once more, as it may not replace what was read
     watch.lap("read");
-    if (args.engine.consumer) return run_for_engine(args, common, engine, sky, report, progress, watch);
+    if (args.engine.consumer) return run_for_engine(args, common, engine, {sky, report}, progress, watch);
     args.target.source = report.type;
     std::optional<ShCoefficients> sh;
     const EnvironmentWritten written = write(args, sky, progress, sh);

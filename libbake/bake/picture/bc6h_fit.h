@@ -7,7 +7,7 @@ namespace bake {
 using Bc6hTexels = std::array<std::array<float, 3>, 16>; ///< in [0, 65504]
 
 /// The block with the least error, as bc6h_encode() measures it, of those tried: the four modes with one region, and where
-/// they leave an error, the modes with two regions on the shapes that promise most.
+/// they leave an error, the modes with two regions on the shape that promises most.
 Bc6hBlock fit_bc6h(const Bc6hTexels& texels) noexcept;
 
 } // namespace bake

@@ -1,6 +1,7 @@
 #include "bake/preview/scene_io.h"
 #include "bake/base/error.h"
 #include "bake/base/file_bytes.h"
+#include "bake/environment/file/cube_levels.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/preview/scene_lights.h"
 #include "bake/preview/scene_maps.h"
@@ -55,8 +56,9 @@ void read_sky_levels(const Section& in, SkyEntry& sky) {
     read_path(in, "irradiance", sky.irradiance);
     const bool specular = read_path(in, "specular", sky.specular);
     const toml::node *pattern = in.table.get("specular"), *alphas = in.table.get("specular-roughness");
-    if (specular && !is_face_pattern(sky.specular))
-        refuse(in, *pattern, "\"specular\" has no %s, which stands for the face; give such as \"ggx_%s.exr\"");
+    if (specular && !is_face_pattern(sky.specular) && !names_cube_levels(sky.specular))
+        refuse(in, *pattern,
+               "\"specular\" has no %s, which stands for the face; give such as \"ggx_%s.exr\", or a .dds or .ktx2");
     if (specular && !alphas)
         refuse(in, *pattern, "\"specular-roughness\" is missing; give the list of alphas with which the file was made");
     if (!alphas) return;

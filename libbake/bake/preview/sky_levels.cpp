@@ -1,5 +1,6 @@
 #include "bake/preview/sky_levels.h"
 #include "bake/base/error.h"
+#include "bake/environment/file/cube_levels.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/file/sky_cube.h"
 #include "bake/environment/filter/irradiance.h"
@@ -58,14 +59,28 @@ void complete(SkyLevels& levels, const Cube& sky) {
 
 Cube read_irradiance(const std::string& file) { return sky_cube(read_environment({file}, {.check_seams = false})); }
 
-std::vector<Cube> read_glossy(const std::string& pattern, std::size_t levels) {
-    const std::array<std::string, 6> files = find_faces(pattern).files;
+namespace {
+
+void check_count(const std::string& file, std::size_t found, std::size_t levels) {
+    if (found < levels)
+        throw Error(Refusal::unsuitable, file + ": has " + std::to_string(found) + " levels for " +
+                                             std::to_string(levels) + " values of alpha; give as many values");
+}
+
+} // namespace
+
+std::vector<Cube> read_glossy(const std::string& file, std::size_t levels) {
+    if (names_cube_levels(file)) {
+        std::vector<Cube> cubes = read_cube_levels(file);
+        check_count(file, cubes.size(), levels);
+        cubes.resize(levels);
+        return cubes;
+    }
+    const std::array<std::string, 6> files = find_faces(file).files;
     std::vector<Cube> cubes(levels);
     for (std::size_t f = 0; f < 6; ++f) {
         std::vector<Image<float>> chain = read_exr_levels(files[f]);
-        if (chain.size() < levels)
-            throw Error(Refusal::unsuitable, files[f] + ": has " + std::to_string(chain.size()) + " levels for " +
-                                                 std::to_string(levels) + " values of alpha; give as many values");
+        check_count(files[f], chain.size(), levels);
         for (std::size_t k = 0; k < levels; ++k) {
             const Image<float>& face = chain[k];
             const Image<float>& first = f > 0 ? cubes[k].faces[0] : face;

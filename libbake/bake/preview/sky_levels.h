@@ -21,9 +21,10 @@ void complete(SkyLevels& levels, const Cube& sky);
 
 /// Reads irradiance from one input of read_environment(). Throws as that.
 Cube read_irradiance(const std::string& file);
-/// Reads as many levels as there are alphas, of six .exr files with mip levels, named by a pattern with %s. Throws
-/// Error{Refusal::unreadable} for other files, and Error{Refusal::unsuitable} if they have fewer levels.
-std::vector<Cube> read_glossy(const std::string& pattern, std::size_t levels);
+/// Reads as many levels as there are alphas, of six .exr files with mip levels, named by a pattern with %s, or of a cube map
+/// as read_cube_levels(). Throws Error{Refusal::unreadable} for other files, and Error{Refusal::unsuitable} if they have
+/// fewer levels.
+std::vector<Cube> read_glossy(const std::string& file, std::size_t levels);
 
 /// The light of the sky that a surface reflects to the viewer; `sky` gives scale and rotation. Complete levels; unit vectors
 /// as for evaluate().
