@@ -26,7 +26,6 @@
 #include "environment/skies.h"
 #include "oracle/zonal.h"
 #include <ctime>
-#include <half.h>
 
 using namespace bake;
 
@@ -219,10 +218,9 @@ void print_ktx_errors(const char* path) {
             value |= std::uint32_t(static_cast<unsigned char>(bytes.at(at + i))) << 8 * i;
         return value;
     };
-    const auto half = [](std::uint32_t bits) {
-        Imath::half value;
-        value.setBits(std::uint16_t(bits));
-        return float(value);
+    const auto half = [](std::uint32_t bits) { // positive and finite
+        const int exponent = int(bits >> 10);
+        return std::ldexp(float((bits & 1023) + (exponent > 0 ? 1024 : 0)), std::max(exponent, 1) - 25);
     };
     const bool halves = word(16) == 0x140b;
     const std::vector<double> ladder = roughness_ladder(Consumer::filament, int(word(36)));
