@@ -1,6 +1,7 @@
 # Makes the source file that names the commit: cmake -D SOURCE=folder -D OUT=commit.cpp -P embed_commit.cmake. The file is
 # written only if the commit is another one, so that nothing is compiled without need. In an archive that git made, which
 # has no history, the name of the commit stands in libbake/install/commit.txt.
+cmake_policy(VERSION 3.25)
 set(commit "unknown")
 file(STRINGS ${SOURCE}/libbake/install/commit.txt archived LIMIT_COUNT 1)
 if(archived MATCHES "^[0-9a-f]+$")
