@@ -4,11 +4,11 @@
 #include "bake/base/parallel.h"
 #include "bake/base/system_lack.h"
 #include "bake/base/text.h"
-#include "bake/base/version.h"
 #include "bake/preview/nearest_key.h"
 #include "inputs/number_option.h"
 #include "run_description.h"
 #include "verb.h"
+#include "version_text.h"
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -153,7 +153,7 @@ std::vector<std::string> arguments(int argc, char** argv) {
 /// `cap`: to begin where the control group limits the memory, as the kernel ends a process that exceeds that limit.
 int run(int argc, char** argv, std::optional<MemoryCap>& cap) {
     CLI::App app{"bake: normal maps, bump tables, displaced meshes, environment maps, and previews of them", "bake"};
-    app.set_version_flag("-V,--version", std::string("bake ") + version(), "Print the version");
+    app.set_version_flag("-V,--version", version_text(), "Print the version, the licence and the libraries");
     app.require_subcommand(1);
     app.set_help_flag("-h,--help", "Print this help; bake help VERB prints that of a verb");
     add_examples(app, "  bake check meshes/torus.obj meshes/bricks.png\n"
