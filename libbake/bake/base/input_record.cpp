@@ -1,5 +1,5 @@
 #include "bake/base/input_record.h"
-#include <atomic>
+#include "bake/base/job.h"
 #include <mutex>
 #include <set>
 #include <sys/stat.h>
@@ -7,29 +7,23 @@
 
 namespace bake {
 
-struct InputRecord::Files {
+struct InputFiles {
     std::mutex mutex;
     std::set<std::pair<dev_t, ino_t>> known;
 };
 
-namespace {
-
-std::atomic<InputRecord::Files*> current = nullptr;
-
-} // namespace
-
-InputRecord::InputRecord() : files_(std::make_unique<Files>()) { current = files_.get(); }
-InputRecord::~InputRecord() { current = nullptr; }
+InputRecord::InputRecord() : files_(std::make_unique<InputFiles>()) { current_job().inputs = files_.get(); }
+InputRecord::~InputRecord() { current_job().inputs = nullptr; }
 
 void remember_input(const struct stat& file) {
-    InputRecord::Files* const files = current;
+    InputFiles* const files = current_job().inputs;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
     files->known.emplace(file.st_dev, file.st_ino);
 }
 
 bool is_input(const struct stat& file) {
-    InputRecord::Files* const files = current;
+    InputFiles* const files = current_job().inputs;
     if (!files) return false;
     const std::lock_guard lock(files->mutex);
     return files->known.contains({file.st_dev, file.st_ino});
