@@ -18,6 +18,8 @@ struct Job {
     bool draws = true;
     /// Take what is printed on stdout and on stderr; empty: these streams. From any thread of the job.
     std::function<void(const std::string&)> print, tell;
+    /// Is told every line of stderr too, as it is printed.
+    std::function<void(const std::string&)> hears;
 
     // Of RunRecord, InputRecord, OutputSet and MemoryCap, and of accept_interrupt().
     std::atomic<const RunDescription*> run = nullptr;
