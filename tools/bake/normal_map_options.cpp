@@ -129,6 +129,7 @@ void complete_engine(NormalMapArgs& args) {
                     std::string("--directx, --for ") + engine.name + ": it expects green up; leave out one of the two");
     if (names_folder(args.out)) {
         const std::string& of = args.height.path.empty() ? args.mesh : args.height.path;
+        args.folder = std::make_shared<OutputFolder>(args.out);
         args.out = normal_map_name(engine, args.out, std::filesystem::path(of).stem().string());
     }
     args.directx = engine.directx && args.space == Space::tangent;

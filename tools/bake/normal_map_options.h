@@ -3,6 +3,7 @@
 #include "bake/relief/map/normal_map.h"
 #include "high_options.h"
 #include "inputs/engine.h"
+#include "inputs/output_folder.h"
 #include "options.h"
 
 namespace bake {
@@ -23,6 +24,7 @@ struct NormalMapArgs {
     HighArgs high;               ///< instead of a height
     std::optional<Length> bevel; ///< radius of rounded edges, instead of both
     EngineChoice engine = nullptr;
+    std::shared_ptr<OutputFolder> folder; ///< made for --for; goes again if nothing comes into it
     std::string like;          ///< a normal map whose amplitude and green are taken
     double like_amplitude = 0; ///< of that map, in widths of the picture; set by take_likeness()
     NormalMethod method = NormalMethod::exact;
