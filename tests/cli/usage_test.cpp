@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 using namespace bake;
@@ -22,8 +23,11 @@ TEST_SUITE("cli") {
         const Folder folder;
         const Run version = run_bake(folder, {"--version"});
         CHECK(version.code == 0);
-        CHECK(version.out.starts_with("bake "));
-        CHECK(lines(version.out) == 1);
+        CHECK(std::regex_search(version.out,
+                                std::regex("^bake [0-9.]+ \\(commit ([0-9a-f]{10}(-modified)?|unknown)\\)\n")));
+        CHECK(std::regex_search(version.out, std::regex("\nLicence: (GPL-3.0-or-later|Apache-2.0)")));
+        CHECK(std::regex_search(version.out, std::regex("\nBuilt with .*OpenImageIO 2[0-9.]+, ")));
+        CHECK(lines(version.out) == 3);
         std::vector<std::vector<std::string>> calls = {{"--help"}, {"explain", "-h"}};
         for (const std::string& verb : verbs()) calls.push_back({verb, "--help"});
         REQUIRE(calls.size() >= 10); // eight verbs
