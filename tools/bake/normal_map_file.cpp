@@ -96,6 +96,7 @@ NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, D
         throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
                                            args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
+    else if (writes_asset(args)) const OutputFile writable(args.out);
     else if (args.high.alpha)
         picture_.emplace(args.out, width, height, 4, WriteOptions{.depth = depth, .channels = {"R", "G", "B", "A"}});
     else picture_.emplace(args.out, width, height, 3, WriteOptions{.depth = depth, .channels = {"R", "G", "B"}});
@@ -104,12 +105,13 @@ NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, D
 
 std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, const Image<float>& alpha) {
     std::optional<StoredNormalMap> stored;
-    if (picture_) {
+    if (picture_ || writes_asset(args_)) {
         const Image<float> pattern = args_.dither ? dithered(map) : Image<float>();
         const Image<float>& colours = args_.dither ? pattern : map;
-        if (alpha.empty()) picture_->write(colours.data(), map.height());
+        if (!picture_) asset_map_ = bake::asset_map(GltfMap::Slot::normal, colours, depth_);
+        else if (alpha.empty()) picture_->write(colours.data(), map.height());
         else write_with_alpha(*picture_, colours, alpha);
-        picture_->finish();
+        if (picture_) picture_->finish();
         if (args_.dither) stored = dithered_picture(map, pattern);
     }
     if (!texture_ && !roughness_) return stored;

@@ -1,10 +1,10 @@
 // The files of the verb normal-map: the map as a picture or as a texture with all levels, and the roughness of the
 // levels.
 #pragma once
+#include "asset_output.h"
 #include "bake/base/block_writer.h"
 #include "bake/picture/image_io.h"
 #include "bake/relief/map/stored_error.h"
-#include "normal_map_options.h"
 
 namespace bake {
 
@@ -28,9 +28,13 @@ public:
     /// `alpha`: the fourth channel of a picture under --alpha.
     std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});
 
+    /// The map as it stands in a glTF file (writes_asset()), after write().
+    const GltfMap& asset_map() const noexcept { return asset_map_; }
+
 private:
     const NormalMapArgs& args_;
     Depth depth_;
+    GltfMap asset_map_;
     std::optional<ImageWriter> picture_;
     std::optional<BlockWriter> texture_, roughness_;
 };

@@ -36,6 +36,8 @@ struct NormalMapArgs {
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
 /// --padding, --depth, --dither, --skip-mips, --roughness-map and --roughness.
 void add_texture_options(CLI::App& sub, NormalMapArgs& args);
+/// Whether the map goes into a glTF file, with the mesh.
+bool writes_asset(const NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.
 Depth resolve_map_depth(const NormalMapArgs& args);

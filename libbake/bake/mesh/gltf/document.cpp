@@ -322,6 +322,7 @@ GltfDocument read_gltf_document(const std::string& path) {
     } else {
         chunks.json = bytes(out.file.begin(), out.file.size);
     }
+    out.text = chunks.json;
     json parsed = parse(chunks.json, path);
     const auto asset = parsed.find("asset");
     const std::string version = asset != parsed.end() && asset->is_object() ? text_of(*asset, "version") : "";

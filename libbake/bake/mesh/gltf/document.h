@@ -7,7 +7,8 @@
 namespace bake {
 
 struct GltfDocument {
-    std::string json; ///< without the buffers, the images, the cameras and the lights
+    std::string json;                   ///< without the buffers, the images, the cameras and the lights
+    std::span<const std::uint8_t> text; ///< the JSON of the file, whole
     bool has_materials = false;
     std::string cameras = "[]";                         ///< JSON: the list of cameras
     std::string lights = "[]";                          ///< JSON: the list of KHR_lights_punctual
