@@ -79,7 +79,8 @@ TEST_SUITE("cli") {
         const Folder folder;
         for (const char* file : {"sphere.ply", "sphere.glb", "sphere.gltf"}) {
             INFO(std::string(file));
-            const auto said = surface(folder, {"--shape", "sphere:R=2", "--resolution", "24x12", "-o", file});
+            const auto said = surface(folder, {"--shape", "sphere:R=2", "--resolution", "24x12", "--attributes",
+                                               "normal,tangent,curvature", "-o", file});
             CHECK(said["faces"] == 24 * 12);
             CHECK(said["degenerate_count"] == 2);
             CHECK(said["degenerate"][0]["what"] == "pole, with a limit normal");
@@ -95,6 +96,26 @@ TEST_SUITE("cli") {
                 CHECK(glm::length(2.0f * mesh.normals[mesh.corner_normal[c]] -
                                   mesh.positions[mesh.corner_position[c]]) < 1e-5f);
         }
+    }
+
+    TEST_CASE("surface: the attributes that are asked for are written, and corners of one vertex share them") {
+        const Folder folder;
+        const auto vertices = [&](const std::string& names) {
+            surface(folder, {torus, "-o", "t.ply", "--attributes", names});
+            return std::stoul(
+                contents(folder / "t.ply").substr(contents(folder / "t.ply").find("element vertex ") + 15));
+        };
+        const auto plain = vertices("normal");
+        CHECK(read_mesh(folder / "t.ply").tangents.empty());
+        CHECK(vertices("normal,curvature") == plain); // one value of each vertex, not one of each corner
+        CHECK(attribute(read_mesh(folder / "t.ply"), "gauss_curvature").components == 1);
+        CHECK(vertices("curvature") <= plain);
+        CHECK(read_mesh(folder / "t.ply").corner_normal.empty());
+        surface(folder, {torus, "-o", "t.ply"});
+        CHECK(read_mesh(folder / "t.ply").attributes.empty());
+        CHECK(read_mesh(folder / "t.ply").tangents.size() == read_mesh(folder / "t.ply").corners());
+        check_refused(folder, {"surface", torus, "-o", "a.ply", "--attributes", "normals"}, 2,
+                      "normal,tangent,curvature");
     }
 
     TEST_CASE("surface: the text has ranges, the area, and where the degenerate points are") {
@@ -227,6 +248,7 @@ TEST_SUITE("cli") {
         refused({torus, "-o", "a.obj"}, ".ply or .glb");
         refused({torus, "-o", "a"}, ".ply or .glb");
         refused({torus, "-o", "a.ply", "--maps", "normal"}, "--maps-out");
+        refused({torus, "--maps-out", "m", "--attributes", "normal"}, "--attributes");
         refused({torus, "--maps-out", "m", "--maps", "normals"},
                 "choose from position,normal,pu,pv,tangent,mean-curvature,gauss-curvature");
         refused({torus, "--maps-out", "m", "--maps", "normal,"}, "'' is no map");

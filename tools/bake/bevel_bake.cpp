@@ -104,6 +104,7 @@ struct Baked {
     std::string text;
     nlohmann::json object;
     std::vector<std::string> notes;
+    GltfMap asset_map;
 };
 
 /// `args`: with the names of one tile.
@@ -124,7 +125,7 @@ Baked bake_one(const NormalMapArgs& args, bool all_tiles, const Mesh& mesh, Dept
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
     report.texels = options.radius * texel_density(target, options.width, options.height).median;
     watch.lap("report");
-    Baked out{to_text(report), to_json(report), notes_of(report)};
+    Baked out{to_text(report), to_json(report), notes_of(report), file.asset_map()};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
     if (!args.roughness_map.empty()) out.object["roughness_map"] = args.roughness_map;
     return out;
@@ -159,6 +160,9 @@ int bake_bevel(const NormalMapArgs& args, Depth depth, const CommonArgs& common)
     nlohmann::json tiles = nlohmann::json::array();
     for (const NormalMapArgs& one : args_of_tiles(args, mesh)) {
         const Baked baked = bake_one(one, names_tiles(args.out), mesh, depth, progress, watch);
+        std::vector<std::string> lines;
+        if (writes_asset(args)) write_asset(args, {baked.asset_map}, normal_map_facts(args), lines);
+        for (const std::string& line : lines) notes.push_back(args.mesh + ": " + line);
         text += baked.text;
         notes.insert(notes.end(), baked.notes.begin(), baked.notes.end());
         tiles.push_back(baked.object);

@@ -37,11 +37,17 @@ ReliefFile load_relief(const DisplaceArgs& args, double size, const CommonArgs& 
     return file;
 }
 
+bool keeps_faces(const DisplaceArgs& args) {
+    return args.surface.shape.empty() &&
+           (args.kind == BaseKind::none || (args.kind == BaseKind::linear && args.levels == 0));
+}
+
 DisplaceOptions resolve_options(const DisplaceArgs& args, double size, const Vec3d& origin) {
     DisplaceOptions options;
     options.seam = args.seam;
     options.measure_error = args.measure || args.max_error;
     options.margin = args.margin;
+    options.attributes = args.surface.reading.pieces; // also where faces stay: those without area do not
     const bool as_it_is = args.surface.shape.empty() && args.kind == BaseKind::none;
     options.rates.levels = args.levels.value_or(as_it_is ? 0 : default_levels);
     if (args.max_error) {

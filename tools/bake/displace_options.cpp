@@ -1,4 +1,5 @@
 #include "displace_options.h"
+#include "gltf_output.h"
 #include "inputs/byte_option.h"
 #include "inputs/file_kind.h"
 
@@ -49,6 +50,8 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args) {
         sub, "--interpolation", args.interpolation,
         {{"bilinear", Interpolation::bilinear}, {"catmull-rom", Interpolation::catmull_rom}, {"c2", Interpolation::c2}},
         "Between texels; c2: cubic spline, smooth to the second derivative");
+    sub.add_flag("--tangents", args.tangents,
+                 "Write tangents (MikkTSpace) of the result; those of a glTF file stay true");
     sub.add_flag("--measure", args.measure, "Measure the distance of the result from the displaced surface");
     sub.add_flag("--margin", args.margin,
                  "Write the fold margin, smallest 1 + b a or stretch, as an attribute (fold_margin)");
@@ -68,6 +71,8 @@ void complete(DisplaceArgs& args) {
         throw usage("--out " + args.out + ": is not a mesh format known here; use .obj, .ply, .glb or .gltf");
     if (args.margin && mesh_format(args.out) == MeshFormat::obj)
         throw usage("--margin: .obj has no place for attributes; write .ply or .glb");
+    if (args.tangents && mesh_format(args.out) == MeshFormat::obj)
+        throw usage("--tangents: .obj has no place for them; write .ply or .glb");
     if (!args.surface.shape.empty() && args.kind != BaseKind::automatic)
         throw usage("--subdivide: a shape is smooth already; leave it out with --shape");
     if (args.levels.has_value() + args.edge_px.has_value() + args.max_error.has_value() > 1)
@@ -84,6 +89,7 @@ void complete(DisplaceArgs& args) {
         throw usage("--vector: takes three channels as they are; leave out --channel, --invert, --dequantise and "
                     "--repeat");
     if (args.kind == BaseKind::automatic) args.kind = has_rates ? BaseKind::linear : BaseKind::none;
+    args.surface.reading.pieces = keeps_file(args.surface, args.out);
 }
 
 } // namespace bake

@@ -26,7 +26,7 @@ struct DisplaceArgs {
     Seam seam = DisplaceOptions{}.seam;
     std::optional<VectorSpace> vector;
     Interpolation interpolation = Interpolation::c2;
-    bool measure = false, margin = false, audit = false;
+    bool measure = false, margin = false, audit = false, tangents = false;
     std::optional<std::uint64_t> max_memory;
 };
 
@@ -34,6 +34,8 @@ void add_displace_options(CLI::App& sub, DisplaceArgs& args);
 /// Completes the options that depend on each other. Throws Error{Refusal::usage} for those that contradict each other,
 /// before anything is read.
 void complete(DisplaceArgs& args);
+/// Whether the result has the faces of the mesh.
+bool keeps_faces(const DisplaceArgs& args);
 /// The level of a refinement or limit surface for which the user gives no rate.
 inline constexpr int default_levels = 3;
 

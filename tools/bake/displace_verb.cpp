@@ -2,7 +2,7 @@
 #include "bake/base/memory.h"
 #include "bake/base/output_file.h"
 #include "bake/base/parallel.h"
-#include "bake/mesh/file/write_memory.h"
+#include "displace_output.h"
 #include "displace_report.h"
 #include "inputs/byte_option.h"
 #include <filesystem>
@@ -25,15 +25,6 @@ double mean_edge(const Mesh& mesh) {
     return edges > 0 ? sum / double(edges) : 0;
 }
 
-/// Makes the fold margin an attribute of the corners.
-void add_margin(Displaced& displaced) {
-    Attribute attribute{.name = "fold_margin", .components = 1, .values = {}};
-    attribute.values.reserve(displaced.mesh.corners());
-    for (const std::uint32_t p : displaced.mesh.corner_position) attribute.values.push_back(displaced.margin[p]);
-    displaced.mesh.attributes.push_back(std::move(attribute));
-    displaced.margin = {};
-}
-
 std::string describe_base(const DisplaceArgs& args) {
     if (!args.surface.shape.empty()) return "a shape";
     if (args.kind == BaseKind::catmark) return "a Catmull-Clark limit";
@@ -49,22 +40,6 @@ template <class Work> auto within_memory(const std::string& name, const char* wh
         throw Error(Refusal::unsuitable, name + ": " + what + " takes more memory than " + limit.described() +
                                              "; take a smaller one, or " + limit.advice());
     }
-}
-
-/// What writing and testing the result take.
-std::vector<LaterStep> later_steps(const DisplaceArgs& args, const BaseSurface& base) {
-    const bool margin = args.margin, parts = base.mesh().materials.size() > 1 || base.mesh().groups.size() > 1;
-    const auto attribute = [margin](const DisplaceCount& c) { return margin ? c.corners * sizeof(float) : 0; };
-    std::vector<LaterStep> steps;
-    steps.push_back(
-        {"", [=, format = mesh_format(args.out)](const DisplaceCount& c) {
-             return attribute(c) + write_memory(format, {c.points, c.normals, c.uvs, c.faces, c.corners, parts});
-         }});
-    if (args.audit)
-        steps.push_back({"audit", [=](const DisplaceCount& c) {
-                             return attribute(c) + audit_memory(c.points, c.corners - 2 * c.faces);
-                         }});
-    return steps;
 }
 
 int run(DisplaceArgs& args, const CommonArgs& common) {
@@ -106,12 +81,11 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.facets = facet_loss(displaced.mesh, file.relief);
     watch.lap("displace");
     progress.start("write", 0);
-    if (args.margin) add_margin(displaced);
-    o.file_bytes = std::uintmax_t(write_mesh(args.out, displaced.mesh,
-                                             {{"content", std::string("displaced mesh")},
-                                              {"amplitude", o.amplitude},
-                                              {"midlevel", o.midlevel},
-                                              {"units", std::string("object units")}}));
+    const Facts facts = {{"content", std::string("displaced mesh")},
+                         {"amplitude", o.amplitude},
+                         {"midlevel", o.midlevel},
+                         {"units", std::string("object units")}};
+    o.file_bytes = std::uintmax_t(write_displaced(args, !base.mesh().tangents.empty(), displaced, facts, o.mesh_notes));
     watch.lap("write");
     if (args.audit) {
         progress.start("audit", 0);

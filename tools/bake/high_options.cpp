@@ -76,10 +76,11 @@ void add_high_options(CLI::App& sub, HighArgs& args) {
         sub.get_option(flag)->needs(high);
 }
 
-void complete(const HighArgs& args) {
+void complete(const HighArgs& args, bool asset) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     if (!args.given()) return;
-    if (args.maps.empty() != args.maps_out.empty())
+    const bool occlusion_alone = args.maps == std::vector{DetailMap::ambient_occlusion};
+    if (args.maps.empty() != args.maps_out.empty() && !(asset && occlusion_alone))
         throw usage("--maps, --maps-out: belong together; name the maps and what their names begin with");
     for (const std::string& path : args.paths) expect_mesh(path);
     if (!args.cage.empty()) expect_mesh(args.cage);

@@ -28,7 +28,8 @@ inline constexpr int default_rays = 1, most_rays_by_default = 8; ///< without an
 
 void add_high_options(CLI::App& sub, HighArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other.
-void complete(const HighArgs& args);
+/// `asset`: occlusion goes into a glTF file, and needs no name.
+void complete(const HighArgs& args, bool asset = false);
 /// Throws Error{Refusal::usage} for an option of a height beside `instead`, as in --high.
 void refuse_height_options(const CLI::App& sub, const std::string& instead);
 

@@ -36,6 +36,7 @@ TransferOptions options_of(const NormalMapArgs& args, const Mesh& low) {
 /// PREFIX_height.exr and so on, opened before the work.
 std::vector<std::unique_ptr<ImageWriter>> open_maps(const HighArgs& args, const TransferOptions& options) {
     std::vector<std::unique_ptr<ImageWriter>> writers;
+    if (args.maps_out.empty()) return writers; // what goes into a glTF file
     for (const DetailMap map : args.maps) {
         const std::vector<std::string> names =
             channels(map) == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
@@ -117,6 +118,7 @@ public:
         nlohmann::json object;
         std::vector<std::string> notes;
         std::int64_t missed = 0;
+        std::vector<GltfMap> asset_maps;
     };
     /// `args`: those of the constructor, with the names of one tile.
     Baked bake(const NormalMapArgs& args);
@@ -211,6 +213,10 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
     }
     watch_.lap("report");
     Baked out{to_text(report), to_json(report), notes_of(report), result.report.missed + result.report.unmatched};
+    if (writes_asset(args)) out.asset_maps = {file.asset_map()};
+    for (std::size_t m = 0; writes_asset(args) && m < args.high.maps.size(); ++m)
+        if (args.high.maps[m] == DetailMap::ambient_occlusion)
+            out.asset_maps.push_back(asset_map(GltfMap::Slot::occlusion, result.details[m], Depth::u8));
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
     if (!args.roughness_map.empty()) out.object["roughness_map"] = args.roughness_map;
     return out;
@@ -249,6 +255,12 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     HighBake bake(args, depth, low, std::move(meshes), progress, watch, is_visible(common));
     const std::vector<HighBake::Baked> baked = bake_tiles(args, low, bake);
     bake.write_cage();
+    if (writes_asset(args)) {
+        std::vector<std::string> lines;
+        write_asset(args, baked[0].asset_maps, normal_map_facts(args), lines);
+        for (const std::string& line : lines) notes.push_back(args.mesh + ": " + line);
+        watch.lap("asset");
+    }
     std::string text;
     std::int64_t missed = 0;
     nlohmann::json tiles = nlohmann::json::array();

@@ -61,7 +61,9 @@ void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<
     }
 }
 
-Facts facts_of(const NormalMapArgs& args, const HeightOptions* relief) {
+} // namespace
+
+Facts normal_map_facts(const NormalMapArgs& args, const HeightOptions* relief) {
     Facts facts = {{"content", std::string("normal map")},
                    {"space", std::string(args.space == Space::tangent ? "tangent" : "object")},
                    {"green", std::string(args.directx ? "down" : "up")},
@@ -75,8 +77,6 @@ Facts facts_of(const NormalMapArgs& args, const HeightOptions* relief) {
     }
     return facts;
 }
-
-} // namespace
 
 std::string to_text(const StoredNormalMap& stored) {
     const StoredError& error = stored.error;
@@ -105,12 +105,13 @@ nlohmann::json to_json(const StoredNormalMap& stored) {
 }
 
 NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth, const HeightOptions* relief)
-    : args_(args), depth_(depth), facts_(facts_of(args, relief)) {
+    : args_(args), depth_(depth), facts_(normal_map_facts(args, relief)) {
     const int levels = std::bit_width(unsigned(std::max(width, height)));
     if (args.skip_mips >= levels)
         throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
                                            args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
+    else if (writes_asset(args)) const OutputFile writable(args.out);
     else {
         WriteOptions options{.depth = depth, .channels = {"R", "G", "B"}, .facts = facts_};
         if (args.high.alpha) options.channels.push_back("A");
@@ -121,12 +122,13 @@ NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, D
 
 std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, const Image<float>& alpha) {
     std::optional<StoredNormalMap> stored;
-    if (picture_) {
+    if (picture_ || writes_asset(args_)) {
         const Image<float> pattern = args_.dither ? dithered(map) : Image<float>();
         const Image<float>& colours = args_.dither ? pattern : map;
-        if (alpha.empty()) picture_->write(colours.data(), map.height());
+        if (!picture_) asset_map_ = bake::asset_map(GltfMap::Slot::normal, colours, depth_);
+        else if (alpha.empty()) picture_->write(colours.data(), map.height());
         else write_with_alpha(*picture_, colours, alpha);
-        picture_->finish();
+        if (picture_) picture_->finish();
         if (args_.dither) stored = dithered_picture(map, pattern);
     }
     if (!texture_ && !roughness_) return stored;

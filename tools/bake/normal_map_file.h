@@ -1,10 +1,10 @@
 // The files of the verb normal-map: the map as a picture or as a texture with all levels, and the roughness of the
 // levels.
 #pragma once
+#include "asset_output.h"
 #include "bake/base/block_writer.h"
 #include "bake/picture/image_io.h"
 #include "bake/relief/map/stored_error.h"
-#include "normal_map_options.h"
 
 namespace bake {
 
@@ -20,6 +20,9 @@ struct StoredNormalMap {
 std::string to_text(const StoredNormalMap& stored);
 nlohmann::json to_json(const StoredNormalMap& stored);
 
+/// What the texels of the map mean. `relief`: the height that it is of, if it is of one.
+Facts normal_map_facts(const NormalMapArgs& args, const HeightOptions* relief = nullptr);
+
 class NormalMapFile {
 public:
     /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it; `relief`: the
@@ -29,10 +32,14 @@ public:
     /// `alpha`: the fourth channel of a picture under --alpha.
     std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});
 
+    /// The map as it stands in a glTF file (writes_asset()), after write().
+    const GltfMap& asset_map() const noexcept { return asset_map_; }
+
 private:
     const NormalMapArgs& args_;
     Depth depth_;
     Facts facts_; ///< of the map
+    GltfMap asset_map_;
     std::optional<ImageWriter> picture_;
     std::optional<BlockWriter> texture_, roughness_;
 };

@@ -71,6 +71,13 @@ Depth texture_depth(const NormalMapArgs& args) {
     return Depth::float32;
 }
 
+/// Of a picture in a glTF file.
+Depth asset_depth(const NormalMapArgs& args) {
+    if (args.depth == MapDepth::u16) return Depth::u16;
+    if (args.depth == MapDepth::automatic || args.depth == MapDepth::u8) return Depth::u8;
+    throw Error(Refusal::usage, args.out + ": pictures in glTF are PNG, of 8 or 16 bits; take --depth 8 or 16");
+}
+
 Depth file_depth(const NormalMapArgs& args) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     if (!args.roughness_map.empty()) {
@@ -81,8 +88,10 @@ Depth file_depth(const NormalMapArgs& args) {
     }
     if (texture_container(args.out)) return texture_depth(args);
     if (args.skip_mips > 0) throw usage("--skip-mips: " + args.out + " has one level; write .dds or .ktx2");
+    if (writes_asset(args)) return asset_depth(args);
     if (picture_format(args.out) == PictureFormat::unknown)
-        throw usage(args.out + ": unknown ending; write .png, .exr, .tif, .dds or .ktx2");
+        throw usage(args.out +
+                    ": unknown ending; write .png, .exr, .tif, .dds or .ktx2, or .glb for the mesh with its map");
     switch (args.depth) {
     case MapDepth::automatic: return resolve_depth(args.out, Depth::automatic);
     case MapDepth::u8: return resolve_depth(args.out, Depth::u8);
@@ -95,6 +104,8 @@ Depth file_depth(const NormalMapArgs& args) {
 }
 
 } // namespace
+
+bool writes_asset(const NormalMapArgs& args) { return mesh_format(args.out) == MeshFormat::gltf; }
 
 Depth resolve_map_depth(const NormalMapArgs& args) {
     const Depth depth = file_depth(args);
@@ -132,14 +143,28 @@ void complete_engine(NormalMapArgs& args) {
         args.folder = std::make_shared<OutputFolder>(args.out);
         args.out = normal_map_name(engine, args.out, std::filesystem::path(of).stem().string());
     }
-    args.directx = engine.directx && args.space == Space::tangent;
-    if (args.depth == MapDepth::automatic && picture_format(args.out) == PictureFormat::png)
-        args.depth = engine.depth == Depth::u8 ? MapDepth::u8 : MapDepth::u16;
+    args.directx = engine.directx && args.space == Space::tangent && !writes_asset(args);
+    const bool png = writes_asset(args) || picture_format(args.out) == PictureFormat::png;
+    if (args.depth == MapDepth::automatic && png) args.depth = engine.depth == Depth::u8 ? MapDepth::u8 : MapDepth::u16;
 }
+
+namespace {
+
+/// What a material of a glTF file can show.
+void check_asset(const NormalMapArgs& args) {
+    const auto usage = [&](const std::string& why) { return Error(Refusal::usage, "-o " + args.out + ": " + why); };
+    if (args.mesh.empty()) throw usage("there is no mesh to write; name one, or write a picture");
+    if (args.space == Space::object) throw usage("glTF knows maps in tangent space alone; leave out --space object");
+    if (args.directx) throw usage("in glTF green points up; leave out --directx");
+    if (names_tiles(args.out) || args.tile != 0)
+        throw usage("a material has one picture for all charts; write pictures of the tiles");
+}
+
+} // namespace
 
 void complete(NormalMapArgs& args, const std::string& verb) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
-    complete(args.high);
+    complete(args.high, writes_asset(args));
     if (args.bevel) {
         complete_bevel(args, verb);
     } else if (args.high.given()) {
@@ -163,6 +188,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
+    if (writes_asset(args)) check_asset(args);
     if (!args.displaced.empty()) {
         expect_mesh(args.displaced);
         if (args.mesh.empty())

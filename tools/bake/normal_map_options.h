@@ -25,8 +25,8 @@ struct NormalMapArgs {
     std::optional<Length> bevel; ///< radius of rounded edges, instead of both
     EngineChoice engine = nullptr;
     std::shared_ptr<OutputFolder> folder; ///< made for --for; goes again if nothing comes into it
-    std::string like;          ///< a normal map whose amplitude and green are taken
-    double like_amplitude = 0; ///< of that map, in widths of the picture; set by take_likeness()
+    std::string like;                     ///< a normal map whose amplitude and green are taken
+    double like_amplitude = 0;            ///< of that map, in widths of the picture; set by take_likeness()
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
@@ -47,6 +47,8 @@ void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 /// Takes green, depth and the file's name from --for, where the user gave no others. Throws Error{Refusal::usage} for a
 /// folder without --for.
 void complete_engine(NormalMapArgs& args);
+/// Whether the map goes into a glTF file, with the mesh.
+bool writes_asset(const NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.
 Depth resolve_map_depth(const NormalMapArgs& args);

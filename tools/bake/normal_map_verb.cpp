@@ -71,6 +71,7 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     progress.finish();
     watch.lap("bake");
     set_stored(result, file.write(result.map));
+    result.asset_map = file.asset_map();
     watch.lap("write");
     result.map = {};
     return result;
@@ -103,7 +104,12 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     if (!args.displaced.empty()) in.diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
     watch.lap("read");
     in.notes = note_doubts(common, args.height, in.height);
-    const auto baked = bake_all(args, in, depth, progress, watch);
+    auto baked = bake_all(args, in, depth, progress, watch);
+    if (writes_asset(args)) {
+        write_asset(args, {std::move(baked[0].second.asset_map)},
+                    normal_map_facts(args, &baked[0].second.options.height_options), in.mesh.notes);
+        watch.lap("write");
+    }
     std::string text;
     nlohmann::json tiles = nlohmann::json::array();
     for (const auto& [one, result] : baked) {
@@ -133,7 +139,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                    "picture of a flat rectangle");
     add_output_option(sub, args->out,
                       "Normal map to write (.png, .exr, .tif; with mips .dds, .ktx2): rgb = (n + 1) / 2; <UDIM> in the "
-                      "name: one for each tile");
+                      "name: one for each tile; .glb, .gltf: the mesh with the map");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
     add_bevel_option(sub, *args);

@@ -1,4 +1,5 @@
 #include "surface_options.h"
+#include "inputs/name_list.h"
 #include "inputs/tile_names.h"
 #include "surface_map_files.h"
 
@@ -6,6 +7,15 @@ namespace bake {
 namespace {
 
 Error usage(const std::string& message) { return Error(Refusal::usage, message); }
+
+SurfaceAttributes parse_attributes(const std::string& text) {
+    SurfaceAttributes out{false, false, false};
+    bool SurfaceAttributes::*const members[] = {&SurfaceAttributes::normal, &SurfaceAttributes::tangent,
+                                                &SurfaceAttributes::curvature};
+    for (const std::size_t i : parse_names("--attributes", text, "attribute", {"normal", "tangent", "curvature"}))
+        out.*members[i] = true;
+    return out;
+}
 
 /// "  torus:R=1,r=0.4   a ring" for every shape.
 std::string shapes_text() {
@@ -24,9 +34,12 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
     add_size_option(sub, args.resolution, "Cells of a shape along u and v, or along every edge of a cage's patches [4]",
                     65536, "--resolution")
         ->type_name("NxM|N");
-    add_output_option(sub, args.out,
-                      "Mesh to write (.ply, .glb, .gltf): normals, tangents, mean_curvature, gauss_curvature")
+    add_output_option(sub, args.out, "Mesh to write (.ply, .glb, .gltf); of a glTF file all else is kept")
         ->required(false);
+    sub.add_option_function<std::string>(
+           "--attributes", [&args](const std::string& text) { args.attributes = parse_attributes(text); },
+           "What the mesh has, apart by commas [normal,tangent]: normal, tangent, curvature")
+        ->type_name("NAMES");
     sub.add_option_function<std::string>(
            "--maps", [&args](const std::string& text) { args.maps = parse_maps(text); },
            "Maps to write, apart by commas [all]: position, normal, pu, pv, tangent, mean-curvature, gauss-curvature")
@@ -48,6 +61,7 @@ void check_usage(const SurfaceArgs& args) {
     check_usage(args.surface, "surface");
     if (args.out.empty() && args.maps_out.empty())
         throw usage("surface: nothing to write; give -o for a mesh, --maps-out for maps, or both");
+    if (args.out.empty() && args.attributes) throw usage("--attributes: are those of the mesh that -o writes; name it");
     if (args.maps_out.empty() && !args.maps.empty())
         throw usage("--maps: needs --maps-out, what the maps' names begin with");
     expect_tile_or_all("the maps", args.maps_out, args.tile);

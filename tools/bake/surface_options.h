@@ -5,12 +5,18 @@
 
 namespace bake {
 
+/// What the written mesh has beside positions, uvs and what the input has.
+struct SurfaceAttributes {
+    bool normal = true, tangent = true, curvature = false;
+};
+
 struct SurfaceArgs {
     SurfaceInput surface;
     std::string out, maps_out;
     std::vector<MapQuantity> maps; ///< empty: all of them
     std::optional<std::pair<int, int>> resolution;
     std::optional<std::pair<int, int>> size = std::pair(1024, 1024);
+    std::optional<SurfaceAttributes> attributes;
     int padding = SurfaceMapOptions{}.padding, tile = 0;
 };
 

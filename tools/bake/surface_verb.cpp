@@ -1,6 +1,8 @@
 // bake surface: an analytic shape, a mesh or the limit surface of a cage, as a mesh and as maps.
 #include "bake/base/output_file.h"
+#include "gltf_output.h"
 #include "inputs/tile_names.h"
+#include "surface_file.h"
 #include "surface_map_files.h"
 #include "surface_options.h"
 #include "surface_report.h"
@@ -17,8 +19,10 @@ struct Loaded {
 
 Loaded load(const SurfaceArgs& args) {
     constexpr int default_rate = 4;
+    SurfaceInput input = args.surface;
+    input.reading.pieces = !args.out.empty() && keeps_file(input, args.out);
     const std::pair<int, int> cells = args.resolution.value_or(std::pair(0, 0));
-    BaseSurface surface = read_surface(args.surface, cells);
+    BaseSurface surface = read_surface(input, cells);
     const std::size_t faces = surface.mesh().faces(), patches = surface.complex().patches.size();
     if (!args.surface.shape.empty()) {
         const ParametricSurface shape(args.surface.shape);
@@ -110,15 +114,16 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         watch.lap("maps");
     }
     progress.finish();
-    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh), {{"content", std::string("surface")}});
+    std::vector<std::string> notes = loaded.surface.mesh().notes;
+    if (!args.out.empty()) write_surface(args, mesh, notes);
     write_maps(maps.writers, maps.images);
     watch.lap("write");
 
     if (!args.out.empty()) object["out"] = args.out;
-    if (!loaded.surface.mesh().notes.empty()) object["mesh_notes"] = loaded.surface.mesh().notes;
+    if (!notes.empty()) object["mesh_notes"] = notes;
     maps.add_to(object);
     print_result(common, text + (maps.images.empty() ? "" : to_text(maps.report, maps.options)), object, watch);
-    note_all(common, title, loaded.surface.mesh().notes);
+    note_all(common, title, notes);
     const bool positions = tiled || std::count(maps.quantities.begin(), maps.quantities.end(), MapQuantity::position);
     if (const Vec3d& origin = mesh.mesh.origin; origin != Vec3d(0) && !args.maps_out.empty() && positions)
         note(common, format("%s: positions in the map are relative to (%.17g %.17g %.17g)", title.c_str(), origin.x,

@@ -6,6 +6,7 @@
 #include "bake/base/progress.h"
 #include "bake/picture/bmp.h"
 #include "bake/picture/dds.h"
+#include "bake/picture/encode_png.h"
 #include "bake/picture/exr.h"
 #include "bake/picture/foreign_picture.h"
 #include "bake/picture/picture_kind.h"
@@ -16,9 +17,11 @@
 #include "bake/picture/tiff.h"
 #include "bake/picture/tiff_writer.h"
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unistd.h>
 
 namespace bake {
 
@@ -201,6 +204,29 @@ void ImageWriter::finish() {
     else if (impl_->exr) impl_->exr->finish();
     else impl_->tiff->finish();
     impl_->file.commit();
+}
+
+std::vector<std::uint8_t> encode_png(const Image<float>& image, Depth depth) {
+    const std::string path = "a picture in memory";
+    const OutputFile file(null_device); // nameless
+    PngWriter writer(path, file, {image.width(), image.height(), image.channels()}, {.depth = depth});
+    const auto write = [&]<class Level>(Level) {
+        std::vector<Level> levels(image.size());
+        quantise(image.data(), levels.data(), std::int64_t(levels.size()));
+        writer.write(levels.data(), image.height());
+    };
+    if (depth == Depth::u8) write(std::uint8_t());
+    else write(std::uint16_t());
+    writer.finish();
+    std::vector<std::uint8_t> bytes(std::size_t(file.size()));
+    const int descriptor = file.open_descriptor();
+    for (std::size_t got = 0; got < bytes.size();) {
+        const ssize_t count = pread(descriptor, bytes.data() + got, bytes.size() - got, off_t(got));
+        if (count > 0) got += std::size_t(count);
+        else if (count == 0 || errno != EINTR) break;
+    }
+    close(descriptor);
+    return bytes;
 }
 
 void write_image(const std::string& path, const Image<float>& image, const WriteOptions& options) {

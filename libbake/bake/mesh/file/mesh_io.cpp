@@ -8,6 +8,8 @@
 #include "bake/mesh/gltf/io.h"
 #include "bake/mesh/mesh_corner.h"
 #include "bake/mesh/uv_set.h"
+#include <algorithm>
+#include <iterator>
 #include <new>
 
 namespace bake {
@@ -19,9 +21,47 @@ Error unknown_format(Refusal refusal, const std::string& path) {
                               " is not a mesh format known here; use .obj, .ply, .gltf or .glb");
 }
 
+void name_pieces(Gltf& gltf) {
+    Mesh& mesh = gltf.mesh;
+    mesh.groups.clear();
+    mesh.face_group.assign(mesh.faces(), no_index);
+    for (const GltfPiece& piece : gltf.pieces) {
+        const auto number = std::uint32_t(mesh.groups.size());
+        mesh.groups.push_back(std::to_string(number));
+        std::fill(mesh.face_group.begin() + std::ptrdiff_t(piece.first_face),
+                  mesh.face_group.begin() + std::ptrdiff_t(piece.end_face), number);
+    }
+}
+
+/// All sets of uvs of the mesh, as attributes.
+std::vector<Attribute> file_uvs(const Mesh& mesh) {
+    std::vector<Attribute> out;
+    if (!mesh.corner_uv.empty()) {
+        Attribute& first = out.emplace_back(Attribute{"FILE_TEXCOORD_0", 2, {}});
+        for (std::uint32_t c = 0; c < mesh.corners(); ++c) {
+            const Vec2f uv = uv_at(mesh, c);
+            first.values.insert(first.values.end(), {uv.x, uv.y});
+        }
+    }
+    for (const Attribute& a : mesh.attributes)
+        if (a.name.rfind("TEXCOORD_", 0) == 0) out.push_back({"FILE_" + a.name, a.components, a.values});
+    return out;
+}
+
+bool moves_uvs(const Gltf& gltf, int uv_set) {
+    return uv_set > 0 || std::any_of(gltf.materials.begin(), gltf.materials.end(), [&](const GltfMaterial& m) {
+               const GltfTextureUvs uvs = texture_uvs(m, uv_set);
+               return uvs.set != 0 || uvs.moves();
+           });
+}
+
 Mesh read_gltf_mesh(const std::string& path, const MeshOptions& options) {
     Gltf gltf = read_gltf(path, {.flip_v = !options.flip_v});
+    std::vector<Attribute> kept;
+    if (options.pieces) name_pieces(gltf);
+    if (options.pieces && moves_uvs(gltf, options.uv_set)) kept = file_uvs(gltf.mesh);
     take_texture_uvs(gltf, path, {.uv_set = options.uv_set, .flip_v = !options.flip_v});
+    std::move(kept.begin(), kept.end(), std::back_inserter(gltf.mesh.attributes));
     std::vector<std::string> notes = std::move(gltf.notes);
     Mesh mesh = flatten(std::move(gltf));
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
@@ -68,7 +108,7 @@ Mesh read_mesh(const std::string& path, const MeshOptions& options) {
 std::int64_t write_mesh(const std::string& path, const Mesh& mesh, const Facts& facts) {
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown) throw unknown_format(Refusal::usage, path);
-    if (format == MeshFormat::gltf) return write_gltf(path, mesh).bytes;
+    if (format == MeshFormat::gltf) return write_gltf(path, mesh, facts).bytes;
     refuse_unless_finite(mesh, path);
     return format == MeshFormat::obj ? write_obj(path, mesh, facts) : write_ply(path, mesh, facts);
 }

@@ -7,7 +7,10 @@ namespace bake {
 
 struct MeshOptions {
     bool flip_v = false; ///< flips v of files that break the rule of their format (up in OBJ and PLY, down in glTF)
-    int uv_set = -1;     ///< set of uvs (TEXCOORD_n); -1: for glTF as in take_texture_uvs(), else set 0
+    /// The groups are numbers of the pieces of a glTF instead (Gltf::pieces), and where uvs are not those of the file the
+    /// attributes FILE_TEXCOORD_n have these, for carry_gltf().
+    bool pieces = false;
+    int uv_set = -1; ///< set of uvs (TEXCOORD_n); -1: for glTF as in take_texture_uvs(), else set 0
 };
 
 /// Reads a mesh. The ending of the name selects the format: .obj, .ply, .gltf or .glb.

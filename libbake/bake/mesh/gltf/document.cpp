@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/memory.h"
 #include "bake/base/progress.h"
+#include "bake/base/provenance.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/extensions.h"
 #include <bit>
@@ -322,12 +323,15 @@ GltfDocument read_gltf_document(const std::string& path) {
     } else {
         chunks.json = bytes(out.file.begin(), out.file.size);
     }
+    out.text = chunks.json;
     json parsed = parse(chunks.json, path);
     const auto asset = parsed.find("asset");
     const std::string version = asset != parsed.end() && asset->is_object() ? text_of(*asset, "version") : "";
     if (version.rfind("2.", 0) != 0)
         refuse(path,
                version.empty() ? "is not a glTF: it names no version" : "is glTF " + shown(version) + ", and not 2.0");
+    if (asset->contains("extras") && (*asset)["extras"].is_object() && (*asset)["extras"].contains(record_key))
+        out.record = valid_record((*asset)["extras"][record_key].dump());
     refuse_required_extensions(parsed, path);
     refuse_draco_alone(parsed, path);
     refuse_too_many_objects(parsed, path);

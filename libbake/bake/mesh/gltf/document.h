@@ -7,8 +7,10 @@
 namespace bake {
 
 struct GltfDocument {
-    std::string json; ///< without the buffers, the images, the cameras and the lights
+    std::string json;                   ///< without the buffers, the images, the cameras and the lights
+    std::span<const std::uint8_t> text; ///< the JSON of the file, whole
     bool has_materials = false;
+    std::string record;                                 ///< how the file was made, as Mesh has it
     std::string cameras = "[]";                         ///< JSON: the list of cameras
     std::string lights = "[]";                          ///< JSON: the list of KHR_lights_punctual
     std::vector<std::span<const std::uint8_t>> buffers; ///< with the lengths given in the JSON

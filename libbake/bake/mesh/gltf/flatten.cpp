@@ -1,4 +1,5 @@
 #include "bake/mesh/gltf/io.h"
+#include "bake/mesh/gltf/vertices.h"
 #include "bake/mesh/origin.h"
 #include <algorithm>
 #include <glm/common.hpp>
@@ -59,21 +60,6 @@ void turn_values(std::vector<Vec>& values, const std::vector<Vec>& source, std::
         if (const auto found = copies.find(corner_value[c]); found != copies.end()) corner_value[c] = found->second;
 }
 
-/// Counter-clockwise becomes clockwise; the first corner stays.
-void turn_faces(Mesh& mesh, std::size_t first_face, std::size_t end_face) {
-    const auto reverse = [&](auto* values, std::size_t width) {
-        for (std::size_t f = first_face; f < end_face; ++f) {
-            std::size_t a = std::size_t(mesh.face_begin[f]) + 1, b = std::size_t(mesh.face_begin[f + 1]) - 1;
-            for (; a < b; ++a, --b) std::swap_ranges(values + a * width, values + (a + 1) * width, values + b * width);
-        }
-    };
-    reverse(mesh.corner_position.data(), 1);
-    if (!mesh.corner_normal.empty()) reverse(mesh.corner_normal.data(), 1);
-    if (!mesh.corner_uv.empty()) reverse(mesh.corner_uv.data(), 1);
-    if (!mesh.tangents.empty()) reverse(mesh.tangents.data(), 1);
-    for (Attribute& a : mesh.attributes) reverse(a.values.data(), std::size_t(a.components));
-}
-
 void name_groups(const std::vector<GltfNode>& nodes, Mesh& mesh) {
     if (nodes.size() < 2 || !mesh.groups.empty()) return;
     mesh.face_group.assign(mesh.faces(), no_index);
@@ -101,6 +87,20 @@ Vec3d world_origin(const Gltf& gltf) {
 }
 
 } // namespace
+
+void turn_faces(Mesh& mesh, std::size_t first_face, std::size_t end_face) {
+    const auto reverse = [&](auto* values, std::size_t width) {
+        for (std::size_t f = first_face; f < end_face; ++f) {
+            std::size_t a = std::size_t(mesh.face_begin[f]) + 1, b = std::size_t(mesh.face_begin[f + 1]) - 1;
+            for (; a < b; ++a, --b) std::swap_ranges(values + a * width, values + (a + 1) * width, values + b * width);
+        }
+    };
+    reverse(mesh.corner_position.data(), 1);
+    if (!mesh.corner_normal.empty()) reverse(mesh.corner_normal.data(), 1);
+    if (!mesh.corner_uv.empty()) reverse(mesh.corner_uv.data(), 1);
+    if (!mesh.tangents.empty()) reverse(mesh.tangents.data(), 1);
+    for (Attribute& a : mesh.attributes) reverse(a.values.data(), std::size_t(a.components));
+}
 
 Mesh flatten(Gltf gltf) {
     const Vec3d origin = world_origin(gltf);

@@ -121,6 +121,15 @@ template <class Vec> void put_all(char* to, const Vec& value) noexcept {
 
 } // namespace
 
+std::string gltf_semantic(const std::string& attribute) {
+    std::string name = "_";
+    for (const char c : attribute) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z');
+        name += plain ? c : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : '_';
+    }
+    return name;
+}
+
 GltfNodeGeometry lay_out(const Mesh& mesh, std::size_t first_face, std::size_t end_face) {
     GltfNodeGeometry node{first_face, end_face, distinct_corners(mesh, first_face, end_face), {}, {}};
     node.parts = parts_of(mesh, first_face, end_face);

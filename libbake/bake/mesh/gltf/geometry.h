@@ -32,6 +32,9 @@ struct GltfNodeGeometry {
 
 GltfNodeGeometry lay_out(const Mesh& mesh, std::size_t first_face, std::size_t end_face);
 
+/// What an attribute of the mesh is called in the file: in capitals after '_'.
+std::string gltf_semantic(const std::string& attribute);
+
 /// Each function writes one attribute of the node's vertices without gaps. Normals and tangents are normalised.
 void write_positions(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node);
 void write_normals(BlockWriter& out, const Mesh& mesh, const GltfNodeGeometry& node, GltfWritten& done);

@@ -1,5 +1,6 @@
 // Reads and writes glTF 2.0 with tinygltf. v points down in glTF files and is flipped in this module only.
 #pragma once
+#include "bake/base/provenance.h"
 #include "bake/mesh/mesh.h"
 #include <optional>
 #include <string>
@@ -69,6 +70,13 @@ struct GltfNode {
     bool operator==(const GltfNode&) const = default;
 };
 
+/// The faces of one primitive at one placement (a node, or an instance of it) in the mesh that is read.
+struct GltfPiece {
+    std::size_t first_face = 0, end_face = 0;
+    std::size_t place = 0;               ///< of the placements, in the order in which the scene meets them
+    std::size_t mesh = 0, primitive = 0; ///< numbers in the file
+};
+
 /// A scene of meshes. The positions of the mesh are in the local space of their nodes. Material names of the mesh are those
 /// of `materials`, or "material_<index>" if a name is missing or not unique.
 /// TEXCOORD_1 and higher and COLOR_n are attributes of the mesh with these names; _CUSTOM_VALUES becomes "custom_values".
@@ -79,7 +87,8 @@ struct Gltf {
     std::vector<GltfMaterial> materials;
     std::vector<GltfImage> images;
     std::vector<GltfNode> nodes;
-    std::vector<std::string> notes; ///< what reading applied that the mesh alone does not show, one line each
+    std::vector<std::string> notes;     ///< what reading applied that the mesh alone does not show, one line each
+    std::vector<GltfPiece> pieces = {}; ///< of read_gltf(): all faces, in order
 };
 
 struct GltfOptions {
@@ -97,6 +106,17 @@ struct GltfOptions {
 /// that are not supported, meshes compressed by Draco or meshoptimizer without an uncompressed copy, files without
 /// triangles, and meshes that do not fit in memory.
 Gltf read_gltf(const std::string& path, const GltfOptions& options = {});
+
+/// How the uvs are made at which the textures of a material are sampled.
+struct GltfTextureUvs {
+    int set = 0; ///< TEXCOORD_n
+    GltfTransform transform{};
+
+    bool moves() const { return !(transform == GltfTransform()); }
+};
+
+/// `set`: that set; -1: the one that take_texture_uvs() takes.
+GltfTextureUvs texture_uvs(const GltfMaterial& material, int set);
 
 struct GltfUvOptions {
     int uv_set = -1;    ///< set of uvs to take for all faces; -1: of each face the set of its material
@@ -135,7 +155,7 @@ struct GltfWritten {
 /// other names are written in capitals after '_'. The files pass the Khronos validator.
 /// Memory: one vertex per distinct corner, and 8 bytes for each corner and vertex.
 /// Throws Error{Refusal::unwritable}, and {Refusal::unsuitable} for no faces, values not finite, and a .glb above 4 GiB.
-GltfWritten write_gltf(const std::string& path, const Gltf& gltf);
-GltfWritten write_gltf(const std::string& path, const Mesh& mesh);
+GltfWritten write_gltf(const std::string& path, const Gltf& gltf, const Facts& facts = {});
+GltfWritten write_gltf(const std::string& path, const Mesh& mesh, const Facts& facts = {});
 
 } // namespace bake

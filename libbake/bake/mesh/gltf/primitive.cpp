@@ -105,6 +105,7 @@ GltfPrimitives primitives_of(const GltfSource& source) {
         for (const tinygltf::Primitive& from : mesh.primitives) {
             std::optional<GltfPrimitive> primitive = primitive_of(source, from);
             if (!primitive || primitive->most_triangles() == 0) continue;
+            primitive->number = std::size_t(&from - mesh.primitives.data());
             primitive->vertices_of = first.try_emplace(primitive->vertices, out.size()).first->second;
             out.push_back(std::move(*primitive));
         }

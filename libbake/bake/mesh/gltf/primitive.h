@@ -31,6 +31,7 @@ struct GltfPrimitive {
     std::uint32_t material = no_index;
     std::string group;
     GltfVertexSource vertices;
+    std::size_t number = 0;      ///< among all primitives of its mesh in the file
     std::size_t vertices_of = 0; ///< first primitive of its mesh that has the same `vertices`
 
     std::size_t index_count() const { return indexed ? indices.count : position.count; }

@@ -3,6 +3,7 @@
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/material.h"
 #include "bake/mesh/gltf/placer.h"
+#include "bake/mesh/gltf/scene.h"
 #include <new>
 #include <tiny_gltf.h>
 #include <utility>
@@ -80,14 +81,6 @@ void refuse_too_large(const GltfPrimitives& meshes, const std::vector<GltfSource
         throw Error(Refusal::unsuitable, path + ": its nodes place more than 2^32 / 3 triangles; split the scene");
 }
 
-/// Whether the weights bend any of the primitives.
-bool bends(const std::vector<GltfPrimitive>& primitives, std::span<const double> weights) {
-    for (const GltfPrimitive& primitive : primitives)
-        for (std::size_t t = 0; t < std::min(weights.size(), primitive.vertices.targets.size()); ++t)
-            if (weights[t] != 0 && !primitive.vertices.targets[t].empty()) return true;
-    return false;
-}
-
 /// What nodes have that the mesh alone does not show.
 struct Told {
     std::size_t skinned = 0, morphed = 0, instances = 0, instanced = 0;
@@ -105,31 +98,69 @@ std::vector<std::string> notes_of(const Told& told, std::size_t hidden) {
     return notes;
 }
 
+/// Triangles of a primitive; a strip has fewer than its indices say where it repeats some.
+std::size_t triangle_count(const GltfSource& source, const GltfPrimitive& primitive) {
+    return primitive.mode == GltfPrimitive::Mode::strip || primitive.mode == GltfPrimitive::Mode::fan
+               ? triangles_of(source, primitive).size() / 3
+               : primitive.most_triangles();
+}
+
 } // namespace
 
+GltfScene::GltfScene(const std::string& file)
+    : path(file), document(read_gltf_document(path)),
+      model(std::make_unique<tinygltf::Model>(parse(document, path))), source{path, document, *model},
+      meshes(primitives_of(source)) {
+    std::vector<int> roots;
+    nodes = nodes_of(source, roots);
+    places = place_nodes(nodes, roots, path);
+    refuse_too_large(meshes, nodes, places.placed, path);
+}
+GltfScene::~GltfScene() = default;
+
+/// Whether the weights bend any of the primitives.
+bool bends(const std::vector<GltfPrimitive>& primitives, std::span<const double> weights) {
+    for (const GltfPrimitive& primitive : primitives)
+        for (std::size_t t = 0; t < std::min(weights.size(), primitive.vertices.targets.size()); ++t)
+            if (weights[t] != 0 && !primitive.vertices.targets[t].empty()) return true;
+    return false;
+}
+
+std::vector<GltfPiece> pieces_of(const GltfScene& scene) {
+    std::vector<std::vector<std::size_t>> triangles; // of each primitive
+    for (const std::vector<GltfPrimitive>& primitives : scene.meshes) {
+        std::vector<std::size_t>& counts = triangles.emplace_back();
+        for (const GltfPrimitive& primitive : primitives) counts.push_back(triangle_count(scene.source, primitive));
+    }
+    std::vector<GltfPiece> pieces;
+    std::size_t face = 0;
+    for (std::size_t place = 0; place < scene.places.placed.size(); ++place) {
+        const auto m = std::size_t(scene.nodes[scene.places.placed[place].node].mesh);
+        for (std::size_t i = 0; i < triangles[m].size(); face += triangles[m][i++])
+            if (triangles[m][i] > 0)
+                pieces.push_back({face, face + triangles[m][i], place, m, scene.meshes[m][i].number});
+    }
+    return pieces;
+}
+
 Gltf read_gltf(const std::string& path, const GltfOptions& options) {
-    GltfDocument document = read_gltf_document(path);
-    const tinygltf::Model model = parse(document, path);
-    const GltfSource source{path, document, model};
+    GltfScene scene(path);
+    const tinygltf::Model& model = *scene.model;
     Gltf out;
-    take_images(source, std::move(document.images), out);
+    take_images(scene.source, std::move(scene.document.images), out);
     out.materials = gltf_materials(model, out.images.size(), path);
     out.mesh.materials = material_names(out.materials);
-
-    const GltfPrimitives meshes = primitives_of(source);
-    std::vector<int> roots;
-    const std::vector<GltfSourceNode> nodes = nodes_of(source, roots);
-    const GltfPlacements places = place_nodes(nodes, roots, path);
-    refuse_too_large(meshes, nodes, places.placed, path);
+    out.mesh.record = source.document.record;
+    const GltfPrimitives& meshes = scene.meshes;
     std::vector<bool> bent; // meshes, by their own weights
     for (std::size_t m = 0; m < meshes.size(); ++m) bent.push_back(bends(meshes[m], model.meshes[m].weights));
     Told told;
-    GltfPlacer placer(source, meshes, options.flip_v);
-    std::size_t last = nodes.size(), count = 0;
-    for (const GltfPlacement& place : places.placed) {
+    GltfPlacer placer(scene.source, meshes, options.flip_v);
+    std::size_t last = scene.nodes.size(), count = 0;
+    for (const GltfPlacement& place : scene.places.placed) {
         if (count++ % 1024 == 0) throw_if_interrupted();
-        const GltfSourceNode& node = nodes[place.node];
-        placer.add(place, node, places.world, out);
+        const GltfSourceNode& node = scene.nodes[place.node];
+        placer.add(place, node, scene.places.world, out);
         told.instances += node.instances && node.skin < 0;
         if (std::exchange(last, place.node) == place.node) continue; // another instance
         told.skinned += node.skin >= 0;
@@ -137,9 +168,10 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
         const auto m = std::size_t(node.mesh);
         told.morphed += node.own_weights ? bends(meshes[m], node.weights) : bent[m];
     }
-    out.notes = notes_of(told, places.hidden);
+    out.notes = notes_of(told, scene.places.hidden);
     if (out.mesh.faces() == 0)
         throw Error(Refusal::unsuitable, path + ": the scene it shows has no triangles; export it as a mesh");
+    out.pieces = pieces_of(scene);
     return out;
 }
 

@@ -8,31 +8,6 @@
 namespace bake {
 namespace {
 
-/// How the uvs of a material's faces are made.
-struct TextureUvs {
-    int set = 0;
-    GltfTransform transform;
-
-    bool moves() const { return !(transform == GltfTransform()); }
-};
-
-/// The uvs at which the textures of the material are sampled; `set` is -1 for the set of its normal texture.
-TextureUvs uvs_of(const GltfMaterial& m, int set) {
-    TextureUvs out{std::max(0, set), {}};
-    const auto first = [](const std::optional<GltfTexture>& texture) { return texture ? int(texture->uv_set) : -1; };
-    for (const auto* texture : {&m.normal, &m.base_color, &m.metallic_roughness})
-        if (set < 0 && *texture) {
-            set = out.set = first(*texture);
-            break;
-        }
-    for (const auto* texture : {&m.normal, &m.base_color, &m.metallic_roughness, &m.emissive, &m.occlusion})
-        if (first(*texture) == out.set) {
-            out.transform = (*texture)->transform;
-            break;
-        }
-    return out;
-}
-
 /// "brick", or "brick and 2 other materials".
 std::string material_list(const std::vector<std::string>& names) {
     const std::string others = std::to_string(names.size() - 1);
@@ -42,7 +17,7 @@ std::string material_list(const std::vector<std::string>& names) {
 }
 
 /// Adds notes on the materials that have faces.
-void add_notes(const std::vector<TextureUvs>& of_material, const std::vector<bool>& used, bool chosen, Gltf& gltf) {
+void add_notes(const std::vector<GltfTextureUvs>& of_material, const std::vector<bool>& used, bool chosen, Gltf& gltf) {
     std::vector<std::string> on_other_set, transformed;
     int set = 0;
     for (std::size_t m = 0; m < of_material.size(); ++m) {
@@ -60,6 +35,22 @@ void add_notes(const std::vector<TextureUvs>& of_material, const std::vector<boo
 
 } // namespace
 
+GltfTextureUvs texture_uvs(const GltfMaterial& m, int set) {
+    GltfTextureUvs out{std::max(0, set), {}};
+    const auto first = [](const std::optional<GltfTexture>& texture) { return texture ? int(texture->uv_set) : -1; };
+    for (const auto* texture : {&m.normal, &m.base_color, &m.metallic_roughness})
+        if (set < 0 && *texture) {
+            set = out.set = first(*texture);
+            break;
+        }
+    for (const auto* texture : {&m.normal, &m.base_color, &m.metallic_roughness, &m.emissive, &m.occlusion})
+        if (first(*texture) == out.set) {
+            out.transform = (*texture)->transform;
+            break;
+        }
+    return out;
+}
+
 Vec2f transformed(const GltfTransform& t, const Vec2f& uv, bool flip_v) noexcept {
     const double u = t.scale_u * double(uv.x), v = t.scale_v * (flip_v ? 1 - double(uv.y) : double(uv.y));
     const double c = std::cos(t.rotation), s = std::sin(t.rotation);
@@ -71,8 +62,8 @@ void take_texture_uvs(Gltf& gltf, const std::string& path, const GltfUvOptions& 
     Mesh& mesh = gltf.mesh;
     const bool chosen = options.uv_set >= 0;
     if (chosen && !has_uv_set(mesh, options.uv_set)) take_uv_set(mesh, options.uv_set, path); // refuses
-    std::vector<TextureUvs> of_material; // and, at the end, of faces without a material
-    for (const GltfMaterial& material : gltf.materials) of_material.push_back(uvs_of(material, options.uv_set));
+    std::vector<GltfTextureUvs> of_material; // and, at the end, of faces without a material
+    for (const GltfMaterial& material : gltf.materials) of_material.push_back(texture_uvs(material, options.uv_set));
     of_material.push_back({std::max(0, options.uv_set), {}});
     std::vector<bool> used(of_material.size());
     std::vector<std::size_t> face_uvs(mesh.faces(), of_material.size() - 1);
@@ -97,7 +88,7 @@ void take_texture_uvs(Gltf& gltf, const std::string& path, const GltfUvOptions& 
     add_notes(of_material, used, chosen, gltf);
     CornerUvs corners = exchange_uv_sets(mesh, face_set);
     for (std::size_t f = 0; f < mesh.faces(); ++f) {
-        const TextureUvs& uvs = of_material[face_uvs[f]];
+        const GltfTextureUvs& uvs = of_material[face_uvs[f]];
         if (!uvs.moves()) continue;
         for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
             if (corners.has[c]) corners.uv[c] = transformed(uvs.transform, corners.uv[c], options.flip_v);

@@ -30,6 +30,9 @@ std::vector<std::string> material_names(const std::vector<GltfMaterial>& materia
 /// no face uses are skipped.
 void append_welded(GltfVertices vertices, Mesh& mesh);
 
+/// Counter-clockwise faces become clockwise; the first corner of each stays.
+void turn_faces(Mesh& mesh, std::size_t first_face, std::size_t end_face);
+
 /// The ends of a mesh's lists, as it grows.
 struct MeshEnds {
     std::size_t positions = 0, normals = 0, uvs = 0, faces = 0;

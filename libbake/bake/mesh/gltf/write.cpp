@@ -1,14 +1,11 @@
 #include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/base/version.h"
+#include "bake/mesh/gltf/container.h"
 #include "bake/mesh/gltf/geometry.h"
 #include "bake/mesh/origin.h"
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
-#include <functional>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 namespace bake {
@@ -21,32 +18,10 @@ namespace fs = std::filesystem;
     throw Error(Refusal::unsuitable, path + ": not written, " + why);
 }
 
-/// JSON holds UTF-8 alone; names from other formats may be anything.
-std::string utf8(const std::string& text) {
-    const std::string dumped = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-    return json::parse(dumped).get<std::string>();
-}
-
-/// What image viewers know it by, by its first bytes; empty for what glTF does not hold.
+/// Of a picture that every viewer reads; empty for others.
 std::string mime_type_of(const GltfImage& image) {
-    const auto begins = [&image](std::string_view with) {
-        return image.bytes.size() > with.size() && std::memcmp(image.bytes.data(), with.data(), with.size()) == 0;
-    };
-    return begins("\x89PNG\r\n\x1a\n") ? "image/png" : begins("\xff\xd8\xff") ? "image/jpeg" : "";
-}
-
-std::string percent_encoded(const std::string& name) {
-    std::string out;
-    for (const char c : name) {
-        const bool plain =
-            (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || std::strchr("-._~", c);
-        if (plain && c != 0) out += c;
-        else {
-            const auto code = static_cast<unsigned char>(c);
-            out += {'%', "0123456789ABCDEF"[code >> 4], "0123456789ABCDEF"[code & 15]};
-        }
-    }
-    return out;
+    const std::string type = gltf_mime_type(image.bytes);
+    return type == "image/png" || type == "image/jpeg" ? type : "";
 }
 
 /// How a value of the mesh is called in the file.
@@ -78,11 +53,7 @@ std::vector<Semantic> semantics_of(const Mesh& mesh) {
     next_of("COLOR_", colors, 3, 4);
     for (const Attribute& a : mesh.attributes) {
         if (std::any_of(out.begin(), out.end(), [&a](const Semantic& s) { return s.values == &a; })) continue;
-        std::string name = "_";
-        for (const char c : a.name) {
-            const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z');
-            name += plain ? c : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : '_';
-        }
+        std::string name = gltf_semantic(a.name);
         while (!taken.insert(name).second) name += '_';
         out.push_back({name, &a, false});
     }
@@ -106,12 +77,8 @@ bool decomposes(const double (&m)[16]) noexcept {
 
 /// The JSON of the file, and the pieces of its buffer in the order in which they are written.
 struct Layout {
-    struct Piece {
-        std::size_t bytes, padded;
-        std::function<void(BlockWriter&)> write;
-    };
     json root;
-    std::vector<Piece> pieces;
+    std::vector<GltfBlock> pieces;
     std::size_t bytes = 0;
 
     /// A piece of its own, which begins at a multiple of four. Its place among the bufferViews.
@@ -119,8 +86,8 @@ struct Layout {
         json object = {{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", size}};
         if (target != 0) object["target"] = target;
         root["bufferViews"].push_back(std::move(object));
-        pieces.push_back({size, (size + 3) / 4 * 4, std::move(write)});
-        bytes += pieces.back().padded;
+        pieces.push_back({size, std::move(write)});
+        bytes += pieces.back().padded();
         return root["bufferViews"].size() - 1;
     }
     std::size_t accessor(std::size_t buffer_view, std::size_t offset, int component, std::size_t count,
@@ -165,12 +132,12 @@ std::size_t add_mesh(Layout& layout, const Mesh& mesh, const GltfNodeGeometry& n
             {"attributes", attributes},
             {"indices", layout.accessor(view, offset, size == 2 ? 5123 : 5125, 3 * part.triangles, "SCALAR")}};
         if (part.material != no_index) primitive["material"] = part.material;
-        if (part.group != no_index) primitive["extras"] = {{"group", utf8(mesh.groups[part.group])}};
+        if (part.group != no_index) primitive["extras"] = {{"group", gltf_text(mesh.groups[part.group])}};
         primitives.push_back(std::move(primitive));
         offset += 3 * size * part.triangles;
     }
     json object = {{"primitives", std::move(primitives)}};
-    if (!name.empty()) object["name"] = utf8(name);
+    if (!name.empty()) object["name"] = gltf_text(name);
     layout.root["meshes"].push_back(std::move(object));
     return layout.root["meshes"].size() - 1;
 }
@@ -178,12 +145,12 @@ std::size_t add_mesh(Layout& layout, const Mesh& mesh, const GltfNodeGeometry& n
 /// The images that can be written, under new numbers; no_index for the others.
 struct Images {
     std::vector<std::uint32_t> number;
-    std::vector<std::pair<std::string, const GltfImage*>> beside; ///< name and bytes of each file
+    std::vector<GltfBeside> beside;
 };
 
 Images add_images(Layout& layout, const Gltf& gltf, const std::string& path, bool binary, GltfWritten& done) {
     Images out;
-    std::set<std::string> taken = {fs::path(path).filename().string(), fs::path(path).stem().string() + ".bin"};
+    GltfNames names(path);
     for (const GltfImage& image : gltf.images) {
         const std::string mime_type = mime_type_of(image);
         out.number.push_back(no_index);
@@ -192,21 +159,16 @@ Images add_images(Layout& layout, const Gltf& gltf, const std::string& path, boo
             continue;
         }
         json object;
-        if (!image.name.empty()) object["name"] = utf8(image.name);
+        if (!image.name.empty()) object["name"] = gltf_text(image.name);
         if (binary) {
             object["mimeType"] = mime_type;
-            object["bufferView"] = layout.view(image.bytes.size(), 0, [&image](BlockWriter& file) {
-                file.write({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
-            });
+            object["bufferView"] =
+                layout.view(image.bytes.size(), 0, [&image](BlockWriter& file) { put(file, image.bytes); });
         } else {
             const std::string ending = mime_type == "image/png" ? ".png" : ".jpg";
-            std::string name = fs::path(image.uri).filename().string();
-            if (name.empty())
-                name = fs::path(path).stem().string() + "_image" + std::to_string(out.number.size() - 1) + ending;
-            while (!taken.insert(name).second)
-                name = fs::path(name).stem().string() + "_" + fs::path(name).extension().string();
+            const std::string name = names.next(fs::path(image.uri).filename().string(), out.number.size() - 1, ending);
             object["uri"] = percent_encoded(name);
-            out.beside.emplace_back(name, &image);
+            out.beside.push_back({name, {image.bytes.size(), [&image](BlockWriter& file) { put(file, image.bytes); }}});
         }
         out.number.back() = layout.root.contains("images") ? std::uint32_t(layout.root["images"].size()) : 0;
         layout.root["images"].push_back(std::move(object));
@@ -253,7 +215,7 @@ void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, c
                    std::uint32_t uv_sets) {
     for (const GltfMaterial& from : materials) {
         json pbr = json::object(), object = json::object();
-        if (!from.name.empty()) object["name"] = utf8(from.name);
+        if (!from.name.empty()) object["name"] = gltf_text(from.name);
         const Vec4f& c = from.base_color_factor;
         if (c != Vec4f(1)) pbr["baseColorFactor"] = {c.x, c.y, c.z, c.w};
         if (from.metallic != 1) pbr["metallicFactor"] = from.metallic;
@@ -281,55 +243,6 @@ void add_materials(Layout& layout, const std::vector<GltfMaterial>& materials, c
     }
 }
 
-void write_pieces(BlockWriter& out, const Layout& layout) {
-    for (const Layout::Piece& piece : layout.pieces) {
-        piece.write(out);
-        out.write(std::string(piece.padded - piece.bytes, '\0'));
-    }
-}
-
-std::string little_endian(std::initializer_list<std::uint32_t> words) {
-    std::string out(4 * words.size(), '\0');
-    char* to = out.data();
-    for (const std::uint32_t word : words) put_bytes(to, word);
-    return out;
-}
-
-std::int64_t write_glb(const std::string& path, Layout& layout) {
-    std::string text = layout.root.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t length = 12 + 8 + text.size() + 8 + layout.bytes;
-    if (length > 0xffffffffu) refuse(path, "a .glb holds no more than 4 GiB; write a .gltf or a .ply");
-    BlockWriter out(path);
-    out.write("glTF" + little_endian({2, std::uint32_t(length), std::uint32_t(text.size()), 0x4e4f534a}));
-    out.write(text + little_endian({std::uint32_t(layout.bytes), 0x004e4942}));
-    write_pieces(out, layout);
-    out.commit();
-    return out.bytes();
-}
-
-std::int64_t write_beside(const std::string& path, Layout& layout, const Images& images) {
-    const fs::path folder = fs::path(path).parent_path();
-    const std::string name = fs::path(path).stem().string() + ".bin";
-    layout.root["buffers"][0]["uri"] = percent_encoded(name);
-    OutputSet together;
-    std::int64_t bytes = 0;
-    const auto write = [&](const std::string& file, const std::function<void(BlockWriter&)>& fill) {
-        BlockWriter out(file);
-        fill(out);
-        out.commit();
-        bytes += out.bytes();
-    };
-    write((folder / name).string(), [&](BlockWriter& out) { write_pieces(out, layout); });
-    for (const auto& named : images.beside)
-        write((folder / named.first).string(), [&](BlockWriter& out) {
-            out.write({reinterpret_cast<const char*>(named.second->bytes.data()), named.second->bytes.size()});
-        });
-    write(path, [&](BlockWriter& out) { out.write(layout.root.dump(1, ' ') + '\n'); });
-    together.commit();
-    return bytes;
-}
-
 bool is_identity(const GltfNode& node) { return std::equal(node.to_world, node.to_world + 16, GltfNode().to_world); }
 
 /// The node's transform in the words of the format, after the origin of the mesh is added to it.
@@ -342,7 +255,7 @@ void add_transform(GltfNode node, const Vec3d& origin, json& to) {
     else if (!is_identity(node)) to["matrix"] = node.to_world;
 }
 
-GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& mesh) {
+GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& mesh, const Facts& facts) {
     refuse_unless_finite(mesh, path);
     const bool binary = ending(path) == ".glb";
     std::vector<GltfNode> nodes = gltf.nodes;
@@ -362,7 +275,7 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
     for (const GltfNode& node : nodes) geometry.push_back(lay_out(mesh, node.first_face, node.end_face));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         json object;
-        if (!nodes[i].name.empty()) object["name"] = utf8(nodes[i].name);
+        if (!nodes[i].name.empty()) object["name"] = gltf_text(nodes[i].name);
         object["mesh"] = add_mesh(layout, mesh, geometry[i], semantics, nodes[i].name, done);
         add_transform(nodes[i], mesh.origin, object);
         layout.root["nodes"].push_back(std::move(object));
@@ -376,16 +289,15 @@ GltfWritten write_scene(const std::string& path, const Gltf& gltf, const Mesh& m
     for (std::size_t i = materials.size(); i < mesh.materials.size(); ++i)
         materials.push_back({.name = mesh.materials[i], .metallic = 0});
     add_materials(layout, materials, images, uv_sets);
-    layout.root["buffers"][0]["byteLength"] = layout.bytes;
-    done.bytes = binary ? write_glb(path, layout) : write_beside(path, layout, images);
+    done.bytes = write_gltf_files(path, layout.root, layout.pieces, images.beside, facts);
     return done;
 }
 
 } // namespace
 
-GltfWritten write_gltf(const std::string& path, const Gltf& gltf) {
+GltfWritten write_gltf(const std::string& path, const Gltf& gltf, const Facts& facts) {
     const auto shears = [](const GltfNode& node) { return !decomposes(node.to_world); };
-    if (std::none_of(gltf.nodes.begin(), gltf.nodes.end(), shears)) return write_scene(path, gltf, gltf.mesh);
+    if (std::none_of(gltf.nodes.begin(), gltf.nodes.end(), shears)) return write_scene(path, gltf, gltf.mesh, facts);
     Gltf moved = gltf;
     for (GltfNode& node : moved.nodes)
         if (!shears(node)) std::copy_n(GltfNode().to_world, 16, node.to_world);
@@ -395,11 +307,13 @@ GltfWritten write_gltf(const std::string& path, const Gltf& gltf) {
     moved.materials = gltf.materials, moved.images = gltf.images, moved.nodes = gltf.nodes;
     for (GltfNode& node : moved.nodes)
         if (shears(node)) std::copy_n(GltfNode().to_world, 16, node.to_world);
-    GltfWritten done = write_scene(path, moved, moved.mesh);
+    GltfWritten done = write_scene(path, moved, moved.mesh, facts);
     done.moved_nodes = std::size_t(std::count_if(gltf.nodes.begin(), gltf.nodes.end(), shears));
     return done;
 }
 
-GltfWritten write_gltf(const std::string& path, const Mesh& mesh) { return write_scene(path, {}, mesh); }
+GltfWritten write_gltf(const std::string& path, const Mesh& mesh, const Facts& facts) {
+    return write_scene(path, {}, mesh, facts);
+}
 
 } // namespace bake

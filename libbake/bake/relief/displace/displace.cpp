@@ -5,6 +5,7 @@
 #include "bake/relief/displace/memory.h"
 #include "bake/relief/displace/points.h"
 #include "bake/relief/displace/reach.h"
+#include "bake/surface/patch/corner_attributes.h"
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +94,7 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
                     "displacement: " + std::to_string(tally.not_finite) +
                         " points lie beyond what a mesh can hold (3.4e38); take a smaller `amplitude`");
     normals_from_faces(out.mesh, tally.without_normal);
+    if (options.attributes) out.mesh.attributes = corner_attributes(plan.layout, out.mesh);
     out.report = report_of(count, tally);
     if (out.report.seam_mismatch > 0) out.report.seam_worst += base.mesh().origin;
     out.report.fold_worst += base.mesh().origin;

@@ -66,6 +66,7 @@ struct DisplaceOptions {
     std::uint64_t taken = 0;      ///< of that, what is taken before the call, base and relief included
     std::vector<LaterStep> later; ///< one after the other
     bool measure_error = false;   ///< fill report.error: distance of the result from the displaced surface
+    bool attributes = false;      ///< give the result those of the base, see corner_attributes()
     bool margin = false;          ///< fill Displaced::margin
 };
 

@@ -3,8 +3,11 @@
 #include "bake/base/parallel.h"
 #include "bake/mesh/keep_used.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "bake/surface/patch/corner_attributes.h"
 #include "bake/surface/patch/tessellator.h"
 #include "bake/surface/point/curvature.h"
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace bake {
@@ -211,6 +214,44 @@ void tessellate_limit(const BaseSurface& surface, int rate, SurfaceMesh& out, Pr
     out.triangles = triangulate(out.mesh);
     sample_patches(surface, layout, out, progress);
     add_missing_normals(out);
+    out.mesh.attributes = corner_attributes(layout, out.mesh);
+}
+
+/// The angle of a corner between its neighbours in the face.
+double corner_angle(const Mesh& mesh, std::uint32_t begin, std::uint32_t end, std::uint32_t c) noexcept {
+    const auto at = [&](std::uint32_t i) { return Vec3d(mesh.positions[mesh.corner_position[i]]); };
+    const Vec3d a = unit_or_zero(at(c + 1 < end ? c + 1 : begin) - at(c)),
+                b = unit_or_zero(at(c > begin ? c - 1 : end - 1) - at(c));
+    return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+}
+
+/// A corner's value becomes the mean over the corners that share its position and normal, weighted by their angles, so that
+/// they stay one vertex in files.
+Attribute averaged(const Mesh& mesh, const SurfaceMesh& surface, const char* name, float SurfaceSample::*value) {
+    struct Sum {
+        double value = 0, weight = 0;
+        std::uint32_t next = no_index; ///< another normal of the position
+    };
+    std::vector<Sum> sums;
+    std::vector<std::uint32_t> normal, head(mesh.positions.size(), no_index), of_corner(mesh.corners());
+    for (std::size_t f = 0; f < mesh.faces(); ++f)
+        for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+            std::uint32_t& first = head[mesh.corner_position[c]];
+            std::uint32_t at = first;
+            while (at != no_index && normal[at] != mesh.corner_normal[c]) at = sums[at].next;
+            if (at == no_index) {
+                at = std::uint32_t(sums.size());
+                sums.push_back({0, 0, std::exchange(first, at)});
+                normal.push_back(mesh.corner_normal[c]);
+            }
+            const double weight = corner_angle(mesh, mesh.face_begin[f], mesh.face_begin[f + 1], c) + 1e-12;
+            sums[at].value += weight * double(surface.samples[surface.corner_sample[c]].*value);
+            sums[at].weight += weight;
+            of_corner[c] = at;
+        }
+    Attribute out{.name = name, .components = 1, .values = {}};
+    for (const std::uint32_t at : of_corner) out.values.push_back(float(sums[at].value / sums[at].weight));
+    return out;
 }
 
 } // namespace
@@ -225,11 +266,10 @@ SurfaceMesh surface_mesh(const BaseSurface& surface, SurfaceKind kind, int rate,
     for (const std::uint32_t n : mesh.corner_normal) normals.push_back(mesh.normals[n]);
     mesh.tangents.clear();
     if (!mesh.corner_uv.empty()) mesh.tangents = corner_tangents(mesh, out.triangles, normals);
-    Attribute mean{.name = "mean_curvature"}, gauss{.name = "gauss_curvature"};
-    for (const std::uint32_t s : out.corner_sample) {
-        mean.values.push_back(out.samples[s].mean);
-        gauss.values.push_back(out.samples[s].gauss);
-    }
+    std::erase_if(mesh.attributes,
+                  [](const Attribute& a) { return a.name == "mean_curvature" || a.name == "gauss_curvature"; });
+    Attribute mean = averaged(mesh, out, "mean_curvature", &SurfaceSample::mean);
+    Attribute gauss = averaged(mesh, out, "gauss_curvature", &SurfaceSample::gauss);
     mesh.attributes.push_back(std::move(mean));
     mesh.attributes.push_back(std::move(gauss));
     return out;

@@ -53,8 +53,8 @@ struct SurfaceMesh {
 };
 
 /// Meshes and shapes keep their faces; each patch of a limit surface becomes rate x rate quads or rate^2 triangles. Has
-/// unit normals, MikkTSpace tangents if there are uvs, and the attributes mean_curvature and gauss_curvature. At a
-/// degenerate corner they are those of a point 1/1024 of the way to the middle of the patch, e.g. at a sphere's pole.
+/// unit normals, MikkTSpace tangents if there are uvs, and the attributes mean_curvature and gauss_curvature, averaged over
+/// the corners that share a position and a normal. At a degenerate corner they are those of a point 1/1024 of the way to the middle of the patch, e.g. at a sphere's pole.
 /// Throws Error{Refusal::unsuitable} for more corners than a mesh can have.
 SurfaceMesh surface_mesh(const BaseSurface& surface, SurfaceKind kind, int rate = 1, Progress* progress = nullptr);
 
