@@ -14,8 +14,13 @@ constexpr std::string_view left_out[] = {
 
 std::string without_folder(const std::string& value) { return value.substr(value.find_last_of('/') + 1); }
 
+/// Of an option that belongs to another one, the default counts where that one is given.
 std::string value_of(const CLI::Option& option) {
-    if (option.count() == 0) return option.get_default_str();
+    if (option.count() == 0) {
+        for (const CLI::Option* needed : option.get_needs())
+            if (needed->count() == 0) return {};
+        return option.get_default_str();
+    }
     std::string text;
     for (const std::string& value : option.results()) text += (text.empty() ? "" : " ") + without_folder(value);
     return text;

@@ -150,7 +150,7 @@ Gltf read_gltf(const std::string& path, const GltfOptions& options) {
     take_images(scene.source, std::move(scene.document.images), out);
     out.materials = gltf_materials(model, out.images.size(), path);
     out.mesh.materials = material_names(out.materials);
-    out.mesh.record = source.document.record;
+    out.mesh.record = scene.document.record;
     const GltfPrimitives& meshes = scene.meshes;
     std::vector<bool> bent; // meshes, by their own weights
     for (std::size_t m = 0; m < meshes.size(); ++m) bent.push_back(bends(meshes[m], model.meshes[m].weights));
