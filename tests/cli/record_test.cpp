@@ -42,7 +42,8 @@ TEST_SUITE("cli") {
             {"bump-table", "h.png", "-o", "b.exr", "--layout", "bumpslopes"},
             {"bump-table", "h.png", "-o", "c.tif", "--layout", "bumpslopes"},
             {"displace", "q.obj", "--height", "h.png", "-o", "d.ply"},
-            {"surface", "q.obj", "-o", "s.obj"},
+            {"surface", "q.obj", "-o", "s.glb"},
+            {"displace", "q.obj", "--height", "h.png", "-o", "e.obj"},
             {"render", "q.obj", "-o", "r.png", "--size", "16", "--spp", "1"},
             {"cubemap", "labels", "--size", "16", "-o", "sky.exr"},
         };
@@ -132,8 +133,8 @@ TEST_SUITE("cli") {
         write_quad(folder / "q.obj");
         REQUIRE(run_bake(folder, {"normal-map", "h.png", "-o", "n.png", "--directx"}).code == 0);
         const auto notes = [&](const std::string& directx) {
-            write_file(folder / "s.toml",
-                       "[[mesh]]\nfile = \"q.obj\"\n[mesh.material]\nnormal = \"n.png\"\ndirectx = " + directx + "\n");
+            write_file(folder / "s.toml", "[[material]]\nname = \"m\"\nnormal = \"n.png\"\ndirectx = " + directx +
+                                              "\n[[mesh]]\nfile = \"q.obj\"\nmaterial = \"m\"\n");
             const Run run = run_bake(folder, {"render", "s.toml", "-o", "r.png", "--size", "8", "--spp", "1"});
             REQUIRE_MESSAGE(run.code == 0, run.err);
             return run.err;
