@@ -164,6 +164,24 @@ TEST_SUITE("cli") {
         }
     }
 
+    TEST_CASE("gltf asset: values of a limit surface lie where its uvs that are not smoothed lie") {
+        const Folder folder;
+        write_file(folder / "a.gltf", bake_tests::replaced(bake_tests::square_text(), R"("TEXCOORD_0":1)",
+                                                           R"("TEXCOORD_0":1,"TEXCOORD_1":1)"));
+        for (const char* scheme : {"catmark", "loop"}) {
+            run_json(folder, {"displace", "a.gltf", "--height", bricks, "--amplitude", "0.01", "--subdivide", scheme,
+                              "--levels", "2", "--uv-smoothing", "none", "-o", "b.glb"});
+            const Mesh mesh = read_gltf(folder / "b.glb").mesh;
+            REQUIRE(mesh.attributes.size() == 1);
+            double most = 0;
+            for (std::size_t c = 0; c < mesh.corners(); ++c) {
+                const float* const second = &mesh.attributes[0].values[2 * c];
+                most = std::max(most, double(glm::length(mesh.uvs[mesh.corner_uv[c]] - Vec2f(second[0], second[1]))));
+            }
+            CHECK(most < 1e-5);
+        }
+    }
+
     TEST_CASE("gltf asset: surface --attributes tangent adds tangents and leaves the rest") {
         const Folder folder;
         write_file(folder / "a.gltf", square(R"(,"translation":[3,0,0])"));
