@@ -43,7 +43,7 @@ const std::vector<Case>& cases() {
         {"surface",
          {{torus, "-o", "s.ply"},
           {torus, "--maps", "normal,mean-curvature", "--maps-out", "m", "--size", "16"},
-          {"--shape", "sphere", "-o", "p.obj", "--resolution", "8"}}},
+          {"--shape", "sphere", "-o", "p.ply", "--resolution", "8"}}},
         {"check",
          {{torus, bricks},
           {"n.png", "missing.png"},
