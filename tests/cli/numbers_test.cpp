@@ -82,6 +82,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
 /// A command line of the verb that lacks nothing.
 std::vector<std::string> complete(const std::string& verb, const std::string& flag) {
     const std::map<std::string, std::vector<std::string>> lines = {
+        {"batch", {(own_meshes() / "bakes.toml").string()}},
         {"check", {torus, "--against", torus}},
         {"compare", {dots, dots}},
         {"plan", {(own_meshes() / "studs.toml").string()}},

@@ -15,6 +15,7 @@ struct InputFiles {
     std::mutex mutex;
     struct Named {
         std::string path, hash;
+        FileStamp stamp;
     };
     std::map<std::pair<dev_t, ino_t>, Named> known;
 };
@@ -26,7 +27,7 @@ void remember_input(const std::string& path, const struct stat& file) {
     InputFiles* const files = current_job().inputs;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
-    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, ""});
+    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, "", stamp_of(file)});
 }
 
 bool is_input(const struct stat& file) {
@@ -34,6 +35,21 @@ bool is_input(const struct stat& file) {
     if (!files) return false;
     const std::lock_guard lock(files->mutex);
     return files->known.contains({file.st_dev, file.st_ino});
+}
+
+FileStamp stamp_of(const struct stat& file) noexcept {
+    constexpr std::int64_t second = 1'000'000'000;
+    return {std::int64_t(file.st_size), std::int64_t(file.st_mtim.tv_sec) * second + file.st_mtim.tv_nsec,
+            std::uint64_t(file.st_ino)};
+}
+
+std::vector<ReadFile> files_read() {
+    InputFiles* const files = current_job().inputs;
+    if (!files) return {};
+    std::vector<ReadFile> out;
+    const std::lock_guard lock(files->mutex);
+    for (const auto& [file, named] : files->known) out.push_back({named.path, named.stamp});
+    return out;
 }
 
 std::vector<InputFile> recorded_inputs() {
