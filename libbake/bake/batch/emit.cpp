@@ -62,14 +62,6 @@ std::string commands(const std::vector<BatchTask>& tasks) {
 
 } // namespace
 
-std::string shell_word(const std::string& word) {
-    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-    return out + "'";
-}
-
 std::string command_line_of(const BatchTask& task) {
     std::string line = "bake";
     for (const std::string& word : task.words) line += " " + shell_word(word);

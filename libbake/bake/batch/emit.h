@@ -1,5 +1,6 @@
 // The tasks of a manifest for other programs that run them.
 #pragma once
+#include "bake/base/shell_word.h"
 #include "bake/batch/task.h"
 #include <string>
 #include <vector>
@@ -23,8 +24,5 @@ struct EmitOptions {
 /// level is 0 for tasks without needs, else one more than the highest of the needs. A task that Slurm runs a second time
 /// after its machine failed leaves out the commands of its chunk that were done.
 std::string emitted(const std::vector<BatchTask>& tasks, EmitFormat format, const EmitOptions& options);
-
-/// A word as a POSIX shell takes it, in quotes if it needs them.
-std::string shell_word(const std::string& word);
 
 } // namespace bake
