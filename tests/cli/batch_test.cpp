@@ -174,12 +174,12 @@ TEST_SUITE("cli") {
         REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "slurm", "--chunk", "3", "-o", "farm.sh"}).code == 0);
         // An sbatch that runs the array at once, each job twice.
         fs::create_directories(folder / "bin");
-        write_file(
-            folder / "bin/sbatch",
-            "#!/bin/bash\necho \"$@\" >>sbatch.log\nfor word in \"$@\"; do case $word in\n--array=0-*) last=${word#*-};"
-            " last=${last#*-} ;;\n--export=ALL,*) IFS=, read -ra pairs <<<\"${word#--export=ALL,}\"; export "
-            "\"${pairs[@]}\" ;;\nesac; done\nfor ((i = 0; i <= last; ++i)); do for again in 1 2; do "
-            "SLURM_ARRAY_TASK_ID=$i bash \"${@: -1}\" || exit; done; done >&2\necho 7\n");
+        write_file(folder / "bin/sbatch",
+                   "#!/bin/bash\necho \"$@\" >>sbatch.log\nfor word in \"$@\"; do case $word in\n--array=0-*) "
+                   "last=${word##*-} ;;"
+                   "\n--export=ALL,*) IFS=, read -ra pairs <<<\"${word#--export=ALL,}\"; export "
+                   "\"${pairs[@]}\" ;;\nesac; done\nfor ((i = 0; i <= last; ++i)); do for again in 1 2; do "
+                   "SLURM_ARRAY_TASK_ID=$i bash \"${@: -1}\" || exit; done; done >&2\necho 7\n");
         fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
         const std::string path = "PATH='" + folder.path.string() +
                                  "/bin':" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";

@@ -63,7 +63,10 @@ void apart(const std::function<void()>& work) {
     run_job(job, work);
 }
 
-int emit(const BatchArgs& args, const std::vector<BatchTask>& tasks, const CommonArgs& common) {
+int emit(const BatchArgs& args, std::vector<BatchTask> tasks, const CommonArgs& common) {
+    // Programs that print a line for each task themselves want none of ours.
+    if (*args.format == EmitFormat::ninja || *args.format == EmitFormat::slurm)
+        for (BatchTask& task : tasks) task.words.push_back("--quiet");
     const std::string text = emitted(tasks, *args.format, args.emit);
     if (args.out.empty()) {
         print_text(text);

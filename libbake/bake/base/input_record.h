@@ -50,9 +50,10 @@ std::vector<ReadFile> files_read();
 struct InputFile {
     std::string path; ///< as it was opened
     std::string name; ///< without its folder
-    std::string hash; ///< file_hash(); empty for a file that is no longer there
+    std::string hash; ///< file_hash()
 };
-/// The files that were read so far, in the order of their names. Each is hashed once. Empty without an InputRecord.
+/// The files that were read so far, in the order of their names. Each is hashed once. Files
+/// that are no longer there are left out, as they are temporary ones. Empty without an InputRecord.
 std::vector<InputFile> recorded_inputs();
 
 } // namespace bake

@@ -42,7 +42,7 @@ std::string ninja(const std::vector<BatchTask>& tasks) {
         if (!task.needs.empty()) text += " |";
         for (const std::uint32_t need : task.needs)
             for (const std::string& path : ninja_outputs(tasks[need])) text += " " + ninja_escaped(path, true);
-        std::string line = command_line_of(task) + " --quiet";
+        std::string line = command_line_of(task);
         if (outputs != task.outputs) line += " && mkdir -p .bake-done && touch " + outputs[0];
         text += "\n  line = " + ninja_escaped(line, false) + "\n  name = " + ninja_escaped(task.name, false) + "\n";
     }

@@ -17,7 +17,7 @@ std::string branches(const std::vector<BatchTask>& tasks, const std::vector<std:
         text += std::to_string(jobs) + ")\n";
         const std::size_t end = std::min(level.size(), (jobs + 1) * chunk);
         for (std::size_t i = jobs * chunk; i < end; ++i)
-            text += "    run " + std::to_string(level[i]) + " " + command_line_of(tasks[level[i]]) + " --quiet\n";
+            text += "    run " + std::to_string(level[i]) + " " + command_line_of(tasks[level[i]]) + "\n";
         text += "    ;;\n";
     }
     return text;
