@@ -1,4 +1,5 @@
 #include "batch_task.h"
+#include "bake/base/error.h"
 #include "bake/base/temporary_file.h"
 #include "run_command.h"
 #include <algorithm>
@@ -38,6 +39,9 @@ TaskRun run_task(const BatchTask& task, int threads) {
                                     .begins = {},
                                     .files = &files});
     done.read = std::move(files.read), done.written = std::move(files.written);
+    if (done.code == 0 && done.written.empty() && !task.outputs.empty())
+        done.code = int(Refusal::unwritable),
+        done.message = "bake: " + task.outputs[0] + ": was not written; see the options of the bake\n";
     return done;
 }
 

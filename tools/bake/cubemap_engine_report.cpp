@@ -4,7 +4,8 @@
 namespace bake {
 
 nlohmann::json file_json(const EngineFile& file) {
-    nlohmann::json json = {{"file", file.path}, {"what", file.what}, {"bytes", file.bytes}};
+    nlohmann::json json = {{"file", file.path}, {"what", file.what}};
+    if (file.bytes > 0) json["bytes"] = file.bytes; // not known of an .exr before it appears
     if (file.levels == 0) return json;
     json["size"] = file.edge, json["levels"] = file.levels;
     if (file.what == "panorama") return json;

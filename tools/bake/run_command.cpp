@@ -83,7 +83,10 @@ int run_command(const std::vector<std::string>& words, const CommandIo& io) {
     if (code) return *code;
     // What begins here belongs to the process, not to the job.
     const auto begin = [&] { return io.begins ? (io.begins(line->common.threads), 0) : 0; };
-    if (const int refused = guarded(begin); refused != 0) return refused;
+    if (const int refused = guarded(begin); refused != 0) {
+        if (json) print_json(whole_report(report, words, {}, refused));
+        return refused;
+    }
     job.threads = line->common.threads;
     run_job(job, [&] { code = guarded([&] { return run_verb(*line, words, report, io.files); }); });
     return *code;

@@ -7,12 +7,24 @@ namespace {
 
 /// Options that name outputs, or that say how a run is made and told.
 constexpr std::string_view left_out[] = {
-    "help",     "out",     "maps-out", "cage-out", "debug-rays", "report-map", "roughness-map", "report",
-    "manifest", "threads", "quiet",    "json",     "max-memory", "time-limit", "measure",       "audit",
-    "strict",   "limit",   "preview",  "display",  "pixel",      "repeats",    "csv",           "verify",
+    "help",    "out",      "maps-out", "cage-out", "debug-rays", "report-map", "roughness-map",
+    "report",  "manifest", "threads",  "quiet",    "json",       "max-memory", "time-limit",
+    "measure", "audit",    "strict",   "limit",    "preview",    "display",    "pixel",
+    "repeats", "csv",      "verify",   "sh",
 };
 
-std::string without_folder(const std::string& value) { return value.substr(value.find_last_of('/') + 1); }
+/// Of every file that the value names, such as "profile=folder/curve.txt,pointed=0", the name alone.
+std::string without_folder(const std::string& value) {
+    std::string out;
+    for (std::size_t begin = 0; begin <= value.size();) {
+        const std::size_t end = std::min(value.find_first_of("=,:", begin), value.size());
+        const std::string part = value.substr(begin, end - begin);
+        out += part.substr(part.find_last_of('/') + 1);
+        if (end < value.size()) out += value[end];
+        begin = end + 1;
+    }
+    return out;
+}
 
 /// Of an option that belongs to another one, the default counts where that one is given.
 std::string value_of(const CLI::Option& option) {

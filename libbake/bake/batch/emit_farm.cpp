@@ -31,12 +31,12 @@ constexpr const char* slurm_head = R"sh(#!/bin/bash
 
 constexpr const char* slurm_submit = R"sh(
 if [ -z "${BAKE_LEVEL:-}" ]; then
-    cd "$folder" || exit
+    script=$(realpath "$0") && cd "$folder" || exit
     done_tasks=$(mktemp -d "$folder/.bake-slurm-XXXXXX") || exit
     after=()
     for level in "${!jobs[@]}"; do
         id=$(sbatch --parsable --requeue --array="0-$((jobs[level] - 1))" --job-name="bake-$level" --chdir="$folder" \
-            --export="ALL,BAKE_LEVEL=$level,BAKE_DONE=$done_tasks" "${after[@]}" "$@" "$0") || exit
+            --export="ALL,BAKE_LEVEL=$level,BAKE_DONE=$done_tasks" "${after[@]}" "$@" "$script") || exit
         echo "$id"
         after=(--dependency="afterok:${id%%;*}" --kill-on-invalid-dep=yes)
     done

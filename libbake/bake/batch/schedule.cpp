@@ -71,12 +71,17 @@ private:
         }
     }
 
-    void skip_users(std::uint32_t i) {
-        for (const std::uint32_t user : users_[i]) {
-            if (reports_[user].result == Result::skipped) continue;
-            reports_[user].result = Result::skipped;
-            reports_[user].why = "needs " + tasks_[i].name;
-            skip_users(user);
+    void skip_users(std::uint32_t failed) {
+        std::vector<std::uint32_t> left = {failed};
+        while (!left.empty()) {
+            const std::uint32_t i = left.back();
+            left.pop_back();
+            for (const std::uint32_t user : users_[i]) {
+                if (reports_[user].result == Result::skipped) continue;
+                reports_[user].result = Result::skipped;
+                reports_[user].why = "needs " + tasks_[i].name;
+                left.push_back(user);
+            }
         }
     }
 

@@ -1,4 +1,5 @@
 #include "bake/mesh/gltf/asset.h"
+#include "bake/base/error.h"
 #include "bake/base/version.h"
 #include <algorithm>
 #include <functional>
@@ -62,10 +63,27 @@ void take_number(const json& object, const char* key, std::set<std::size_t>& to)
     if (const auto index = number_at(object, key)) to.insert(*index);
 }
 
+/// The JSON with its keys in their order. Finding one takes as long as an object has keys: refuses more than any object of
+/// the format has, which would take hours.
+json parsed(const GltfDocument& document, const std::string& path) {
+    constexpr std::size_t most_keys = 2000;
+    std::vector<std::size_t> keys;
+    const auto count = [&](int, json::parse_event_t event, json&) {
+        if (event == json::parse_event_t::object_start) keys.push_back(0);
+        if (event == json::parse_event_t::object_end) keys.pop_back();
+        if (event == json::parse_event_t::key && ++keys.back() > most_keys)
+            throw Error(Refusal::unsuitable, path + ": has an object of more than " + std::to_string(most_keys) +
+                                                 " keys among its extras, which takes too long to copy; export it "
+                                                 "without them");
+        return true;
+    };
+    return json::parse(document.text.begin(), document.text.end(), count);
+}
+
 } // namespace
 
 GltfAsset::GltfAsset(const GltfDocument& document, std::string path)
-    : root(json::parse(document.text.begin(), document.text.end())), document_(document), path_(std::move(path)) {}
+    : root(parsed(document, path)), document_(document), path_(std::move(path)) {}
 
 json& GltfAsset::at(const char* list, std::size_t index) { return root[list][index]; }
 

@@ -1,4 +1,5 @@
 // The bytes of an asset that is written: one buffer of all that its views name, and its images.
+#include "bake/base/error.h"
 #include "bake/base/text.h"
 #include "bake/base/text_line.h"
 #include "bake/mesh/gltf/asset.h"
@@ -16,14 +17,28 @@ struct Named {
     std::size_t buffer, begin, end;
 };
 
-/// The bufferViews, and those of their extensions that name bytes of their own (compressed copies).
-std::vector<Named> named_bytes(json& root) {
+/// The bufferViews, and those of their extensions that name bytes of their own (compressed copies). Refuses bytes that the
+/// buffers of the document do not have; a buffer without any bytes is one that a compressed copy stands in for.
+std::vector<Named> named_bytes(json& root, std::span<const std::span<const std::uint8_t>> buffers,
+                               const std::string& path) {
     std::vector<Named> out;
+    const auto number = [&](const json& object, const char* key) {
+        const auto found = object.find(key);
+        if (found == object.end()) return std::size_t(0);
+        if (!found->is_number_integer() || found->get<std::int64_t>() < 0)
+            throw Error(Refusal::unreadable,
+                        path + ": has a bufferView whose " + key + " is no number of bytes; export the file again");
+        return found->get<std::size_t>();
+    };
     const auto take = [&](json& object) {
         if (!object.is_object() || !object.contains("buffer") || !object["buffer"].is_number_unsigned()) return;
-        const std::size_t begin = object.value("byteOffset", std::size_t(0));
-        out.push_back(
-            {&object, object["buffer"].get<std::size_t>(), begin, begin + object.value("byteLength", std::size_t(0))});
+        const auto buffer = object["buffer"].get<std::size_t>();
+        const std::size_t begin = number(object, "byteOffset"), length = number(object, "byteLength");
+        const std::size_t size = buffer < buffers.size() ? buffers[buffer].size() : 0;
+        if (size > 0 && (begin > size || length > size - begin))
+            throw Error(Refusal::unreadable,
+                        path + ": has a bufferView that ends behind its buffer; export the file again");
+        out.push_back({&object, buffer, begin, begin + (size > 0 ? length : 0)});
     };
     if (!root.contains("bufferViews")) return out;
     for (json& view : root["bufferViews"]) {
@@ -45,8 +60,7 @@ std::vector<Range> used_ranges(const std::vector<Named>& named,
                                std::span<const std::span<const std::uint8_t>> buffers) {
     std::vector<Range> all, out;
     for (const Named& n : named)
-        if (n.buffer < buffers.size())
-            all.push_back({n.buffer, n.begin / 4 * 4, std::min(n.end, buffers[n.buffer].size())});
+        if (n.buffer < buffers.size() && !buffers[n.buffer].empty()) all.push_back({n.buffer, n.begin / 4 * 4, n.end});
     std::sort(all.begin(), all.end(), [](const Range& a, const Range& b) {
         return std::pair(a.buffer, a.begin) < std::pair(b.buffer, b.begin);
     });
@@ -78,7 +92,7 @@ bool names_other_files(const json& value) {
 } // namespace
 
 std::vector<GltfBlock> GltfAsset::lay_out_buffer() {
-    const std::vector<Named> named = named_bytes(root);
+    const std::vector<Named> named = named_bytes(root, document_.buffers, path_);
     std::vector<Range> ranges = used_ranges(named, document_.buffers);
     std::vector<GltfBlock> blocks;
     std::size_t bytes = 0;

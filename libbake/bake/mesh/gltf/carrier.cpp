@@ -123,24 +123,31 @@ void Carrier::drop_pose(std::size_t mesh, const Version& version) {
     }
     for (std::size_t n = 0; asset_.root.contains("nodes") && n < asset_.root["nodes"].size(); ++n) {
         json& node = asset_.at("nodes", n);
-        if (node.value("mesh", std::size_t(no_index)) != mesh) continue;
+        if (!node.is_object() || !node.contains("mesh") || node["mesh"] != mesh) continue;
         if (version.patch.drops_skin) node.erase("skin");
         if (!version.patch.drops_targets) continue;
         node.erase("weights");
         for (std::size_t a = 0; asset_.root.contains("animations") && a < asset_.root["animations"].size(); ++a) {
-            json& channels = asset_.at("animations", a)["channels"];
+            json& animation = asset_.at("animations", a);
+            if (!animation.is_object() || !animation.contains("channels") || !animation["channels"].is_array())
+                continue;
+            json& channels = animation["channels"];
             const auto of_weights = [n](const json& channel) {
-                const json target = channel.value("target", json::object());
-                return target.value("node", std::size_t(no_index)) == n && target.value("path", "") == "weights";
+                const json target = channel.is_object() ? channel.value("target", json()) : json();
+                return target.is_object() && target.contains("node") && target["node"] == n &&
+                       target.contains("path") && target["path"] == "weights";
             };
             for (std::size_t c = channels.size(); c-- > 0;)
                 if (of_weights(channels[c])) channels.erase(c);
         }
     }
-    if (!asset_.root.contains("animations")) return;
+    if (!asset_.root.contains("animations") || !asset_.root["animations"].is_array()) return;
+    const auto is_over = [](const json& animation) { // a list of channels that has become empty
+        return animation.is_object() && animation.contains("channels") && animation["channels"].empty();
+    };
     json kept = json::array();
     for (json& animation : asset_.root["animations"])
-        if (!animation["channels"].empty()) kept.push_back(std::move(animation));
+        if (!is_over(animation)) kept.push_back(std::move(animation));
     asset_.root["animations"] = std::move(kept);
     if (asset_.root["animations"].empty()) asset_.root.erase("animations");
 }
