@@ -1,5 +1,6 @@
 // Commands run within a process: by the program `bake`, and by what runs many of them.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@ struct CommandIo {
     /// Take what the command prints as text and as reasons, whole lines at a time, from any of its threads; empty: stdout
     /// and stderr of the process.
     std::function<void(const std::string&)> print, tell;
+    /// As in Job.
+    std::function<void(const std::string& step, std::int64_t done, std::int64_t total)> watch;
+    std::function<bool()> stops;
     bool draws = false; ///< progress is drawn on stderr, where that is a terminal
     /// Called when the words are understood, before the work, with the number of threads that were asked for, 0: any.
     std::function<void(int threads)> begins;
