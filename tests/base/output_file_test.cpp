@@ -181,7 +181,7 @@ TEST_SUITE("unit") {
         const auto read = [&] {
             struct stat file {};
             REQUIRE(stat((folder / "in.txt").c_str(), &file) == 0);
-            remember_input(file);
+            remember_input("in.txt", file);
         };
         {
             const InputRecord inputs;

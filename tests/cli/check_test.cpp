@@ -181,9 +181,11 @@ TEST_SUITE("real" * doctest::skip(bake::test::no_shared_data())) {
                                   (data / "textures/pairs/bevy_parallax_cube/cube_normal.png").string();
         const Result one = folder.check("--json --threads 1 " + files);
         CHECK(one.code == 0);
-        CHECK(nlohmann::json::parse(one.out)["files"].size() == 3);
-        CHECK(folder.check("--json --threads 2 " + files).out == one.out);
-        CHECK(folder.check("--json --threads 7 " + files).out == one.out);
+        const auto reports = nlohmann::json::parse(one.out)["files"];
+        CHECK(reports.size() == 3);
+        for (const char* threads : {"2", "7"})
+            CHECK(nlohmann::json::parse(
+                      folder.check("--json --threads " + std::string(threads) + " " + files).out)["files"] == reports);
     }
 
     TEST_CASE("bake check: every damaged file is answered at once, refused in one line or looked at whole") {

@@ -177,7 +177,7 @@ TEST_SUITE("cli") {
         const nlohmann::json coarse = by_error("0.5%"), fine = by_error("0.05%");
         CHECK(fine["points"] > coarse["points"]);
         for (const auto& [result, share] : {std::pair(coarse, 0.005), {fine, 0.0005}})
-            CHECK(result["error"]["max"].get<double>() < 1.5 * share * result["diagonal"].get<double>());
+            CHECK(result["measured_error"]["max"].get<double>() < 1.5 * share * result["diagonal"].get<double>());
     }
 
     TEST_CASE("displace: an error that no rate reaches is refused, with one that can be reached") {

@@ -2,6 +2,7 @@
 #include "bake/surface/chart/tangent_space.h"
 #include "cli/command.h"
 #include "mesh/gltf/gltf_files.h"
+#include "picture/texels.h"
 #include <cstdlib>
 #include <sys/wait.h>
 
@@ -124,13 +125,13 @@ TEST_SUITE("cli") {
                                             "1%",         "--size", "128",      "-o",   out};
             all.insert(all.end(), more.begin(), more.end());
             run(all);
-            return bytes_of(folder / out);
+            return test::texels_of(folder / out);
         };
         CHECK(bake_map("t.glb", "a.png") == bake_map("t.obj", "b.png"));
         CHECK(bake_map("t.glb", "c.png", {"--flip-v"}) != bake_map("t.obj", "b.png"));
         for (Vec2f& uv : mesh.uvs) uv.y = 1 - uv.y;
         write_mesh(folder / "up.glb", mesh);
-        CHECK(bake_map("up.glb", "d.png", {"--flip-v"}) == bytes_of(folder / "a.png"));
+        CHECK(bake_map("up.glb", "d.png", {"--flip-v"}) == test::texels_of(folder / "a.png"));
         const auto explain = [&](const std::string& name) {
             return run({"explain", name, "--height", height, "--amplitude", "1%", "--uv", "0.25,0.5", "--quiet"});
         };
@@ -141,7 +142,7 @@ TEST_SUITE("cli") {
             test::write_file(folder / "s.toml", "mesh = [{file = \"" + name + "\"}]\n");
             run({"render", "s.toml", "-o", name + ".png", "--size", "64", "--spp", "1"});
         }
-        CHECK(bytes_of(folder / "t.glb.png") == bytes_of(folder / "t.obj.png"));
+        CHECK(test::texels_of(folder / "t.glb.png") == test::texels_of(folder / "t.obj.png"));
     }
 } // cli
 

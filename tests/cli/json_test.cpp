@@ -43,7 +43,7 @@ const std::vector<Case>& cases() {
         {"surface",
          {{torus, "-o", "s.ply"},
           {torus, "--maps", "normal,mean-curvature", "--maps-out", "m", "--size", "16"},
-          {"--shape", "sphere", "-o", "p.obj", "--resolution", "8"}}},
+          {"--shape", "sphere", "-o", "p.ply", "--resolution", "8"}}},
         {"check",
          {{torus, bricks},
           {"n.png", "missing.png"},
@@ -55,6 +55,7 @@ const std::vector<Case>& cases() {
         {"render", {{torus, "-o", "r.png", "--size", "16", "--spp", "1"}, {torus, "--size", "16", "--pixel", "8,8"}}},
         {"explain", {{torus, "--height", bricks, "--uv", "0.25,0.5"}}},
         {"compare", {{bricks, bricks}, {torus, torus}, {"--normals", "n.png", "n.png"}}},
+        {"batch", {{own("bakes.toml"), "--dry-run"}}},
         {"plan", {{studs, "--size", "16"}}},
     };
     return all;

@@ -31,11 +31,16 @@ TEST_SUITE("cli") {
         fs::copy_file(torus, folder / obj);
         write_file(folder / toml, "mesh = [{file = \"" + torus + "\"}]\n");
         const std::string relief = hostile + "_relief.toml"; // whose object has such a name too
-        write_file(folder / relief, "material = [{name = \"a\", height = \"" + dots + "\"}]\nmesh = [{name = " +
-                                        "\"a\\u001b[2J\\nbake: all is well\", file = \"" + torus +
-                                        "\", material = \"a\"}]\n");
+        write_file(folder / relief, "material = [{name = \"a\", height = \"" + dots +
+                                        "\"}]\nmesh = [{name = " + "\"a\\u001b[2J\\nbake: all is well\", file = \"" +
+                                        torus + "\", material = \"a\"}]\n");
         const std::string out_png = hostile + "_out.png", out_ply = hostile + "_out.ply";
+        const std::string bakes = hostile + "_bakes.toml";
+        write_file(folder / bakes, "manifest = 1\n[[bake]]\nname = \"a\\u001b[2J\\nbake: all is well\"\nverb = "
+                                   "\"bump-table\"\nfiles = [\"" +
+                                       dots + "\"]\noutputs = {out = \"a\\u001b.exr\"}\n");
         const std::vector<std::vector<std::string>> lines = {
+            {"batch", bakes},
             {"check", png, obj},
             {"check", obj, "--against", obj},
             {"check", obj, "--height", png},

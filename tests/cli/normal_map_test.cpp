@@ -2,6 +2,7 @@
 #include "bake/picture/image_io.h"
 #include "cli/command.h"
 #include "picture/png_bytes.h"
+#include "picture/texels.h"
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -119,7 +120,7 @@ TEST_SUITE("cli") {
         const std::string dots = (own_meshes() / "dots.png").string();
         REQUIRE(run_bake(folder, {"normal-map", dots, "-o", "alone.png"}).code == 0);
         REQUIRE(run_bake(folder, {"normal-map", "--height", dots, "-o", "named.png"}).code == 0);
-        CHECK((contents(folder / "alone.png") == contents(folder / "named.png")));
+        CHECK((texels_of(folder / "alone.png") == texels_of(folder / "named.png")));
         check_refused(folder, {"normal-map", (own_meshes() / "torus.obj").string(), "-o", "a.png"}, 2,
                       "--height: is required");
     }

@@ -53,7 +53,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
             {"",         "TEXT",         "Excludes:",  "Needs:",       "MESH",      "PREFIX",        "NAMES",
              "HEIGHT",   "CAMERA",       "NAME",       "KEY",          "NAME[:KEY", "DISPLACED.glb", "HOST[:PORT]",
              "OUT.html", "PLANNED.toml", "BAKES.toml", "NAME,...|all", "HIGH.ply",  "LIST",          "NORMAL",
-             "OUT.glb",  "OUT.png",      "OUT.ply"}))
+             "OUT.glb",  "OUT.png",      "OUT.ply",    "NORMAL.png"}))
         return {};
     if (is_one_of(type, {"W,H", "U,V", "X,Y"})) fill("1,", "");
     else if (type == "X,Y,Z") fill("1,2,", "");
@@ -68,7 +68,10 @@ std::vector<std::string> not_numbers(const std::string& type) {
         std::erase(values, "rmse=inf"); // a budget without bound
     } else if (type == "triangles") fill("bytes=", "");
     else if (is_one_of(type, {"N|WxH", "NxM|N"})) values.insert(values.end(), {"1xnan", "1x"});
-    else if (type == "LENGTH|N%") values.insert(values.end(), {"nan%", "%"});
+    else if (type == "N|U,V") {
+        fill("1,", "");
+        std::erase(values, "1,1,5"); // three numbers
+    } else if (type == "LENGTH|N%") values.insert(values.end(), {"nan%", "%"});
     else if (type.find('|') != std::string::npos) return {}; // one of a few names
     else
         CHECK_MESSAGE(is_one_of(type, {"N", "P", "NUMBER", "SIZE"}),
@@ -79,6 +82,7 @@ std::vector<std::string> not_numbers(const std::string& type) {
 /// A command line of the verb that lacks nothing.
 std::vector<std::string> complete(const std::string& verb, const std::string& flag) {
     const std::map<std::string, std::vector<std::string>> lines = {
+        {"batch", {(own_meshes() / "bakes.toml").string()}},
         {"check", {torus, "--against", torus}},
         {"compare", {dots, dots}},
         {"plan", {(own_meshes() / "studs.toml").string()}},

@@ -79,7 +79,7 @@ TEST_SUITE("cli") {
         CHECK(run.err.find("is taken for a height; --as") != std::string::npos);
         CHECK(run.err.find("the amplitude is ") != std::string::npos);
         const Run json = run_bake(folder, {"render", dots, "--on", "cube", "-o", "a.png", "--size", "8", "--json"});
-        CHECK(nlohmann::json::parse(json.out)["notes"].size() == 2);
+        CHECK(nlohmann::json::parse(json.out)["notes"].size() == 3); // and the exposure
     }
 
     TEST_CASE("render: --sky shows the sky, of a mesh and instead of a scene's") {

@@ -85,7 +85,7 @@ TEST_SUITE("cli") {
             CHECK(said["degenerate_count"] == 2);
             CHECK(said["degenerate"][0]["what"] == "pole, with a limit normal");
             CHECK(said["degenerate"][0]["position"][1] == -2);
-            CHECK(said["mean curvature"]["mean"].get<double>() == Approx(0.5));
+            CHECK(said["mean_curvature"]["mean"].get<double>() == Approx(0.5));
             CHECK(said["area"].get<double>() == Approx(16 * 3.14159).epsilon(0.02));
             const Mesh mesh = read_mesh(folder / file);
             CHECK(mesh.faces() >= 24 * 12);

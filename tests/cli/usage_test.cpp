@@ -269,6 +269,7 @@ TEST_SUITE("cli") {
             {"normal-map", dots, "-o", "n.png"},
             {"normal-map", torus, "--height", dots, "--amplitude", "200%", "--size", "32", "-o", "m.png"},
             {"bump-table", dots, "-o", "t.exr"},
+            {"batch", (own_meshes() / "bakes.toml").string(), "--dry-run"},
             {"displace", torus, "--height", dots, "-o", "d.ply"},
             {"surface", torus, "-o", "s.ply"},
             {"surface", "--shape", "sphere", "--maps-out", "m", "--size", "8"},

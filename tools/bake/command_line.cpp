@@ -10,6 +10,8 @@
 
 namespace bake {
 
+Verb batch_verb;
+
 void add_examples(CLI::App& sub, const std::string& examples) { sub.footer("Examples:\n" + examples); }
 
 namespace {
@@ -30,6 +32,7 @@ constexpr VerbEntry verbs[] = {
     {"compare", "Compare methods of relief in a scene, or two pictures, normal maps or meshes", compare_verb},
     {"plan", "Choose the cheapest model of each object within an error budget, by probes of the picture", plan_verb},
     {"cubemap", "Assemble, convert, filter and capture environments: six faces or one picture", cubemap_verb},
+    {"batch", "Run the bakes of a manifest that would change something, or hand them to a farm", batch_verb},
     {"render", "Render a preview of a scene, a mesh, or a map on a shape", render_verb},
     {"explain", "Print every step from the height file to the shaded pixel for one texel", explain_verb},
 };

@@ -139,10 +139,9 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                                 {"rms", o.facets.rms},
                                 {"max", o.facets.max},
                                 {"edge_texels", o.facets.edge_texels}};
-    if (args.measure || args.max_error) object["error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
+    if (args.measure || args.max_error) object["measured_error"] = {{"max", r.error_max}, {"rms", r.error_rms}};
     if (r.uniform_triangles > 0) object["uniform_triangles"] = r.uniform_triangles;
     if (!o.notes.empty()) object["notes"] = o.notes;
-    if (!o.mesh_notes.empty()) object["mesh_notes"] = o.mesh_notes;
     if (o.audit) object["audit"] = to_json(*o.audit);
     return object;
 }

@@ -128,7 +128,7 @@ void take_likeness(NormalMapArgs& args) {
 
 void complete_engine(NormalMapArgs& args) {
     if (!args.engine) {
-        if (names_folder(args.out))
+        if (args.out.ends_with('/'))
             throw Error(Refusal::usage, "-o " + args.out +
                                             ": is a folder; name a file in it, or say by --for what "
                                             "loads it, which names the file");

@@ -48,7 +48,6 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
                              {"step", height.step},
                              {"step_tilt_deg", result.tilt_deg},
                              {"error_budget", to_json(result.budget)}};
-    if (!result.mesh_notes.empty()) object["mesh_notes"] = result.mesh_notes;
     if (!result.notes.empty()) object["notes"] = result.notes;
     if (result.advice) object["better_filter"] = to_json(*result.advice);
     if (options.method != NormalMethod::exact) object["method_error"] = to_json(result.method_error, options.method);

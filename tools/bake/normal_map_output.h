@@ -17,7 +17,7 @@ struct NormalMapResult {
     double tilt_deg = 0;                   ///< of the normal, by one level of the height
     Filter filter = Filter::central;
     GltfMap asset_map;                          ///< of a glTF file
-    std::vector<std::string> notes, mesh_notes; ///< doubts about the height; of reading the mesh
+    std::vector<std::string> notes; ///< doubts about the height
 };
 
 /// Notes how the map was stored. Where it is in blocks, the budget's term for the encoding becomes the measured one.

@@ -49,7 +49,7 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     NormalMapResult result;
     result.options = resolve_options(args, in.height, in.mesh);
     const NormalMapOptions& options = result.options;
-    result.mesh_notes = in.mesh.notes, result.notes = in.notes;
+    result.notes = in.notes;
     result.filter = resolve_filter(options.filter, in.height);
     std::optional<BakeTarget> target, displaced;
     if (!args.mesh.empty()) {

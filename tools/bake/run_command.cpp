@@ -40,13 +40,14 @@ int guarded(const std::function<int()>& work) {
 }
 
 /// Runs the verb, and prints its object under --json, also that of a refusal.
-int run_verb(CommandLine& line, const std::vector<std::string>& words, RunReport& report) {
+int run_verb(CommandLine& line, const std::vector<std::string>& words, RunReport& report, CommandFiles* files) {
     OutputSet outputs;
     const InputRecord inputs;
     const RunRecord record(describe_run(*line.app.get_subcommands().front()));
     line.common.outputs = &outputs, line.common.report = &report;
     const int code = guarded(line.chosen);
     if (line.common.json) print_json(whole_report(report, words, outputs.committed(), code), report.indent);
+    if (files) *files = {files_read(), outputs.committed()};
     return code;
 }
 
@@ -60,7 +61,8 @@ std::string reason_of(const std::string& line) {
 
 int run_command(const std::vector<std::string>& words, const CommandIo& io) {
     Job job;
-    job.draws = io.draws, job.print = io.print, job.tell = io.tell, job.watch = io.watch, job.stops = io.stops;
+    job.draws = io.draws, job.sweeps = io.sweeps, job.print = io.print, job.tell = io.tell;
+    job.watch = io.watch, job.stops = io.stops;
     RunReport report;
     const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
     if (json) // no note is printed then, but reasons alone
@@ -77,15 +79,14 @@ int run_command(const std::vector<std::string>& words, const CommandIo& io) {
             return 0;
         };
         if (const int refused = guarded(read); refused != 0) code = refused;
-        if (json && code.value_or(0) != 0)
-            print_json(whole_report(report, words, {}, *code));
+        if (json && code.value_or(0) != 0) print_json(whole_report(report, words, {}, *code));
     });
     if (code) return *code;
     // What begins here belongs to the process, not to the job.
     const auto begin = [&] { return io.begins ? (io.begins(line->common.threads), 0) : 0; };
     if (const int refused = guarded(begin); refused != 0) return refused;
     job.threads = line->common.threads;
-    run_job(job, [&] { code = guarded([&] { return run_verb(*line, words, report); }); });
+    run_job(job, [&] { code = guarded([&] { return run_verb(*line, words, report, io.files); }); });
     return *code;
 }
 

@@ -1,11 +1,18 @@
 // Commands run within a process: by the program `bake`, and by what runs many of them.
 #pragma once
+#include "bake/base/input_record.h"
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace bake {
+
+/// What a command did to files.
+struct CommandFiles {
+    std::vector<ReadFile> read;
+    std::vector<std::string> written; ///< as they were named
+};
 
 struct CommandIo {
     /// Take what the command prints as text and as reasons, whole lines at a time, from any of its threads; empty: stdout
@@ -15,12 +22,15 @@ struct CommandIo {
     std::function<void(const std::string& step, std::int64_t done, std::int64_t total)> watch;
     std::function<bool()> stops;
     bool draws = false; ///< progress is drawn on stderr, where that is a terminal
+    bool sweeps =
+        true; ///< removes what killed runs left in the folders of outputs; a caller with many commands does so once
     /// Called when the words are understood, before the work, with the number of threads that were asked for, 0: any.
     std::function<void(int threads)> begins;
+    CommandFiles* files = nullptr; ///< filled at the end, unless null
 };
 
 /// Runs `bake WORDS...` and returns its exit code, whatever happens: nothing is thrown. Paths are relative to the working
-/// directory of the process. Several commands can run at the same time, on threads of their own; they share the limits of
+/// directory of the process, which `batch` changes while it runs. Several commands can run at the same time, on threads of their own; they share the limits of
 /// the process and its signals (catch_interrupts()): Ctrl-C ends all of them.
 int run_command(const std::vector<std::string>& words, const CommandIo& io);
 

@@ -35,11 +35,7 @@ Json seconds_of(const Json& own) {
 
 Json inputs() {
     Json list = Json::array();
-    for (const InputFile& input : recorded_inputs()) {
-        Json one = {{"file", input.path}};
-        if (!input.hash.empty()) one["xxh128"] = input.hash;
-        list.push_back(std::move(one));
-    }
+    for (const InputFile& input : recorded_inputs()) list.push_back({{"file", input.path}, {"xxh128", input.hash}});
     return list;
 }
 

@@ -120,7 +120,6 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
     watch.lap("write");
 
     if (!args.out.empty()) object["out"] = args.out;
-    if (!notes.empty()) object["mesh_notes"] = notes;
     maps.add_to(object);
     print_result(common, text + (maps.images.empty() ? "" : to_text(maps.report, maps.options)), object, watch);
     note_all(common, title, notes);

@@ -15,6 +15,7 @@ struct InputFiles {
     std::mutex mutex;
     struct Named {
         std::string path, hash;
+        FileStamp stamp;
     };
     std::map<std::pair<dev_t, ino_t>, Named> known;
 };
@@ -26,7 +27,7 @@ void remember_input(const std::string& path, const struct stat& file) {
     InputFiles* const files = current_job().inputs;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
-    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, ""});
+    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, "", stamp_of(file)});
 }
 
 bool is_input(const struct stat& file) {
@@ -36,6 +37,21 @@ bool is_input(const struct stat& file) {
     return files->known.contains({file.st_dev, file.st_ino});
 }
 
+FileStamp stamp_of(const struct stat& file) noexcept {
+    constexpr std::int64_t second = 1'000'000'000;
+    return {std::int64_t(file.st_size), std::int64_t(file.st_mtim.tv_sec) * second + file.st_mtim.tv_nsec,
+            std::uint64_t(file.st_ino)};
+}
+
+std::vector<ReadFile> files_read() {
+    InputFiles* const files = current_job().inputs;
+    if (!files) return {};
+    std::vector<ReadFile> out;
+    const std::lock_guard lock(files->mutex);
+    for (const auto& [file, named] : files->known) out.push_back({named.path, named.stamp});
+    return out;
+}
+
 std::vector<InputFile> recorded_inputs() {
     InputFiles* const files = current_job().inputs;
     if (!files) return {};
@@ -43,6 +59,7 @@ std::vector<InputFile> recorded_inputs() {
     const std::lock_guard lock(files->mutex);
     for (auto& [file, named] : files->known) {
         if (named.hash.empty()) named.hash = file_hash(named.path).value_or("");
+        if (named.hash.empty()) continue; // a temporary file of our own
         out.push_back({named.path, std::filesystem::path(named.path).filename().string(), named.hash});
     }
     std::sort(out.begin(), out.end(), [](const InputFile& a, const InputFile& b) {

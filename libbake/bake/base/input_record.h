@@ -1,5 +1,6 @@
 // The files that a job reads, so that none of them is replaced by an output of the same job.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,12 +30,30 @@ void remember_input(const std::string& path, const struct stat& file);
 /// Whether a file, by device and inode, is one of those that were read.
 bool is_input(const struct stat& file);
 
+/// What the system says of a file, by which a change is seen without reading it.
+struct FileStamp {
+    std::int64_t size = -1;
+    std::int64_t changed_ns = 0; ///< the time of the last change of its contents
+    std::uint64_t number = 0;    ///< of the file in its file system: another one has taken its name if this changes
+
+    bool operator==(const FileStamp&) const = default;
+};
+FileStamp stamp_of(const struct stat& file) noexcept;
+
+struct ReadFile {
+    std::string path; ///< as it was opened
+    FileStamp stamp;  ///< at that time
+};
+/// The files that were read so far, in any order. Empty without an InputRecord.
+std::vector<ReadFile> files_read();
+
 struct InputFile {
     std::string path; ///< as it was opened
     std::string name; ///< without its folder
-    std::string hash; ///< file_hash(); empty for a file that is no longer there
+    std::string hash; ///< file_hash()
 };
-/// The files that were read so far, in the order of their names. Each is hashed once. Empty without an InputRecord.
+/// The files that were read so far, in the order of their names. Each is hashed once. Files
+/// that are no longer there are left out, as they are temporary ones. Empty without an InputRecord.
 std::vector<InputFile> recorded_inputs();
 
 } // namespace bake

@@ -17,6 +17,8 @@ struct Job {
     int threads = 0;
     /// Whether progress may be drawn on stderr where that is a terminal.
     bool draws = true;
+    /// Whether a folder is cleared of what killed runs left before the first output to it (temporary_file.h).
+    bool sweeps = true;
     /// Take what is printed on stdout and on stderr; empty: these streams. From any thread of the job.
     std::function<void(const std::string&)> print, tell;
     /// Is told every line of stderr too, as it is printed.

@@ -152,6 +152,7 @@ void refuse_unwritten(const std::string& path, const std::string& reason) {
 }
 
 void OutputFile::sweep_once(const std::filesystem::path& folder) {
+    if (!current_job().sweeps) return;
     if (OutputSet* const set = current_job().outputs) {
         const std::lock_guard lock(set->files_->mutex);
         std::vector<fs::path>& swept = set->files_->swept;

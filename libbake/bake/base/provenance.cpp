@@ -17,11 +17,7 @@ json object_of(const Facts& facts) {
 
 json inputs() {
     json list = json::array();
-    for (const InputFile& input : recorded_inputs()) {
-        json one = {{"name", input.name}};
-        if (!input.hash.empty()) one["xxh128"] = input.hash;
-        list.push_back(std::move(one));
-    }
+    for (const InputFile& input : recorded_inputs()) list.push_back({{"name", input.name}, {"xxh128", input.hash}});
     return list;
 }
 

@@ -10,7 +10,8 @@ int exr_helpers() {
     static std::mutex once_at_a_time;
     const std::lock_guard lock(once_at_a_time);
     const int wanted = thread_count() > 1 ? thread_count() : 0;
-    if (Imf::globalThreadCount() == wanted) return wanted;
+    // Never fewer: another command of the process may have work for them, and OpenEXR would not do it.
+    if (Imf::globalThreadCount() >= wanted) return wanted;
     try {
         // A pool that fails while it is made leaves behind the threads that it has started; one with a thread keeps them.
         if (wanted > 1 && Imf::globalThreadCount() == 0) Imf::setGlobalThreadCount(1);

@@ -202,7 +202,7 @@ TEST_SUITE("unit") {
         told(manifest("sh:3", 32), "sky: no command bakes its harmonics: ");
         told(manifest("constant", 1), "sky: no command bakes its mean: ");
         hall.entries.sky.image = hall.folder / "{a}.exr";
-        told(manifest("faces", 16), "sky: no command bakes its smaller faces: a manifest keeps the characters");
+        told(manifest("faces", 16), "sky: no command bakes its smaller faces: the characters *?{}");
         hall.entries.sky.image = "";
         // The words say other faces than the places in the list.
         hall.entries.sky.faces = {"nx.png", "px.png", "py.png", "ny.png", "pz.png", "nz.png"};
@@ -213,7 +213,9 @@ TEST_SUITE("unit") {
         Manifest manifest = Hall().manifest("displace+normal:8", "normal", "bump");
         manifest.bakes[0].options.emplace_back("flip-v", "");
         manifest.bakes[0].options.emplace_back("alpha", "-1 \"x\"\\");
+        manifest.bakes[0].tiles = {1001, 1012};
         const std::string text = to_toml(manifest);
+        CHECK(text.find("tiles = [1001, 1012]") != std::string::npos);
         CHECK(to_toml(parse_manifest(text, "b.toml")) == text);
     }
 
@@ -238,7 +240,9 @@ TEST_SUITE("unit") {
         refused("manifest = \"1\"\n", "1: \"manifest\" is not 1");
         refused("manifest = [\n", "1: ");
         refused(good + "file = \"x\"\n", "6: \"file\" is not a key");
-        refused(good + "files = [\"a*.png\"]\n", "6: \"a*.png\" has one of the characters");
+        refused(good + "tiles = [1000]\n", "6: \"tiles\" are UDIM numbers");
+        refused(good + "tiles = []\n", "6: \"tiles\" is no list");
+        refused(good + "afer = []\n", "6: \"afer\" is not a key of a manifest; did you mean \"after\"?");
         refused(good + "options = {\"--levels\" = \"1\"}\n", "6: \"--levels\" is not the name of an option");
         refused(good + "options = {audit = false}\n", "6: \"audit\" is not a string");
         refused(good + "after = [\"b\"]\n", "6: \"after\" names \"b\"");

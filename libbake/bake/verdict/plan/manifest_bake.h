@@ -16,10 +16,11 @@ struct Bake {
     Values options;                 ///< option without dashes and value; an empty value is a flag
     std::vector<std::string> after; ///< names of bakes whose outputs this one reads
     std::vector<std::string> objects;
+    std::vector<int> tiles; ///< UDIM numbers: the command runs for each with --tile; empty: once, without
     std::string use; ///< key of a material, a mesh or the sky that takes the first output; empty: an intermediate file
 };
 
-/// Characters of paths that the format keeps for later.
+/// Characters that have a meaning in the paths of a manifest.
 inline constexpr const char* reserved_in_paths = "*?{}";
 
 } // namespace bake

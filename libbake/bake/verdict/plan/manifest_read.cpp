@@ -1,11 +1,13 @@
 // The list of bakes from TOML.
 #include "bake/base/error.h"
+#include "bake/preview/nearest_key.h"
 #include "bake/verdict/plan/manifest.h"
 #include <algorithm>
 #include <initializer_list>
 #include <sstream>
 #include <string_view>
 #include <toml++/toml.h>
+#include <unordered_set>
 
 namespace bake {
 namespace {
@@ -18,10 +20,16 @@ struct Reader {
     }
     [[noreturn]] void refuse(const toml::node& at, const std::string& why) const { refuse(at.source().begin, why); }
 
+    static std::string mend(const toml::key& key, std::initializer_list<std::string_view> keys) {
+        const std::string meant = did_you_mean(std::string(key.str()), {keys.begin(), keys.end()});
+        return meant.empty() ? "remove it" : meant;
+    }
+
     void allow_only(const toml::table& table, std::initializer_list<std::string_view> keys) const {
         for (auto&& [key, node] : table)
             if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-                refuse(key.source().begin, "\"" + std::string(key.str()) + "\" is not a key of a manifest; remove it");
+                refuse(key.source().begin,
+                       "\"" + std::string(key.str()) + "\" is not a key of a manifest; " + mend(key, keys));
     }
 
     std::string text(const toml::node& node, const char* key) const {
@@ -31,22 +39,29 @@ struct Reader {
         return value->get();
     }
 
-    std::string path(const toml::node& node, const char* key) const {
-        std::string value = text(node, key);
-        if (value.find_first_of(reserved_in_paths) != std::string::npos)
-            refuse(node, "\"" + value + "\" has one of the characters *?{}, which this version keeps for later");
-        return value;
-    }
-
     /// An absent key is an empty list.
-    std::vector<std::string> list(const toml::table& table, const char* key, bool paths) const {
+    std::vector<std::string> list(const toml::table& table, const char* key) const {
         std::vector<std::string> words;
         const toml::node* node = table.get(key);
         if (!node) return words;
         const toml::array* array = node->as_array();
         if (!array) refuse(*node, "\"" + std::string(key) + "\" is not a list; write it in [ ]");
-        for (const toml::node& one : *array) words.push_back(paths ? path(one, key) : text(one, key));
+        for (const toml::node& one : *array) words.push_back(text(one, key));
         return words;
+    }
+
+    std::vector<int> tiles(const toml::table& table) const {
+        std::vector<int> numbers;
+        const toml::node* node = table.get("tiles");
+        const toml::array* array = node ? node->as_array() : nullptr;
+        for (std::size_t i = 0; array && i < array->size(); ++i) {
+            const auto number = array->get(i)->value<std::int64_t>();
+            if (!array->get(i)->is_integer() || *number < 1001 || *number > 9999)
+                refuse(*array->get(i), "\"tiles\" are UDIM numbers, 1001 to 9999; correct this one");
+            numbers.push_back(int(*number));
+        }
+        if (node && numbers.empty()) refuse(*node, "\"tiles\" is no list of numbers; write it as [1001, 1002]");
+        return numbers;
     }
 
     std::string value(const toml::node& node, const char* key) const {
@@ -71,7 +86,7 @@ struct Reader {
             if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos || name[0] == '-')
                 refuse(option.source().begin, "\"" + name + "\" is not the name of an option; write it without --");
             found.push_back(
-                {option.source().begin, {name, paths ? path(one, name.c_str()) : value(one, name.c_str())}});
+                {option.source().begin, {name, paths ? text(one, name.c_str()) : value(one, name.c_str())}});
         }
         std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
             return std::pair(a.first.line, a.first.column) < std::pair(b.first.line, b.first.column);
@@ -81,31 +96,31 @@ struct Reader {
         return values;
     }
 
-    Bake bake(const toml::table& table, const Manifest& before) const;
+    /// `known`: the names of the bakes before.
+    Bake bake(const toml::table& table, std::unordered_set<std::string>& known) const;
 };
 
-Bake Reader::bake(const toml::table& table, const Manifest& before) const {
-    allow_only(table, {"name", "verb", "files", "inputs", "options", "outputs", "after", "objects", "use"});
+Bake Reader::bake(const toml::table& table, std::unordered_set<std::string>& known) const {
+    allow_only(table, {"name", "verb", "files", "inputs", "options", "outputs", "after", "tiles", "objects", "use"});
     Bake bake;
     for (const char* key : {"name", "verb"})
         if (!table.get(key)) refuse(table, "[[bake]] has no \"" + std::string(key) + "\"; give one");
     bake.name = text(*table.get("name"), "name");
     bake.verb = text(*table.get("verb"), "verb");
-    bake.files = list(table, "files", true);
+    bake.files = list(table, "files");
     bake.inputs = values(table, "inputs", true);
     bake.options = values(table, "options", false);
     bake.outputs = values(table, "outputs", true);
-    bake.after = list(table, "after", false);
-    bake.objects = list(table, "objects", false);
+    bake.after = list(table, "after");
+    bake.tiles = tiles(table);
+    bake.objects = list(table, "objects");
     if (const toml::node* use = table.get("use")) bake.use = text(*use, "use");
     if (bake.outputs.empty()) refuse(table, "[[bake]] has no \"outputs\"; give such as {out = \"normal.png\"}");
-    const auto known = [&](const std::string& name) {
-        return std::any_of(before.bakes.begin(), before.bakes.end(), [&](const Bake& one) { return one.name == name; });
-    };
-    if (known(bake.name)) refuse(*table.get("name"), "\"name\" \"" + bake.name + "\" is used already; choose another");
     for (const std::string& name : bake.after)
-        if (!known(name))
+        if (!known.contains(name))
             refuse(*table.get("after"), "\"after\" names \"" + name + "\", which is no earlier bake; put it in front");
+    if (!known.insert(bake.name).second)
+        refuse(*table.get("name"), "\"name\" \"" + bake.name + "\" is used already; choose another");
     return bake;
 }
 
@@ -128,12 +143,13 @@ Manifest parse_manifest(const std::string& text, const std::string& file) {
         reader.refuse(*version, "\"manifest\" is not 1, the only version that this program knows");
     reader.allow_only(root, {"manifest", "bake"});
     Manifest manifest;
+    std::unordered_set<std::string> known;
     const toml::node* list = root.get("bake");
     if (list && !list->as_array()) reader.refuse(*list, "\"bake\" is a list of tables; write it as [[bake]]");
     for (std::size_t i = 0; list && i < list->as_array()->size(); ++i) {
         const toml::node& one = *list->as_array()->get(i);
         if (!one.is_table()) reader.refuse(one, "\"bake\" is a list of tables; write it as [[bake]]");
-        manifest.bakes.push_back(reader.bake(*one.as_table(), manifest));
+        manifest.bakes.push_back(reader.bake(*one.as_table(), known));
     }
     return manifest;
 }

@@ -8,7 +8,7 @@ namespace bake {
 
 /// Why paths with reserved_in_paths are in no bake.
 inline constexpr const char* reserved_path =
-    "a manifest keeps the characters *?{} of its files' names for later; rename the file";
+    "the characters *?{} of files' names have a meaning in a manifest; rename the file";
 
 /// Why no command bakes the planned faces of this sky; null if one does.
 const char* sky_obstacle(const SkyEntry& entry, const SkyPlan& sky);

@@ -26,6 +26,9 @@ std::string text_of(const Bake& bake) {
     if (!bake.options.empty()) text += "options = " + table_of(bake.options) + "\n";
     text += "outputs = " + table_of(bake.outputs) + "\n";
     if (!bake.after.empty()) text += "after = " + list_of(bake.after) + "\n";
+    std::string tiles;
+    for (const int tile : bake.tiles) tiles += (tiles.empty() ? "" : ", ") + std::to_string(tile);
+    if (!tiles.empty()) text += "tiles = [" + tiles + "]\n";
     if (!bake.objects.empty()) text += "objects = " + list_of(bake.objects) + "\n";
     if (!bake.use.empty()) text += "use = " + toml_string(bake.use) + "\n";
     return text;

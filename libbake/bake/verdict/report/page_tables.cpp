@@ -236,14 +236,6 @@ std::string command_list(const std::vector<PageCommand>& commands) {
     return out.empty() ? "" : "<ol>\n" + out + "</ol>\n";
 }
 
-std::string shell_word(const std::string& word) {
-    const char* const usual = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(usual) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-    return out + "'";
-}
-
 std::string commands(const Json& report) {
     std::vector<PageCommand> all = {{"all", "", text_or(report, "command", "")}};
     for (std::size_t i = 0; i < methods(report).size(); ++i) {

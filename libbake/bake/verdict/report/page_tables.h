@@ -1,6 +1,7 @@
 // The parts of the page that need no script: tables, bars and commands as HTML, from the JSON of the comparison. What is
 // missing there is left out.
 #pragma once
+#include "bake/base/shell_word.h"
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -20,9 +21,6 @@ struct PageCommand {
     std::string command; ///< text; empty: it is left out
 };
 std::string command_list(const std::vector<PageCommand>& commands);
-/// A word of a command as a POSIX shell takes it: between quotes if it has other characters than those of usual names.
-std::string shell_word(const std::string& word);
-
 std::string page_title(const nlohmann::ordered_json& report);
 std::string heading(const nlohmann::ordered_json& report);
 /// A definition list of what is the same for all methods.

@@ -1,0 +1,206 @@
+#include "cli/command.h"
+#include <chrono>
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace bake::test;
+
+namespace {
+
+const std::string bricks = (own_meshes() / "bricks.png").string(), torus = (own_meshes() / "torus.obj").string();
+
+/// A flat map of each of three heights, a displaced mesh, and a map of what that lacks.
+void write_manifest(const Folder& folder, const std::string& more = "") {
+    fs::create_directories(folder / "heights");
+    for (const char* name : {"a.png", "b.png", "c.png"})
+        fs::copy_file(own_meshes() / "dots.png", folder / (std::string("heights/") + name),
+                      fs::copy_options::overwrite_existing);
+    fs::copy_file(torus, folder / "torus.obj", fs::copy_options::overwrite_existing);
+    write_file(folder / "m.toml",
+               "manifest = 1\n"
+               "[[bake]]\nname = \"flat_{stem}\"\nverb = \"normal-map\"\nfiles = [\"heights/*.png\"]\n"
+               "options = {amplitude = \"0.1\"}\noutputs = {out = \"flat_{stem}.png\"}\n"
+               "[[bake]]\nname = \"rest\"\nverb = \"normal-map\"\nfiles = [\"torus.obj\"]\n"
+               "inputs = {height = \"heights/a.png\", residual-of = \"moved.ply\"}\n"
+               "options = {amplitude = \"0.05\", size = \"32\"}\noutputs = {out = \"rest.png\"}\n"
+               "[[bake]]\nname = \"moved\"\nverb = \"displace\"\nfiles = [\"torus.obj\"]\n"
+               "inputs = {height = \"heights/a.png\"}\noptions = {amplitude = \"0.05\", levels = \"1\"}\n"
+               "outputs = {out = \"moved.ply\"}\n" +
+                   more);
+}
+
+nlohmann::json batch(const Folder& folder, const std::vector<std::string>& more = {}, int code = 0) {
+    std::vector<std::string> words = {"batch", "m.toml", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Run run = run_bake(folder, words);
+    CHECK(run.code == code);
+    CAPTURE(run.err);
+    return nlohmann::json::parse(run.out)["tasks"];
+}
+
+std::string why(const nlohmann::json& tasks, const std::string& name) {
+    for (const auto& task : tasks)
+        if (task["name"] == name) return task["result"].get<std::string>() + ": " + task["why"].get<std::string>();
+    return "";
+}
+
+} // namespace
+
+TEST_SUITE("cli") {
+
+    TEST_CASE("batch: runs what changed alone, and files are those of single commands") {
+        const Folder folder;
+        write_manifest(folder);
+        const auto first = batch(folder);
+        CHECK(first.size() == 5);
+        for (const auto& task : first) CHECK(task["result"] == "done");
+        CHECK(run_bake(folder, {"normal-map", "torus.obj", "--height=heights/a.png", "--residual-of=moved.ply",
+                                "--amplitude=0.05", "--size=32", "--out=alone.png"})
+                  .code == 0);
+        CHECK(contents(folder / "alone.png") == contents(folder / "rest.png"));
+        for (const auto& task : batch(folder)) CHECK(task["result"] == "unchanged");
+
+        fs::copy_file(own_meshes() / "ripples.png", folder / "heights/b.png", fs::copy_options::overwrite_existing);
+        fs::remove(folder / "flat_c.png");
+        const auto plan = batch(folder, {"--dry-run"});
+        CHECK(why(plan, "flat_b") == "to run: inputs changed: heights/b.png");
+        CHECK(why(plan, "flat_c") == "to run: output missing: flat_c.png");
+        CHECK(why(plan, "moved") == "unchanged: ");
+        CHECK(!fs::exists(folder / "flat_c.png"));
+        const auto second = batch(folder);
+        CHECK(why(second, "flat_b") == "done: inputs changed: heights/b.png");
+        CHECK(why(second, "flat_a") == "unchanged: ");
+        CHECK(fs::exists(folder / "flat_c.png"));
+        CHECK(why(batch(folder, {"--force", "--filter", "rest"}), "moved") == "done: forced");
+    }
+
+    TEST_CASE("batch: files that an input names are inputs too") {
+        const Folder folder;
+        CHECK(run_bake(folder, {"displace", torus, "--height", bricks, "--levels", "1", "-o", "torus.gltf"}).code == 0);
+        write_file(folder / "m.toml", "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"surface\"\nfiles = "
+                                      "[\"torus.gltf\"]\noutputs = {out = \"a.ply\"}\n");
+        batch(folder);
+        CHECK(why(batch(folder), "a") == "unchanged: ");
+        std::string buffer;
+        for (const std::string& name : folder.names())
+            if (name.ends_with(".bin")) buffer = name;
+        REQUIRE(!buffer.empty());
+        std::string bytes = contents(folder / buffer);
+        bytes[2] ^= 1;
+        write_file(folder / buffer, bytes);
+        CHECK(why(batch(folder), "a") == "done: inputs changed: " + buffer);
+    }
+
+    TEST_CASE("batch: goes on after a failure, and its code is that of the first one") {
+        const Folder folder;
+        write_manifest(folder,
+                       "[[bake]]\nname = \"none\"\nverb = \"bump-table\"\nfiles = [\"none.png\"]\noutputs = {out "
+                       "= \"none.exr\"}\n[[bake]]\nname = \"of_none\"\nverb = \"check\"\nfiles = "
+                       "[\"none.exr\"]\noutputs = {out = \"none.txt\"}\n");
+        const Run run = run_bake(folder, {"batch", "m.toml"});
+        CHECK(run.code == 3);
+        CHECK(run.err.find("bake: none: none.png: no such file") == 0);
+        CHECK(lines(run.err) == 1);
+        CHECK(run.out.find("of_none  (needs none)") != std::string::npos);
+        CHECK(run.out.find("5 done, 1 failed, 1 skipped") != std::string::npos);
+        CHECK(fs::exists(folder / "rest.png"));
+        CHECK(why(batch(folder, {}, 3), "none") == "failed: new");
+    }
+
+    TEST_CASE("batch: Ctrl-C leaves what is finished, and the next run does the rest") {
+        const Folder folder;
+        std::string more;
+        for (int i = 0; i < 200; ++i)
+            more += "[[bake]]\nname = \"m" + std::to_string(i) + "\"\nverb = \"normal-map\"\nfiles = [\"" + bricks +
+                    "\"]\noutputs = {out = \"m" + std::to_string(i) + ".png\"}\n";
+        write_manifest(folder, more);
+        const Run run = run_bake(folder, {"batch", "m.toml"}, {.seconds = 60, .interrupt_after = 0.5});
+        CHECK(run.code == 130);
+        std::size_t made = 0;
+        for (const std::string& name : folder.names()) {
+            made += name.starts_with("m") && name.ends_with(".png");
+            CHECK(!name.starts_with(".bake-"));
+        }
+        CHECK(made < 200);
+        std::size_t unchanged = 0;
+        for (const auto& task : batch(folder, {"--dry-run"})) unchanged += task["result"] == "unchanged";
+        CHECK(unchanged >= made);
+    }
+
+    TEST_CASE("batch: refuses what it cannot plan, and runs nothing") {
+        const Folder folder;
+        check_refused(folder, {"batch", "m.toml"}, 3, "m.toml: no such file");
+        write_file(folder / "m.toml",
+                   "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"batch\"\noutputs = {out = \"b\"}\n");
+        check_refused(folder, {"batch", "m.toml"}, 3, "runs bake batch");
+        write_file(folder / "m.toml",
+                   "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"check\"\noutputs = {out = \"b\"}\n");
+        check_refused(folder, {"batch", "m.toml", "--filter", "c*"}, 2, "no task has a name like");
+    }
+
+    TEST_CASE("batch: Ninja runs what it emits, and then nothing" *
+              doctest::skip(std::system("ninja --version >/dev/null") != 0)) {
+        const Folder folder;
+        write_manifest(folder);
+        REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "ninja", "-o", "build.ninja"}).code == 0);
+        const std::string path = "PATH=" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
+        const std::string ninja = "cd '" + folder.path.string() + "' && " + path + "ninja > log";
+        CHECK(std::system(ninja.c_str()) == 0);
+        CHECK(fs::exists(folder / "rest.png"));
+        const std::string made = contents(folder / "rest.png");
+        CHECK(std::system(ninja.c_str()) == 0);
+        CHECK(contents(folder / "log").find("no work to do") != std::string::npos);
+        batch(folder);
+        CHECK(contents(folder / "rest.png") == made);
+    }
+
+    TEST_CASE("batch: the lines of --emit commands make the same files") {
+        const Folder folder;
+        write_manifest(folder);
+        const Run run = run_bake(folder, {"batch", "m.toml", "--emit", "commands"});
+        REQUIRE(run.code == 0);
+        write_file(folder / "lines.sh", run.out);
+        const std::string path = "PATH=" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
+        CHECK(std::system(("cd '" + folder.path.string() + "' && " + path + "sh -e lines.sh >log").c_str()) == 0);
+        const std::string made = contents(folder / "rest.png");
+        batch(folder);
+        CHECK(contents(folder / "rest.png") == made);
+    }
+
+    TEST_CASE(
+        "batch: the script for Slurm runs its tasks, and after a failure of the machine those alone that are left") {
+        const Folder folder;
+        write_manifest(folder);
+        REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "slurm", "--chunk", "3", "-o", "farm.sh"}).code == 0);
+        // An sbatch that runs the array at once, each job twice.
+        fs::create_directories(folder / "bin");
+        write_file(folder / "bin/sbatch",
+                   "#!/bin/bash\necho \"$@\" >>sbatch.log\nfor word in \"$@\"; do case $word in\n--array=0-*) "
+                   "last=${word##*-} ;;"
+                   "\n--export=ALL,*) IFS=, read -ra pairs <<<\"${word#--export=ALL,}\"; export "
+                   "\"${pairs[@]}\" ;;\nesac; done\nfor ((i = 0; i <= last; ++i)); do for again in 1 2; do "
+                   "SLURM_ARRAY_TASK_ID=$i bash \"${@: -1}\" || exit; done; done >&2\necho 7\n");
+        fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
+        const std::string path = "PATH='" + folder.path.string() +
+                                 "/bin':" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
+        CHECK(std::system(
+                  ("cd '" + folder.path.string() + "' && " + path + "bash farm.sh --partition=night >log").c_str()) ==
+              0);
+        CHECK(fs::exists(folder / "rest.png"));
+        const std::string log = contents(folder / "sbatch.log");
+        CHECK(log.find("--array=0-1 --job-name=bake-0") != std::string::npos); // four tasks by threes
+        CHECK(log.find("--array=0-0 --job-name=bake-1") != std::string::npos);
+        CHECK(log.find("--dependency=afterok:7 --kill-on-invalid-dep=yes --partition=night") != std::string::npos);
+    }
+
+    TEST_CASE("batch: the OpenJD template has a step for each level") {
+        const Folder folder;
+        write_manifest(folder);
+        const Run run = run_bake(folder, {"batch", "m.toml", "--emit", "openjd", "--chunk", "2"});
+        const auto job = nlohmann::json::parse(run.out);
+        CHECK(job["specificationVersion"] == "jobtemplate-2023-09");
+        REQUIRE(job["steps"].size() == 2);
+        CHECK(job["steps"][0]["parameterSpace"]["taskParameterDefinitions"][0]["range"] == "0-1");
+        CHECK(job["steps"][1]["dependencies"][0]["dependsOn"] == job["steps"][0]["name"]);
+    }
+}

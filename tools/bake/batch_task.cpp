@@ -1,0 +1,44 @@
+#include "batch_task.h"
+#include "bake/base/temporary_file.h"
+#include "run_command.h"
+#include <algorithm>
+#include <filesystem>
+#include <mutex>
+#include <set>
+
+namespace bake {
+namespace fs = std::filesystem;
+
+void prepare_folders(const std::vector<BatchTask>& tasks) {
+    std::set<fs::path> folders;
+    for (const BatchTask& task : tasks)
+        for (const std::string& path : task.outputs) folders.insert(fs::path(path).parent_path());
+    for (const fs::path& folder : folders) {
+        std::error_code failed;
+        if (!folder.empty()) fs::create_directories(folder, failed);
+        sweep_temporary_files(folder);
+    }
+}
+
+TaskRun run_task(const BatchTask& task, int threads) {
+    std::vector<std::string> words = task.words;
+    if (std::none_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); }))
+        words.push_back("--threads=" + std::to_string(threads));
+    words.push_back("--quiet");
+    TaskRun done;
+    CommandFiles files;
+    std::mutex mutex;
+    done.code = run_command(words, {.print = [](const std::string&) {},
+                                    .tell =
+                                        [&](const std::string& line) {
+                                            const std::lock_guard lock(mutex);
+                                            done.message += line;
+                                        },
+                                    .sweeps = false,
+                                    .begins = {},
+                                    .files = &files});
+    done.read = std::move(files.read), done.written = std::move(files.written);
+    return done;
+}
+
+} // namespace bake
