@@ -84,6 +84,32 @@ TEST_SUITE("cli") {
         CHECK(threads == 3);
     }
 
+    TEST_CASE("run_command: progress is told, and a job that is to stop ends alone, without files") {
+        const Folder folder;
+        std::atomic<std::int64_t> told = 0, most = 0;
+        const auto watch = [&](const std::string& step, std::int64_t done, std::int64_t total) {
+            ++told;
+            CHECK(!step.empty());
+            if (total > 0 && done > most) most = done;
+        };
+        const std::vector<std::string> words = {"normal-map", bricks, "--quiet", "-o"};
+        const auto to = [&](const char* name) {
+            std::vector<std::string> all = words;
+            all.push_back(folder / name);
+            return all;
+        };
+        CHECK(bake::run_command(to("whole.png"), {.watch = watch}) == 0);
+        CHECK(told > 1);
+        CHECK(most > 0);
+        std::string reason;
+        bake::CommandIo io{.tell = [&](const std::string& text) { reason += text; }, .watch = watch};
+        io.stops = [] { return true; };
+        CHECK(bake::run_command(to("never.png"), io) == int(bake::Refusal::interrupted));
+        CHECK(reason == "bake: interrupted; nothing was written\n");
+        CHECK(bake::run_command(to("after.png"), {}) == 0); // it was that job alone
+        CHECK(folder.names() == std::set<std::string>{"after.png", "whole.png"});
+    }
+
     TEST_CASE("CommandLine: all options can be looked at without running anything") {
         const bake::CommandLine line;
         CHECK(line.app.get_subcommand("normal-map")->get_option("--amplitude") != nullptr);

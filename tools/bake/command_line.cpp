@@ -1,6 +1,9 @@
 #include "command_line.h"
 #include "bake/preview/nearest_key.h"
 #include "inputs/number_option.h"
+#include "pages/completion.h"
+#include "pages/man_page.h"
+#include "pages/option_view.h"
 #include "version_text.h"
 #include <algorithm>
 #include <filesystem>
@@ -102,6 +105,17 @@ std::vector<std::string> with_help(const std::vector<std::string>& words) {
     return {words[1], "--help"};
 }
 
+/// `help --man [VERB]` and `completion SHELL`: what the installation has of this command, see docs/install.md. Returns
+/// whether the words ask for it.
+bool print_page(const CLI::App& app, const std::vector<std::string>& words) {
+    if (words.size() == 2 && words[0] == "completion") return print_text(completion(app, words[1])), true;
+    if (words.size() < 2 || words.size() > 3 || words[0] != "help" || words[1] != "--man") return false;
+    if (words.size() == 2) return print_text(man_page(app)), true;
+    for (const CLI::App* verb : verbs_of(app))
+        if (verb->get_name() == words[2]) return print_text(man_page(*verb)), true;
+    return false;
+}
+
 /// Whether the words are understood; else `code` is what the command ends with.
 bool parse(CommandLine& line, std::vector<std::string> words, int& code) {
     std::reverse(words.begin(), words.end()); // as CLI11 takes them
@@ -145,6 +159,7 @@ CommandLine::CommandLine()
 std::optional<int> CommandLine::take(const std::vector<std::string>& given) {
     const std::vector<std::string> words = with_help(given);
     refuse_empty(words);
+    if (print_page(app, given)) return 0;
     const auto known = [&](const VerbEntry& entry) { return entry.name == words[0]; };
     if (words[0][0] != '-' && std::none_of(std::begin(verbs), std::end(verbs), known)) return refuse_verb(words[0]);
     int code = 0;

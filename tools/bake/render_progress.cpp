@@ -1,4 +1,5 @@
 #include "render_progress.h"
+#include "bake/base/job.h"
 #include "bake/base/text.h"
 #include <algorithm>
 #include <chrono>
@@ -26,6 +27,11 @@ std::function<std::string()> progress_text(const Passes& passes, const SamplingA
         if (left >= 0) line += (args.noise ? ", at most " : ", ") + format("%.0f s left", left);
         return "render " + line;
     };
+}
+
+void tell_progress(const Passes& passes) {
+    if (const Job& job = current_job(); job.watch)
+        job.watch("render", passes.samples_done(), passes.pixel_count() * passes.spp());
 }
 
 } // namespace bake

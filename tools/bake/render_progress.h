@@ -11,4 +11,7 @@ bool is_visible(const CommonArgs& common) noexcept;
 /// not known.
 std::function<std::string()> progress_text(const Passes& passes, const SamplingArgs& args);
 
+/// Tells Job::watch of the samples so far and in all; with --noise or --time-limit all are at most that many.
+void tell_progress(const Passes& passes);
+
 } // namespace bake

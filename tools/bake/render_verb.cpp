@@ -71,7 +71,9 @@ void render_passes(Passes& passes, const PictureOutput& output, bool preview, Di
     Clock::time_point written{};
     TileDone done;
     if (display) done = [&](const PixelRect& tile, const std::vector<float>& values) { display->update(tile, values); };
+    tell_progress(passes);
     while (passes.next(done)) {
+        tell_progress(passes);
         if (!preview || Clock::now() - written < std::chrono::seconds(1)) continue;
         try {
             write_picture(output, passes);

@@ -62,6 +62,7 @@ std::string reason_of(const std::string& line) {
 int run_command(const std::vector<std::string>& words, const CommandIo& io) {
     Job job;
     job.draws = io.draws, job.sweeps = io.sweeps, job.print = io.print, job.tell = io.tell;
+    job.watch = io.watch, job.stops = io.stops;
     RunReport report;
     const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
     if (json) // no note is printed then, but reasons alone

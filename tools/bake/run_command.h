@@ -1,6 +1,7 @@
 // Commands run within a process: by the program `bake`, and by what runs many of them.
 #pragma once
 #include "bake/base/input_record.h"
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct CommandIo {
     /// Take what the command prints as text and as reasons, whole lines at a time, from any of its threads; empty: stdout
     /// and stderr of the process.
     std::function<void(const std::string&)> print, tell;
+    /// As in Job.
+    std::function<void(const std::string& step, std::int64_t done, std::int64_t total)> watch;
+    std::function<bool()> stops;
     bool draws = false; ///< progress is drawn on stderr, where that is a terminal
     bool sweeps =
         true; ///< removes what killed runs left in the folders of outputs; a caller with many commands does so once

@@ -1,6 +1,7 @@
 // What the parts of one command share. Several commands can run at the same time in one process, each as a job of its own.
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -22,6 +23,11 @@ struct Job {
     std::function<void(const std::string&)> print, tell;
     /// Is told every line of stderr too, as it is printed.
     std::function<void(const std::string&)> hears;
+    /// Takes the progress of the job: the name of the step and its units so far and in all, 0: unknown. From any thread of the
+    /// job, at most once per per cent of a step.
+    std::function<void(const std::string& step, std::int64_t done, std::int64_t total)> watch;
+    /// Whether the job is to end, as after Ctrl-C. From any thread of the job, often.
+    std::function<bool()> stops;
 
     // Of RunRecord, InputRecord, OutputSet and MemoryCap, and of accept_interrupt().
     std::atomic<const RunDescription*> run = nullptr;

@@ -29,6 +29,12 @@ void print_out_of_time() noexcept {
         if (write(STDERR_FILENO, part, std::strlen(part)) < 0) return;
 }
 
+/// By a signal, or the current job alone.
+bool asked_to_stop() noexcept {
+    const Job& job = current_job();
+    return stop_requested != 0 || (job.stops && job.stops());
+}
+
 void on_signal(int signal) {
     if (stop_requested && shields == 0) {
         for (const UnfinishedFile& file : unfinished)
@@ -55,10 +61,10 @@ void catch_interrupts() noexcept {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool interrupted() noexcept { return stop_requested != 0 && !current_job().stop_accepted; }
+bool interrupted() noexcept { return asked_to_stop() && !current_job().stop_accepted; }
 
 bool accept_interrupt() noexcept {
-    if (!stop_requested || stop_requested == SIGXCPU) return false;
+    if (!asked_to_stop() || stop_requested == SIGXCPU) return false;
     current_job().stop_accepted = true;
     return true;
 }
@@ -99,6 +105,7 @@ void Progress::start(const std::string& step, std::int64_t total) {
     total_ = total;
     done_ = 0;
     percent_ = -1;
+    if (const Job& job = current_job(); job.watch) job.watch(step, 0, total);
     if (!visible_ || total > 0) return;
     std::fprintf(stderr, "\r%s ...", step_.c_str());
     std::fflush(stderr);
@@ -107,13 +114,14 @@ void Progress::start(const std::string& step, std::int64_t total) {
 
 void Progress::add(std::int64_t units) noexcept {
     const std::int64_t done = done_.fetch_add(units, std::memory_order_relaxed) + units;
-    if (visible_ && total_ > 0) draw(done);
+    if (total_ > 0 && (visible_ || current_job().watch)) draw(done);
 }
 
 void Progress::draw(std::int64_t done) noexcept {
     const int percent = int(100 * done / total_);
     int shown = percent_.load(std::memory_order_relaxed);
     if (percent <= shown || !percent_.compare_exchange_strong(shown, percent)) return;
+    if (const Job& job = current_job(); job.watch) return job.watch(step_, done, total_);
     const int width = 32;
     char bar[width + 1];
     for (int i = 0; i < width; ++i) bar[i] = i * 100 < percent * width ? '#' : '.';
