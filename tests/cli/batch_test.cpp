@@ -203,4 +203,16 @@ TEST_SUITE("cli") {
         CHECK(job["steps"][0]["parameterSpace"]["taskParameterDefinitions"][0]["range"] == "0-1");
         CHECK(job["steps"][1]["dependencies"][0]["dependsOn"] == job["steps"][0]["name"]);
     }
+
+    TEST_CASE("batch: a task whose command writes nothing fails, and is no done one the next time") {
+        const Folder folder;
+        fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
+        write_file(folder / "m.toml", "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"bump-table\"\nfiles = "
+                                      "[\"dots.png\"]\noptions = {help = true}\noutputs = {out = \"a.exr\"}\n");
+        for (int time = 0; time < 2; ++time) {
+            const auto tasks = batch(folder, {}, 5);
+            CHECK(tasks[0]["result"] == "failed");
+            CHECK(tasks[0]["message"].get<std::string>().find("a.exr: was not written") != std::string::npos);
+        }
+    }
 }
