@@ -16,9 +16,9 @@ std::vector<Work> works() {
     const auto own = [](const char* name) { return "'" + (bake::test::own_meshes() / name).string() + "'"; };
     const std::string torus = own("torus.obj"), bricks = own("bricks.png"), dots = own("dots.png");
     return {
-        {"check", "check --json " + torus + " " + bricks, nullptr},
+        {"check", "check " + torus + " " + bricks, nullptr},
         {"compare", "compare " + own("sky_px.png") + " " + own("sky_nx.png") + " -o a.png", "a.png"},
-        {"explain", "explain --json " + torus + " --height " + dots + " --amplitude 2% --uv 0.3,0.4", nullptr},
+        {"explain", "explain " + torus + " --height " + dots + " --amplitude 2% --uv 0.3,0.4", nullptr},
         {"bump-table", "bump-table " + bricks + " -o a.exr --depth float", "a.exr"},
         {"normal-map", "normal-map " + torus + " --height " + bricks + " --amplitude 2% --size 96 -o a.png", "a.png"},
         {"surface", "surface --shape torus --resolution 32x16 -o a.ply", "a.ply"},
