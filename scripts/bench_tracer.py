@@ -3,7 +3,7 @@
 pixels of one sample, direct light alone, in turn.
 
 bench_tracer.py BUILD_FOLDER WORK_FOLDER ROUNDS: prints rows as the other benches do. Compared is the time of rendering
-alone: bake's render_seconds, Cycles' second picture with persistent data, POV-Ray's trace time."""
+alone: bake's seconds of rendering, Cycles' second picture with persistent data, POV-Ray's trace time."""
 import json
 import os
 import re
@@ -62,7 +62,7 @@ def write_povray_scene():
 def ours():
     text = run([bake, "render", "torus.toml", "-o", "ours.png", "--json"])
     found = json.loads(text[text.index("{"):])
-    return found["render_seconds"], found["rays"]
+    return found["seconds"]["render"], found["rays"]
 
 
 def cycles():
