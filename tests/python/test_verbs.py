@@ -105,10 +105,8 @@ def test_progress_is_told_and_what_it_raises_ends_the_work(meshes, tmp_path):
 
     start = time.monotonic()
     with pytest.raises(Enough):
-        bake.render(meshes / "torus.obj", out=tmp_path / "few.png", size=512, spp=4096, progress=stop)
+        bake.render(meshes / "torus.obj", out=tmp_path / "never.png", size=512, spp=4096, progress=stop)
     assert time.monotonic() - start < 30
-    with pytest.raises(Enough):
-        bake.normal_map(meshes / "bricks.png", out=tmp_path / "never.png", progress=stop)
     assert not (tmp_path / "never.png").exists()
 
 
