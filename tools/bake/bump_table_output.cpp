@@ -7,7 +7,11 @@ namespace {
 
 constexpr const char* bumpslopes_channels[] = {"b0_h", "b1_dhds", "b2_dhdt", "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt"};
 
-WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png,
+Vec2d extent_of(const BumpTableArgs& args, const BumpTable& table) {
+    return resolve_extent(args.options.extent_u, args.options.extent_v, table.width(), table.height());
+}
+
+WriteOptions write_options(const BumpTableArgs& args, const Vec2d& extent, Depth depth, bool png,
                            const std::optional<SlopeCode>& code = {}) {
     WriteOptions options{.depth = depth,
                          .compression = args.compression,
@@ -17,6 +21,13 @@ WriteOptions write_options(const BumpTableArgs& args, Depth depth, bool png,
     else options.channels = {"b_u", "b_v"};
     if (png) options.channels = {"R", "G", "B"};
     if (code) options.description = to_text(*code);
+    options.facts = {{"content", std::string("bump table")},
+                     {"slope_units", std::string(name(args.options.units))},
+                     {"amplitude", args.options.amplitude},
+                     {"units", std::string("object units")}};
+    if (code) options.facts.push_back({"range", std::vector<double>{-double(code->range), double(code->range)}});
+    if (args.options.units == SlopeUnits::world)
+        options.facts.push_back({"extent", std::vector<double>{extent.x, extent.y}});
     return options;
 }
 
@@ -61,14 +72,16 @@ constexpr float largest_half = 65504;
 void write_slopes(const BumpTableArgs& args, const BumpTable& table, Depth depth, const std::optional<SlopeCode>& code,
                   Progress& progress) {
     const bool png = code && picture_format(args.out) == PictureFormat::png;
-    ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2, write_options(args, depth, png, code));
+    ImageWriter writer(args.out, table.width(), table.height(), png ? 3 : 2,
+                       write_options(args, extent_of(args, table), depth, png, code));
     TableSink sink(writer, table.width(), code, png, depth == Depth::half ? largest_half : 0, args.out);
     for_bands(table, std::ref(sink), &progress);
     writer.finish();
 }
 
 void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth depth, Progress& progress) {
-    ImageWriter writer(args.out, table.width(), table.height(), table.channels(), write_options(args, depth, false));
+    ImageWriter writer(args.out, table.width(), table.height(), table.channels(),
+                       write_options(args, extent_of(args, table), depth, false));
     const auto write = [&](const float* values, int rows, int width) {
         const std::size_t count = std::size_t(6) * rows * width;
         const float most = depth == Depth::half ? largest_half : std::numeric_limits<float>::max();
@@ -94,7 +107,7 @@ void write_moments(const BumpTableArgs& args, const BumpTable& table, Depth dept
     writer.finish();
 }
 
-std::string_view name(SlopeUnits units) {
+std::string_view described(SlopeUnits units) {
     switch (units) {
     case SlopeUnits::difference: return "difference h[+1] - h[-1]";
     case SlopeUnits::texel: return "per texel";
@@ -115,7 +128,7 @@ void write_table(const BumpTableArgs& args, const BumpTable& table, Depth depth,
 std::string to_text(const BumpTableArgs& args, const BumpTableReport& r) {
     std::string text =
         format("%s: %d x %d, slopes %s, filter %s (%s), amplitude %g\n", printable(args.out).c_str(), r.table.width(),
-               r.table.height(), std::string(name(args.options.units)).c_str(),
+               r.table.height(), std::string(described(args.options.units)).c_str(),
                std::string(name(r.table.filter())).c_str(), describe_levels(r.height).c_str(), args.options.amplitude);
     if (r.code) text += "stored biased: " + to_text(*r.code) + "\n";
     if (r.height.step > 0)
@@ -130,7 +143,7 @@ nlohmann::json to_json(const BumpTableArgs& args, const BumpTableReport& r) {
                              {"height", r.table.height()},
                              {"channels", r.table.channels()},
                              {"filter", name(r.table.filter())},
-                             {"units", name(args.options.units)},
+                             {"units", described(args.options.units)},
                              {"amplitude", args.options.amplitude},
                              {"levels", r.height.levels},
                              {"step", r.height.step},

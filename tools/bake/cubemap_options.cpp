@@ -1,4 +1,5 @@
 #include "cubemap_options.h"
+#include "cubemap_engine.h"
 #include "inputs/file_kind.h"
 #include "options.h"
 #include <cmath>
@@ -64,8 +65,10 @@ void add_filter_options(CLI::App& sub, CubemapArgs& args) {
 void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
     sub.add_option("input", args.inputs,
                    "Six faces in any order, a pattern with %s, one image, or labels: the built-in test sky");
-    sub.add_option("-o,--out", args.target.file,
-                   "File to write (.exr, .tif, .png); with %s: six files, named px nx py ny pz nz")
+    sub.add_option(
+           "-o,--out", args.target.file,
+           "File to write (.exr, .tif, .png); with %s: six files, named px nx py ny pz nz; with --for also .dds, .ktx2 "
+           "or a folder")
         ->required();
     add_choice(sub, "--from", args.reading.from, format_names(false),
                "Format of the input; auto: by its tag or its shape");
@@ -79,6 +82,7 @@ void add_cubemap_options(CLI::App& sub, CubemapArgs& args) {
         {{"auto", Samples::automatic}, {"1", Samples::one}, {"4x4", Samples::grid4}, {"exact", Samples::exact}},
         "Samples of the input per texel; exact: by overlap of solid angles, no light is lost");
     add_filter_options(sub, args);
+    add_engine_options(sub, args);
     add_choice<FaceOrder>(
         sub, "--order", args.target.order, {{"gl", FaceOrder::gl}, {"openexr", FaceOrder::openexr}},
         "Order and rotation of written faces and strips; gl is also Direct3D's, Vulkan's and RenderMan's");
@@ -126,6 +130,7 @@ void check_cubemap_options(CubemapArgs& args) {
     if (args.capture.empty() != args.at.empty())
         throw usage(args.at.empty() ? "--capture: needs --at x,y,z, the point to look from"
                                     : "--at: is for --capture; add a scene");
+    check_engine_options(args);
     for (const std::string& input : args.inputs) expect_picture(input);
     if (!args.capture.empty()) expect_scene(args.capture);
     if (!args.at.empty()) args.position = parse_point(args.at);

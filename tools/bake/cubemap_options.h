@@ -1,5 +1,6 @@
 // Options of bake cubemap.
 #pragma once
+#include "bake/environment/engine/engine_files.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/environment/file/write_environment.h"
 #include "bake/environment/filter/irradiance.h"
@@ -13,6 +14,16 @@ namespace bake {
 
 enum class Specular { none, ggx, phong };
 
+struct EngineArgs {
+    std::optional<Consumer> consumer;
+    std::optional<TexelFormat> texels;
+    bool levels_as_files = false;
+
+    EngineOptions options(int size, bool whole_set) const {
+        return {consumer.value_or(Consumer::three), size, texels, levels_as_files, whole_set};
+    }
+};
+
 struct CubemapArgs {
     std::vector<std::string> inputs;
     std::string capture, at; ///< a scene and the point to look from
@@ -23,6 +34,8 @@ struct CubemapArgs {
     std::string irradiance, roughness;
     Specular specular = Specular::none;
     EnvironmentTarget target;
+    EngineArgs engine;
+    std::string sh_file; ///< text with coefficients of spherical harmonics
 
     // Set by check_cubemap_options.
     Vec3f position{0};

@@ -7,6 +7,7 @@
 #include "bake/picture/image_io.h"
 #include "bake/preview/capture.h"
 #include "bake/preview/scene_io.h"
+#include "cubemap_engine.h"
 #include "cubemap_options.h"
 #include "cubemap_report.h"
 #include "options.h"
@@ -55,12 +56,17 @@ Cube plain_cube(const Environment& sky, int edge, const CubemapArgs& args, Progr
     return cube;
 }
 
-EnvironmentWritten write(CubemapArgs& args, const Environment& sky, Progress& progress) {
+EnvironmentWritten write(CubemapArgs& args, const Environment& sky, Progress& progress,
+                         std::optional<ShCoefficients>& sh) {
     const int source = sky.face_edge(), wanted = wanted_edge(args.target);
     std::vector<Cube> levels;
     if (args.wanted_irradiance) {
         if (wanted > 0) args.wanted_irradiance->size = wanted;
-        levels.push_back(irradiance(plain_cube(sky, source, args, progress), *args.wanted_irradiance, &progress));
+        const Cube cube = plain_cube(sky, source, args, progress);
+        levels.push_back(irradiance(cube, *args.wanted_irradiance, &progress));
+        if (args.wanted_irradiance->method == IrradianceMethod::sh)
+            sh = engine_sh(cube, args.wanted_irradiance->bands, ShForm::irradiance);
+        if (!args.sh_file.empty()) write_sh_text(args.sh_file, *sh);
     } else if (args.wanted_specular) {
         args.wanted_specular->size = wanted;
         levels = prefilter(plain_cube(sky, source, args, progress), *args.wanted_specular, &progress);
@@ -94,18 +100,33 @@ void check_output(const CubemapArgs& args) {
                  edge);
 }
 
+int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const EngineOutput& output,
+                   const Environment& sky, const EnvironmentReport& report, Progress& progress, Stopwatch& watch) {
+    nlohmann::json json = {{"from", name(report.format)}, {"notes", reading_notes(report)}};
+    const std::string text = write_for_engine(args, output, sky, progress, json);
+    progress.finish();
+    watch.lap("convert, filter and write");
+    for (const std::string& line : reading_notes(report)) note(common, line);
+    print_result(common, text + "; ", json, watch);
+    return 0;
+}
+
 int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     check_cubemap_options(args);
-    check_output(args);
+    const EngineOutput engine(args);
+    const auto check = [&] { args.engine.consumer ? engine.check() : check_output(args); };
+    check();
     Stopwatch watch;
     Progress progress(common.quiet || common.json);
     progress.start("read", 0);
     EnvironmentReport report;
     const Environment sky = load_sky(args, common, progress, report);
-    check_output(args); // once more, as it may not replace what was read
+    check(); // once more, as it may not replace what was read
     watch.lap("read");
+    if (args.engine.consumer) return run_for_engine(args, common, engine, sky, report, progress, watch);
     args.target.source = report.type;
-    const EnvironmentWritten written = write(args, sky, progress);
+    std::optional<ShCoefficients> sh;
+    const EnvironmentWritten written = write(args, sky, progress, sh);
     progress.finish();
     watch.lap("convert and write");
 
@@ -113,11 +134,13 @@ int run_cubemap(CubemapArgs args, const CommonArgs& common) {
     for (const std::string& line : notes) note(common, line);
     nlohmann::json json = cubemap_json(args, report, written, sky.channels());
     json["notes"] = notes;
+    if (sh) json["sh"] = sh_json(*sh);
     print_result(common,
-                 format("%s: %s, %d x %d%s%s; ", printable(args.target.file).c_str(), name(written.target.to),
-                        written.width, written.height,
-                        written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
-                        seam_text(report).c_str()),
+                 (sh && sh->bands <= 3 ? sh_lines(*sh) + "\n" : "") +
+                     format("%s: %s, %d x %d%s%s; ", printable(args.target.file).c_str(), name(written.target.to),
+                            written.width, written.height,
+                            written.levels > 1 ? format(", %d levels", written.levels).c_str() : "",
+                            seam_text(report).c_str()),
                  json, watch);
     return 0;
 }

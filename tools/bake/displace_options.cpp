@@ -79,8 +79,10 @@ void complete(DisplaceArgs& args) {
     if (args.edge_px.has_value() == args.camera.empty())
         throw usage(args.camera.empty() ? "--edge-px: needs the --camera whose pixels they are"
                                         : "--camera: is for --edge-px; give both or none");
-    if (args.vector && (args.height.grey != Grey::mean || args.height.invert || args.height.dequantise))
-        throw usage("--vector: takes three channels as they are; leave out --channel, --invert and --dequantise");
+    const bool repeats = args.height.repeat != std::pair(1, 1);
+    if (args.vector && (args.height.grey != Grey::mean || args.height.invert || args.height.dequantise || repeats))
+        throw usage("--vector: takes three channels as they are; leave out --channel, --invert, --dequantise and "
+                    "--repeat");
     if (args.kind == BaseKind::automatic) args.kind = has_rates ? BaseKind::linear : BaseKind::none;
 }
 

@@ -107,7 +107,11 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     watch.lap("displace");
     progress.start("write", 0);
     if (args.margin) add_margin(displaced);
-    o.file_bytes = std::uintmax_t(write_mesh(args.out, displaced.mesh));
+    o.file_bytes = std::uintmax_t(write_mesh(args.out, displaced.mesh,
+                                             {{"content", std::string("displaced mesh")},
+                                              {"amplitude", o.amplitude},
+                                              {"midlevel", o.midlevel},
+                                              {"units", std::string("object units")}}));
     watch.lap("write");
     if (args.audit) {
         progress.start("audit", 0);

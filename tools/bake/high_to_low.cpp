@@ -39,9 +39,11 @@ std::vector<std::unique_ptr<ImageWriter>> open_maps(const HighArgs& args, const 
     for (const DetailMap map : args.maps) {
         const std::vector<std::string> names =
             channels(map) == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
-        writers.push_back(std::make_unique<ImageWriter>(args.maps_out + "_" + name(map) + ".exr", options.width,
-                                                        options.height, channels(map),
-                                                        WriteOptions{.depth = Depth::float32, .channels = names}));
+        writers.push_back(std::make_unique<ImageWriter>(
+            args.maps_out + "_" + name(map) + ".exr", options.width, options.height, channels(map),
+            WriteOptions{.depth = Depth::float32,
+                         .channels = names,
+                         .facts = {{"content", std::string(name(map))}, {"units", std::string("object units")}}}));
     }
     return writers;
 }

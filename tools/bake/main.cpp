@@ -6,6 +6,7 @@
 #include "bake/base/text.h"
 #include "bake/preview/nearest_key.h"
 #include "inputs/number_option.h"
+#include "run_description.h"
 #include "verb.h"
 #include "version_text.h"
 #include <algorithm>
@@ -191,6 +192,7 @@ int run(int argc, char** argv, std::optional<MemoryCap>& cap) {
     [[maybe_unused]] static const auto* const limit = new ThreadLimit(common.threads);
     // The threads of TBB and those of OpenEXR.
     if (const auto group = control_group_limit()) cap.emplace(*group, 2 * thread_count());
+    const RunRecord record(describe_run(*app.get_subcommands().front()));
     return chosen();
 }
 

@@ -61,6 +61,21 @@ void write_with_alpha(ImageWriter& writer, const Image<float>& map, const Image<
     }
 }
 
+Facts facts_of(const NormalMapArgs& args, const HeightOptions* relief) {
+    Facts facts = {{"content", std::string("normal map")},
+                   {"space", std::string(args.space == Space::tangent ? "tangent" : "object")},
+                   {"green", std::string(args.directx ? "down" : "up")},
+                   {"decode", std::string("2 rgb - 1")},
+                   {"range", std::vector<double>{-1, 1}}};
+    if (args.space == Space::tangent && !args.mesh.empty()) facts.push_back({"tangents", std::string("MikkTSpace")});
+    if (relief) {
+        facts.push_back({"amplitude", relief->amplitude});
+        facts.push_back({"midlevel", relief->midlevel});
+        facts.push_back({"units", std::string("object units")});
+    }
+    return facts;
+}
+
 } // namespace
 
 std::string to_text(const StoredNormalMap& stored) {
@@ -89,16 +104,18 @@ nlohmann::json to_json(const StoredNormalMap& stored) {
     return out;
 }
 
-NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth)
+NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth, const HeightOptions* relief)
     : args_(args), depth_(depth) {
     const int levels = std::bit_width(unsigned(std::max(width, height)));
     if (args.skip_mips >= levels)
         throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
                                            args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
-    else if (args.high.alpha)
-        picture_.emplace(args.out, width, height, 4, WriteOptions{.depth = depth, .channels = {"R", "G", "B", "A"}});
-    else picture_.emplace(args.out, width, height, 3, WriteOptions{.depth = depth, .channels = {"R", "G", "B"}});
+    else {
+        WriteOptions options{.depth = depth, .channels = {"R", "G", "B"}, .facts = facts_of(args, relief)};
+        if (args.high.alpha) options.channels.push_back("A");
+        picture_.emplace(args.out, width, height, int(options.channels.size()), options);
+    }
     if (!args.roughness_map.empty()) roughness_.emplace(args.roughness_map);
 }
 

@@ -22,8 +22,9 @@ nlohmann::json to_json(const StoredNormalMap& stored);
 
 class NormalMapFile {
 public:
-    /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it.
-    NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth);
+    /// Opens the files, so that a long bake does not fail at its end. `depth` as resolve_map_depth() gives it; `relief`: the
+    /// height that the map is of, if it is of one, for the record of the file.
+    NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth, const HeightOptions* relief = nullptr);
     /// Writes and completes them. Says how a texture or a dithered picture was stored; nothing for another picture.
     /// `alpha`: the fourth channel of a picture under --alpha.
     std::optional<StoredNormalMap> write(const Image<float>& map, const Image<float>& alpha = {});

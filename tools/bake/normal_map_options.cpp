@@ -1,8 +1,10 @@
 #include "normal_map_options.h"
 #include "bake/picture/texture_file.h"
+#include "bake/verdict/inspect.h"
 #include "bevel_bake.h"
 #include "inputs/file_kind.h"
 #include "inputs/tile_names.h"
+#include <filesystem>
 
 namespace bake {
 
@@ -20,6 +22,16 @@ void add_normal_options(CLI::App& sub, NormalMapArgs& args) {
                       "tangent: MikkTSpace");
     sub.add_flag("--directx", args.directx, "Green points down, as DirectX and Unreal expect");
     add_tile_option(sub, args.tile);
+}
+
+void add_target_options(CLI::App& sub, NormalMapArgs& args) {
+    add_engine_option(sub, args.engine);
+    CLI::Option* const like =
+        sub.add_option("--like", args.like,
+                       "A normal map of the same height by another program: its strength and its green are taken")
+            ->type_name("NORMAL.png");
+    for (const char* flag : {"--amplitude", "--directx", "--invert", "--midlevel"})
+        like->excludes(sub.get_option(flag));
 }
 
 void add_texture_options(CLI::App& sub, NormalMapArgs& args) {
@@ -91,6 +103,39 @@ Depth resolve_map_depth(const NormalMapArgs& args) {
     return depth;
 }
 
+void take_likeness(NormalMapArgs& args) {
+    if (args.like.empty()) return;
+    const PairReport pair = inspect_pair(args.height.path, args.like, {.height_channel = args.height.grey});
+    if (!pair.recipe)
+        throw Error(Refusal::unsuitable, args.like + ": does not show the relief of " + args.height.path +
+                                             "; see bake check --pair, and give --amplitude instead");
+    args.like_amplitude = pair.recipe->amplitude;
+    args.height.invert = pair.recipe->invert;
+    if (!args.engine) args.directx = pair.recipe->directx;
+    if (args.mesh.empty() && !args.extent && pair.recipe->extent_v > 0) args.extent = Vec2d(1, pair.recipe->extent_v);
+}
+
+void complete_engine(NormalMapArgs& args) {
+    if (!args.engine) {
+        if (names_folder(args.out))
+            throw Error(Refusal::usage, "-o " + args.out +
+                                            ": is a folder; name a file in it, or say by --for what "
+                                            "loads it, which names the file");
+        return;
+    }
+    const Engine& engine = *args.engine;
+    if (args.directx && !engine.directx)
+        throw Error(Refusal::usage,
+                    std::string("--directx, --for ") + engine.name + ": it expects green up; leave out one of the two");
+    if (names_folder(args.out)) {
+        const std::string& of = args.height.path.empty() ? args.mesh : args.height.path;
+        args.out = normal_map_name(engine, args.out, std::filesystem::path(of).stem().string());
+    }
+    args.directx = engine.directx && args.space == Space::tangent;
+    if (args.depth == MapDepth::automatic && picture_format(args.out) == PictureFormat::png)
+        args.depth = engine.depth == Depth::u8 ? MapDepth::u8 : MapDepth::u16;
+}
+
 void complete(NormalMapArgs& args, const std::string& verb) {
     const auto usage = [](const std::string& message) { return Error(Refusal::usage, message); };
     complete(args.high);
@@ -111,6 +156,7 @@ void complete(NormalMapArgs& args, const std::string& verb) {
         std::swap(args.height.path, args.mesh);
     }
     if (!args.high.given() && !args.bevel) expect_picture(args.height.path);
+    if (!args.like.empty()) expect_picture(args.like);
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");

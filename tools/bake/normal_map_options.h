@@ -2,6 +2,7 @@
 #pragma once
 #include "bake/relief/map/normal_map.h"
 #include "high_options.h"
+#include "inputs/engine.h"
 #include "options.h"
 
 namespace bake {
@@ -21,6 +22,9 @@ struct NormalMapArgs {
     HeightInput height;
     HighArgs high;               ///< instead of a height
     std::optional<Length> bevel; ///< radius of rounded edges, instead of both
+    EngineChoice engine = nullptr;
+    std::string like;          ///< a normal map whose amplitude and green are taken
+    double like_amplitude = 0; ///< of that map, in widths of the picture; set by take_likeness()
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
@@ -34,14 +38,22 @@ struct NormalMapArgs {
 
 /// The options that the normal of one texel depends on.
 void add_normal_options(CLI::App& sub, NormalMapArgs& args);
+/// --for and --like, after the options that they stand for.
+void add_target_options(CLI::App& sub, NormalMapArgs& args);
 /// --padding, --depth, --dither, --skip-mips, --roughness-map and --roughness.
 void add_texture_options(CLI::App& sub, NormalMapArgs& args);
+/// Takes green, depth and the file's name from --for, where the user gave no others. Throws Error{Refusal::usage} for a
+/// folder without --for.
+void complete_engine(NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.
 Depth resolve_map_depth(const NormalMapArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other, before anything is read. A lone picture is the
 /// height of a flat rectangle.
 void complete(NormalMapArgs& args, const std::string& verb);
+/// Takes amplitude, green and inversion from the normal map `like`, as bake check --pair finds them. Throws
+/// Error{Refusal::unsuitable} if the two do not show the same relief.
+void take_likeness(NormalMapArgs& args);
 /// The arguments of each map: those given, or one for each tile of the mesh if the name of the map has <UDIM> in it.
 std::vector<NormalMapArgs> args_of_tiles(const NormalMapArgs& args, const Mesh& mesh);
 /// What an amplitude in per cent refers to: the mesh's diagonal, or the width of the picture without a mesh.

@@ -51,8 +51,6 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     const NormalMapOptions& options = result.options;
     result.mesh_notes = in.mesh.notes, result.notes = in.notes;
     result.filter = resolve_filter(options.filter, in.height);
-    // Opened before the work, so that a long bake does not fail at its end.
-    NormalMapFile file(args, options.width, options.height, depth);
     std::optional<BakeTarget> target, displaced;
     if (!args.mesh.empty()) {
         target = make_bake_target(in.mesh, args.mesh, options.width, options.height, options.tile);
@@ -60,6 +58,11 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
             displaced = make_bake_target(in.diced, args.displaced, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
     }
+    if (!args.like.empty())
+        result.options.height_options.amplitude =
+            args.like_amplitude * (target ? double(target->scale.u) : args.extent.value_or(Vec2d(1)).x);
+    // Opened before the work, so that a long bake does not fail at its end.
+    NormalMapFile file(args, options.width, options.height, depth, &options.height_options);
     const HeightField field(in.height, options.height_options, options.filter, options.width, options.height);
     progress.start("bake", options.height);
     const Depth judged = args.dither ? Depth::float32 : depth; // what dithering costs is measured in the file
@@ -86,6 +89,7 @@ std::vector<std::pair<NormalMapArgs, NormalMapResult>> bake_all(const NormalMapA
 }
 
 int run(NormalMapArgs& args, const CommonArgs& common) {
+    complete_engine(args);
     const Depth depth = resolve_map_depth(args);
     complete(args, "normal-map");
     if (args.high.given()) return bake_high(args, depth, common);
@@ -93,6 +97,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
+    take_likeness(args);
     Inputs in{.height = load_height(args.height, common)};
     if (!args.mesh.empty()) in.mesh = read_mesh(args.mesh, args.read);
     if (!args.displaced.empty()) in.diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
@@ -109,8 +114,10 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     note_all(common, args.mesh, in.mesh.notes);
     for (const auto& [one, result] : baked) warn(common, one, result.report);
     const NormalMapResult& first = baked[0].second;
-    note(common,
-         default_amplitude_note(args.height, in.height.info, first.options.height_options, whole_of(args, in.mesh)));
+    if (args.engine) note(common, size_note(*args.engine, first.options.width, first.options.height));
+    if (args.like.empty())
+        note(common, default_amplitude_note(args.height, in.height.info, first.options.height_options,
+                                            whole_of(args, in.mesh)));
     if (const std::string doubt = describe(first.method_error, first.options.method); !doubt.empty())
         note(common, doubt + "; use --method exact");
     if (first.advice) note(common, to_text(*first.advice));
@@ -135,6 +142,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         ->type_name("DISPLACED.glb");
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_texture_options(sub, *args);
+    add_target_options(sub, *args);
     add_examples(
         sub,
         "  bake normal-map meshes/bricks.png -o bricks.png\n"

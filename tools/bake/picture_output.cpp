@@ -24,6 +24,9 @@ float write_picture(const PictureOutput& output, const Passes& passes) {
     encode(image, output.depth, output.tone, exposure);
     WriteOptions options{.depth = output.depth,
                          .colour = is_shown(output.depth) ? ColourSpace::srgb : ColourSpace::automatic};
+    options.facts = {{"content", std::string("picture")},
+                     {"encoding", std::string(is_shown(output.depth) ? "as shown" : "linear radiance")}};
+    if (is_shown(output.depth)) options.facts.push_back({"exposure", double(exposure)});
     if (output.layers) options.channels = layer_channels(output.halves);
     write_image(output.path, image, options);
     return exposure;

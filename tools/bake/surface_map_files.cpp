@@ -28,9 +28,11 @@ std::vector<std::unique_ptr<ImageWriter>> open_maps(const std::string& prefix,
                                                     const SurfaceMapOptions& options) {
     std::vector<std::unique_ptr<ImageWriter>> writers;
     for (const MapQuantity q : quantities)
-        writers.push_back(
-            std::make_unique<ImageWriter>(map_file(prefix, q), options.width, options.height, channels(q),
-                                          WriteOptions{.depth = Depth::float32, .channels = channel_names(q)}));
+        writers.push_back(std::make_unique<ImageWriter>(
+            map_file(prefix, q), options.width, options.height, channels(q),
+            WriteOptions{.depth = Depth::float32,
+                         .channels = channel_names(q),
+                         .facts = {{"content", std::string(name(q))}, {"units", std::string("object units")}}}));
     return writers;
 }
 

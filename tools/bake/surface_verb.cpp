@@ -110,7 +110,7 @@ int run(const SurfaceArgs& args, const CommonArgs& common) {
         watch.lap("maps");
     }
     progress.finish();
-    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh));
+    if (!args.out.empty()) write_mesh(args.out, without_repeats(mesh.mesh), {{"content", std::string("surface")}});
     write_maps(maps.writers, maps.images);
     watch.lap("write");
 

@@ -42,7 +42,7 @@ FileBytes read_file(const std::string& path) {
     if (!S_ISREG(status.st_mode))
         throw Error(Refusal::unreadable, path + ": is not a regular file; copy its contents into one");
 
-    remember_input(status);
+    remember_input(path, status);
     FileBytes bytes;
     bytes.size = std::size_t(status.st_size);
     const MemoryLimit memory = memory_limit();

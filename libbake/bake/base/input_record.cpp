@@ -1,15 +1,22 @@
 #include "bake/base/input_record.h"
+#include "bake/base/content_hash.h"
+#include <algorithm>
 #include <atomic>
+#include <filesystem>
+#include <map>
 #include <mutex>
-#include <set>
 #include <sys/stat.h>
+#include <tuple>
 #include <utility>
 
 namespace bake {
 
 struct InputRecord::Files {
     std::mutex mutex;
-    std::set<std::pair<dev_t, ino_t>> known;
+    struct Named {
+        std::string path, hash;
+    };
+    std::map<std::pair<dev_t, ino_t>, Named> known;
 };
 
 namespace {
@@ -21,11 +28,11 @@ std::atomic<InputRecord::Files*> current = nullptr;
 InputRecord::InputRecord() : files_(std::make_unique<Files>()) { current = files_.get(); }
 InputRecord::~InputRecord() { current = nullptr; }
 
-void remember_input(const struct stat& file) {
+void remember_input(const std::string& path, const struct stat& file) {
     InputRecord::Files* const files = current;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
-    files->known.emplace(file.st_dev, file.st_ino);
+    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputRecord::Files::Named{path, ""});
 }
 
 bool is_input(const struct stat& file) {
@@ -33,6 +40,21 @@ bool is_input(const struct stat& file) {
     if (!files) return false;
     const std::lock_guard lock(files->mutex);
     return files->known.contains({file.st_dev, file.st_ino});
+}
+
+std::vector<InputFile> recorded_inputs() {
+    InputRecord::Files* const files = current;
+    if (!files) return {};
+    std::vector<InputFile> out;
+    const std::lock_guard lock(files->mutex);
+    for (auto& [file, named] : files->known) {
+        if (named.hash.empty()) named.hash = file_hash(named.path).value_or("");
+        out.push_back({std::filesystem::path(named.path).filename().string(), named.hash});
+    }
+    std::sort(out.begin(), out.end(), [](const InputFile& a, const InputFile& b) {
+        return std::tie(a.name, a.hash) < std::tie(b.name, b.hash);
+    });
+    return out;
 }
 
 } // namespace bake

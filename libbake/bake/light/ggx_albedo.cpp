@@ -158,6 +158,11 @@ const Table& table() noexcept {
 
 } // namespace
 
+GgxAlbedo integrated_ggx_albedo(double alpha, double mu) noexcept {
+    const Pair found = integrate(alpha, mu);
+    return {float(std::max(0.0, found.loss)), float(found.schlick)};
+}
+
 GgxRow ggx_row(float alpha) noexcept {
     alpha = std::clamp(alpha, least_ggx_alpha, 1.f);
     const Cubic<rows> x(node_of_alpha(alpha));

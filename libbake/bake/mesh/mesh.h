@@ -58,6 +58,7 @@ struct Mesh {
 
     Vec3d origin{0};                ///< of the positions; zero unless the mesh is far from zero (mesh/origin.h)
     std::vector<std::string> notes; ///< what the reader applied or left out that the mesh does not show
+    std::string record;             ///< how its file was made, as record_text() of base/provenance.h has it
 
     std::size_t faces() const noexcept { return face_begin.size() - 1; }
     std::size_t corners() const noexcept { return corner_position.size(); }

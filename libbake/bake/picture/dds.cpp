@@ -1,9 +1,11 @@
 #include "bake/picture/dds.h"
 #include "bake/base/progress.h"
 #include "bake/picture/bc5.h"
+#include "bake/picture/bc6h.h"
 #include "bake/picture/dds_header.h"
 #include "bake/picture/ktx2_header.h"
 #include "bake/picture/masked_texels.h"
+#include "bake/picture/rgb9e5.h"
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -12,27 +14,42 @@
 namespace bake {
 namespace {
 
-MaskedTexels masked_texels(const DdsHeader& header) {
-    return {.width = header.width,
-            .height = header.height,
-            .offset = header.offset,
-            .row_bytes = header.width * header.texel_bytes,
+/// A level of one face.
+struct Part {
+    std::int64_t width, height, offset;
+};
+
+Part part_of(const DdsHeader& header, std::int64_t level, std::int64_t face) noexcept {
+    return {std::max<std::int64_t>(1, header.width >> level), std::max<std::int64_t>(1, header.height >> level),
+            header.level_at[std::size_t(level)] + face * header.face_step[std::size_t(level)]};
+}
+
+MaskedTexels masked_texels(const DdsHeader& header, const Part& part) {
+    return {.width = part.width,
+            .height = part.height,
+            .offset = part.offset,
+            .row_bytes = part.width * header.texel_bytes,
             .texel_bytes = header.texel_bytes,
             .masks = header.masks};
+}
+
+/// Names of the channels as they are read.
+std::vector<std::string> channels_of(const DdsHeader& header) {
+    return header.code == TexelCode::samples ? header.channels : std::vector<std::string>{"R", "G", "B"};
 }
 
 int bits_of(SampleType type) noexcept { return type == SampleType::float32 ? 32 : 16; }
 
 void describe(const PictureFile& file, const DdsHeader& header, const ReadLimits& limits, ImageInfo& info) {
-    info.channels = header.bc5 ? std::vector<std::string>{"R", "G", "B"} : header.channels;
+    info.channels = channels_of(header);
     info.alpha_channel = header.alpha_channel;
     const auto before_alpha = int(info.channels.size()) - (header.alpha_channel >= 0 ? 1 : 0);
     info.colours = before_alpha == 1 || before_alpha == 3 ? before_alpha : 0;
     const Window window{0, 0, int(header.width), int(header.height * header.faces)};
     check_size(file.path(), file.size(), {window, window, int(info.channels.size())}, limits);
-    info.type = header.bc5 ? SampleType::float32 : header.type, info.bits = bits_of(info.type);
-    if (header.bc5) info.notes.push_back("is compressed as BC5: z is computed from x and y");
-    if (!header.masks.empty()) describe_masked(file, masked_texels(header), limits, info);
+    info.type = header.code == TexelCode::samples ? header.type : SampleType::float32, info.bits = bits_of(info.type);
+    if (header.code == TexelCode::bc5) info.notes.push_back("is compressed as BC5: z is computed from x and y");
+    if (!header.masks.empty()) describe_masked(file, masked_texels(header, part_of(header, 0, 0)), limits, info);
     info.width = window.width, info.height = window.height;
     if (header.faces == 6) info.environment = EnvironmentTag::cube;
     if (header.srgb) info.srgb_tagged = true, info.colour = {.source = "DXGI format", .curves = {srgb_curve()}};
@@ -56,56 +73,84 @@ float sample_at(const char* at, SampleType type) noexcept {
     }
 }
 
-/// The largest level of the face that begins at `offset`.
-void read_samples(const PictureFile& file, const DdsHeader& header, std::int64_t offset, float* to) {
-    std::string row(std::size_t(header.width * header.texel_bytes), '\0');
+void read_all(const PictureFile& file, std::int64_t offset, std::string& bytes) {
+    if (file.read(offset, bytes.data(), std::int64_t(bytes.size())) != std::int64_t(bytes.size()))
+        throw unreadable(file.path(), "is cut short");
+}
+
+void read_samples(const PictureFile& file, const DdsHeader& header, const Part& part, float* to) {
+    std::string row(std::size_t(part.width * header.texel_bytes), '\0');
     const auto row_size = std::int64_t(row.size()), sample_bytes = std::int64_t(bits_of(header.type) / 8);
-    for (std::int64_t y = 0; y < header.height; ++y) {
+    for (std::int64_t y = 0; y < part.height; ++y) {
         if (y % 256 == 0) throw_if_interrupted();
-        if (file.read(offset + y * row_size, row.data(), row_size) != row_size)
-            throw unreadable(file.path(), "is cut short");
+        read_all(file, part.offset + y * row_size, row);
         for (std::int64_t at = 0; at < row_size; at += sample_bytes) *to++ = sample_at(row.data() + at, header.type);
     }
 }
 
-/// The same of BC5.
-void read_blocks(const PictureFile& file, const DdsHeader& header, std::int64_t offset, float* to) {
-    Image<float> normals(int(header.width), int(header.height), 3);
-    std::string blocks(bc5_bytes(normals.width(), normals.height()), '\0');
-    if (file.read(offset, blocks.data(), std::int64_t(blocks.size())) != std::int64_t(blocks.size()))
-        throw unreadable(file.path(), "is cut short");
-    bc5_decode(blocks.data(), normals);
-    for (std::size_t i = 0; i < normals.size(); ++i) to[i] = 0.5f * normals.data()[i] + 0.5f;
+void read_shared_exponents(const PictureFile& file, const Part& part, float* to) {
+    std::string bytes(std::size_t(part.width * part.height * 4), '\0');
+    read_all(file, part.offset, bytes);
+    for (std::size_t at = 0; at < bytes.size(); at += 4)
+        for (const float value : rgb9e5_decode(little_endian(bytes, at, 4))) *to++ = value;
 }
 
-void read_levels(const PictureFile& file, const DdsHeader& header, const ReadLimits& limits, ImageInfo& info,
-                 Image<float>* image) {
-    describe(file, header, limits, info);
-    if (!image) return;
-    *image = Image<float>(info.width, info.height, int(info.channels.size()));
+void read_blocks(const PictureFile& file, TexelCode code, const Part& part, float* to) {
+    Image<float> texels(int(part.width), int(part.height), 3);
+    std::string blocks(bc6h_bytes(texels.width(), texels.height()), '\0'); // BC5 has as many
+    read_all(file, part.offset, blocks);
+    if (code == TexelCode::bc6h) bc6h_decode(blocks.data(), texels);
+    else bc5_decode(blocks.data(), texels);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        to[i] = code == TexelCode::bc6h ? texels.data()[i] : 0.5f * texels.data()[i] + 0.5f;
+}
+
+/// The faces below each other.
+Image<float> read_level(const PictureFile& file, const DdsHeader& header, std::int64_t level) {
+    const Part first = part_of(header, level, 0);
+    Image<float> image(int(first.width), int(first.height * header.faces), int(channels_of(header).size()));
     for (std::int64_t face = 0; face < header.faces; ++face) {
-        float* const to = image->row(int(face * header.height));
-        MaskedTexels texels = masked_texels(header);
-        texels.offset += face * header.face_bytes;
-        if (header.bc5) read_blocks(file, header, texels.offset, to);
-        else if (header.masks.empty()) read_samples(file, header, texels.offset, to);
-        else read_masked(file, texels, to);
+        const Part part = part_of(header, level, face);
+        float* const to = image.row(int(face * part.height));
+        if (header.code == TexelCode::rgb9e5) read_shared_exponents(file, part, to);
+        else if (header.code != TexelCode::samples) read_blocks(file, header.code, part, to);
+        else if (header.masks.empty()) read_samples(file, header, part, to);
+        else read_masked(file, masked_texels(header, part), to);
     }
+    return image;
+}
+
+void read_largest(const PictureFile& file, const DdsHeader& header, const ReadLimits& limits, ImageInfo& info,
+                  Image<float>* image) {
+    describe(file, header, limits, info);
+    if (image) *image = read_level(file, header, 0);
+}
+
+std::vector<Image<float>> read_levels(const PictureFile& file, const DdsHeader& header) {
+    std::vector<Image<float>> levels;
+    for (std::int64_t level = 0; level < header.levels; ++level) levels.push_back(read_level(file, header, level));
+    return levels;
 }
 
 } // namespace
 
 bool read_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
     const DdsHeader header = read_dds_header(file);
-    if (header.block_bytes > 0 && !header.bc5) return false;
+    if (header.block_bytes > 0 && header.code == TexelCode::samples) return false;
     info.format = "dds";
-    read_levels(file, header, limits, info, image);
+    read_largest(file, header, limits, info, image);
     return true;
 }
 
 void read_ktx2(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image) {
     info.format = "ktx2";
-    read_levels(file, read_ktx2_header(file), limits, info, image);
+    read_largest(file, read_ktx2_header(file), limits, info, image);
+}
+
+std::vector<Image<float>> read_dds_levels(const PictureFile& file) { return read_levels(file, read_dds_header(file)); }
+
+std::vector<Image<float>> read_ktx2_levels(const PictureFile& file) {
+    return read_levels(file, read_ktx2_header(file));
 }
 
 } // namespace bake

@@ -1,4 +1,4 @@
-// DDS that are not compressed, or compressed as BC5, and KTX2 of the same formats. Other compressed DDS are read by OpenImageIO.
+// DDS that are not compressed, or compressed as BC5 or unsigned BC6H, and KTX2 of the same formats. Other compressed DDS are read by OpenImageIO.
 #pragma once
 #include "bake/picture/picture_file.h"
 
@@ -10,5 +10,9 @@ namespace bake {
 bool read_dds(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
 /// The same for KTX2; what is not read is refused.
 void read_ktx2(const PictureFile& file, const ReadLimits& limits, ImageInfo& info, Image<float>* image);
+
+/// All levels, the largest first, for what is read here. Throws as read_image.
+std::vector<Image<float>> read_dds_levels(const PictureFile& file);
+std::vector<Image<float>> read_ktx2_levels(const PictureFile& file);
 
 } // namespace bake

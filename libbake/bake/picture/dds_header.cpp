@@ -175,7 +175,11 @@ std::int64_t level_bytes(const DdsHeader& header, std::int64_t level) noexcept {
 
 bool set_dxgi_texels(const PictureFile& file, std::uint32_t number, DdsHeader& header) {
     constexpr const char* names[] = {"R", "G", "B", "A"};
-    header.bc5 = number == 83;
+    header.code = number == 83 ? TexelCode::bc5 : number == 95 ? TexelCode::bc6h : TexelCode::samples;
+    if (number == 67) {
+        header.code = TexelCode::rgb9e5, header.texel_bytes = 4;
+        return true;
+    }
     if ((header.block_bytes = block_bytes("DX10", number)) > 0) return true;
     if (const auto* masked = find(std::begin(dxgi_masked), std::end(dxgi_masked), number))
         return set_masks(file, *masked, names, header), true;
@@ -194,7 +198,11 @@ DdsHeader read_dds_header(const PictureFile& file) {
     if (word(file, 80) & four_characters) read_code(file, header);
     else read_masks(file, header);
     read_parts(file, header);
-    for (std::int64_t level = 0; level < header.levels; ++level) header.face_bytes += level_bytes(header, level);
+    for (std::int64_t level = 0; level < header.levels; ++level) {
+        header.level_at.push_back(header.offset + header.face_bytes);
+        header.face_bytes += level_bytes(header, level);
+    }
+    header.face_step.assign(header.level_at.size(), header.face_bytes);
     // In double: a damaged count of arrays overflows 64 bits.
     const double claimed = double(header.face_bytes) * double(header.faces) * double(header.arrays);
     if (double(file.size() - header.offset) < claimed) throw unreadable(file.path(), "is cut short");

@@ -5,6 +5,14 @@
 
 namespace bake {
 
+/// What texels consist of.
+enum class TexelCode {
+    samples, ///< of one type, or by masks; or blocks that are not read here
+    bc5,     ///< in its unsigned form
+    bc6h,    ///< the same
+    rgb9e5,
+};
+
 struct DdsHeader {
     std::int64_t width = 0, height = 0; ///< of the largest level of one face
     std::int64_t levels = 1;            ///< of every face
@@ -13,8 +21,11 @@ struct DdsHeader {
     std::int64_t offset = 128;          ///< of the first texel
     std::int64_t face_bytes = 0;        ///< of a face with all its levels
 
+    /// Of the first face of each level, and from there to the same level of the next face.
+    std::vector<std::int64_t> level_at = {}, face_step = {};
+
     std::int64_t block_bytes = 0; ///< of 4 x 4 texels; 0 for a picture that is not compressed
-    bool bc5 = false;             ///< BC5 in its unsigned form, which is read here
+    TexelCode code = TexelCode::samples;
     std::int64_t texel_bytes = 0; ///< of a texel that is not compressed
     SampleType type = SampleType::u8;
     std::vector<std::string> channels = {}; ///< none for a compressed picture

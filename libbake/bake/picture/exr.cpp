@@ -111,6 +111,7 @@ ImageInfo describe(const Imf::Header& header, const LayerChoice& choice, const W
     }
     info.bits = info.type == SampleType::half ? 16 : 32;
     info.description = text_attribute(header, "comments");
+    info.record = valid_record(text_attribute(header, record_key));
     info.srgb_tagged = text_attribute(header, "oiio:ColorSpace") == "sRGB";
     if (info.srgb_tagged) info.colour = {.source = "oiio:ColorSpace attribute", .curves = {srgb_curve()}};
     info.colour.note = primaries_note(header);

@@ -69,6 +69,8 @@ Imf::Header header_for(const PictureSize& size, const WriteOptions& options) {
                                                                                 : nullptr;
     if (format) header.insert("textureformat", Imf::StringAttribute(format));
     if (!options.description.empty()) header.insert("comments", Imf::StringAttribute(options.description));
+    if (const std::string record = record_text(options.facts); !record.empty())
+        header.insert(record_key, Imf::StringAttribute(record));
     if (options.mips) header.setTileDescription({64, 64, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN});
     return header;
 }

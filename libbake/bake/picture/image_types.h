@@ -1,5 +1,6 @@
 // Types that describe picture files.
 #pragma once
+#include "bake/base/provenance.h"
 #include "bake/picture/colour.h"
 #include <cstdint>
 #include <string>
@@ -29,6 +30,7 @@ struct ImageInfo {
     bool palette = false;     ///< the values come from a palette that is not a grey ramp
     EnvironmentTag environment = EnvironmentTag::none;
     std::string description = {}; ///< free text: PNG Description, TIFF ImageDescription, EXR comments
+    std::string record = {};      ///< how the file was made, as record_text() of base/provenance.h has it
     ColourTag colour = {};        ///< how the file says its colours are encoded
     /// What the file says beside its texels that was applied to them or left out, one line each, without the file's name.
     std::vector<std::string> notes = {};
@@ -61,6 +63,7 @@ struct WriteOptions {
     ColourSpace colour =
         ColourSpace::automatic;   ///< integer samples get the tag sRGB or linear; automatic: data, no tag
     std::string description = {}; ///< free text, as ImageInfo
+    Facts facts = {};             ///< what the values mean, for the record of the file
     bool mips = false;            ///< tiles of 64 and a chain of levels, added by next_level(); exr and tif only
 };
 

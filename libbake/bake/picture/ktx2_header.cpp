@@ -7,14 +7,14 @@
 namespace bake {
 namespace {
 
-constexpr const char* mend = "export it again as RGBA or BC5 without supercompression";
+constexpr const char* mend = "export it again as RGBA, BC5 or BC6H without supercompression";
 constexpr std::int64_t index_at = 80, index_bytes = 24;
 
 /// The number that DXGI_FORMAT has for a VkFormat; 0: not read.
 std::uint32_t dxgi_of(std::uint32_t vulkan) noexcept {
     constexpr std::uint32_t pairs[][2] = {
-        {9, 61},  {16, 49}, {37, 28}, {43, 29},  {44, 87},  {50, 91}, {70, 56}, {76, 54},  {77, 35},
-        {83, 34}, {91, 11}, {97, 10}, {100, 41}, {103, 16}, {106, 6}, {109, 2}, {141, 83},
+        {9, 61},  {16, 49}, {37, 28},  {43, 29},  {44, 87}, {50, 91}, {70, 56},  {76, 54},  {77, 35},  {83, 34},
+        {91, 11}, {97, 10}, {100, 41}, {103, 16}, {106, 6}, {109, 2}, {123, 67}, {141, 83}, {143, 95},
     };
     for (const auto& [from, to] : pairs)
         if (from == vulkan) return to;
@@ -31,7 +31,9 @@ std::int64_t place(const PictureFile& file, std::size_t at) noexcept {
 void check_kind(const PictureFile& file) {
     const auto unsuitable = [&](const char* why) { return Error(Refusal::unsuitable, file.path() + ": " + why); };
     if (word(file, 28) > 0) throw unsuitable("is a volume; give a flat image");
-    if (word(file, 36) != 1) throw unsuitable("is a cube map; give its faces as pictures");
+    const std::uint32_t faces = word(file, 36);
+    if (faces != 1 && faces != 6) throw unreadable(file.path(), "has " + std::to_string(faces) + " faces");
+    if (faces == 6 && word(file, 20) != word(file, 24)) throw unreadable(file.path(), "has faces that are not square");
     if (word(file, 44) != 0) throw unreadable(file.path(), "is supercompressed, which is not read", mend);
 }
 
@@ -73,14 +75,17 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
     if (levels > most_levels) throw unreadable(file.path(), "claims more levels than a texture has");
     if (texels_at > file.size()) throw unreadable(file.path(), "is cut short");
     header.offset = place(file, std::size_t(index_at));
+    header.faces = word(file, 36), header.levels = levels;
     header.face_bytes = level_bytes(header, 0);
-    if (place(file, std::size_t(index_at) + 8) < header.face_bytes)
-        throw unreadable(file.path(), "has a level that is smaller than its size says");
     for (std::int64_t k = 0; k < levels; ++k) {
         const auto at = std::size_t(index_at + k * index_bytes);
         if (place(file, at) < texels_at || place(file, at) > file.size() ||
             place(file, at + 8) > file.size() - place(file, at))
             throw unreadable(file.path(), "is cut short");
+        if (place(file, at + 8) / header.faces < level_bytes(header, k))
+            throw unreadable(file.path(), "has a level that is smaller than its size says");
+        header.level_at.push_back(place(file, at));
+        header.face_step.push_back(level_bytes(header, k));
     }
     check_descriptor(file);
     if (bottom_up(file)) throw Error(Refusal::unsuitable, file.path() + ": is stored from the bottom up; turn it over");

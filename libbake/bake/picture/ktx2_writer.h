@@ -1,4 +1,4 @@
-// KTX2 of a flat picture with all its levels, not supercompressed.
+// KTX2 of a flat picture or a cube map with all its levels, not supercompressed.
 #pragma once
 #include "bake/base/block_writer.h"
 #include "bake/picture/texture_level.h"
@@ -7,7 +7,7 @@
 namespace bake {
 
 /// Writes the header, the index of levels, the data format descriptor, the keys KTXorientation and KTXwriter, and the levels,
-/// smallest first. Does not commit.
-void write_ktx2(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels);
+/// smallest first. `faces`: 1 or 6. Does not commit.
+void write_ktx2(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels, int faces = 1);
 
 } // namespace bake

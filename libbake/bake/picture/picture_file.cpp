@@ -23,7 +23,7 @@ PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path),
     const bool folder = S_ISDIR(status.st_mode), regular = S_ISREG(status.st_mode);
     size_ = status.st_size;
     if (reason == 0 && regular && size_ > 0) {
-        remember_input(status);
+        remember_input(path, status);
         head_.resize(1200);
         head_.resize(std::size_t(read(0, head_.data(), std::int64_t(head_.size()))));
         return;

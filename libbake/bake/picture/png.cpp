@@ -124,6 +124,7 @@ public:
         png_textp texts = nullptr;
         for (int i = png_get_text(png_, info_, &texts, nullptr); i-- > 0;)
             if (!std::strcmp(texts[i].key, "Description")) info.description = texts[i].text;
+            else if (!std::strcmp(texts[i].key, record_key)) info.record = valid_record(texts[i].text);
         if (is_animation(png_, info_)) info.notes.push_back("is an animation: its first picture is read");
         if (info.channels.back() == "A") info.alpha_channel = int(info.channels.size()) - 1;
         info.colours = info.channels.size() < 3 ? 1 : 3;

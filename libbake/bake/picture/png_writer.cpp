@@ -125,9 +125,13 @@ PngWriter::PngWriter(const std::string& path, const OutputFile& file, const Pict
         put_chunk("gAMA", {0, 0, 45455 >> 8, 45455 & 255});
     }
     if (options.colour == ColourSpace::linear) put_chunk("gAMA", {0, 1, 100000 >> 8 & 255, 100000 & 255});
-    if (options.description.empty()) return;
-    const std::string text = std::string("Description") + '\0' + options.description;
-    put_chunk("tEXt", Bytes(text.begin(), text.end()));
+    const auto put_text = [this](const char* type, const std::string& text) {
+        put_chunk(type, Bytes(text.begin(), text.end()));
+    };
+    if (!options.description.empty()) put_text("tEXt", std::string("Description") + '\0' + options.description);
+    // Not compressed, in no language, and under no translated keyword.
+    if (const std::string record = record_text(options.facts); !record.empty())
+        put_text("iTXt", record_key + std::string(5, '\0') + record);
 }
 
 PngWriter::~PngWriter() {

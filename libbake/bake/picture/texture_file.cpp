@@ -1,9 +1,12 @@
 #include "bake/picture/texture_file.h"
 #include "bake/base/text.h"
 #include "bake/picture/bc5.h"
+#include "bake/picture/bc6h.h"
 #include "bake/picture/dds.h"
 #include "bake/picture/dds_writer.h"
 #include "bake/picture/ktx2_writer.h"
+#include "bake/picture/rgb9e5.h"
+#include <half.h>
 
 namespace bake {
 namespace {
@@ -28,6 +31,32 @@ std::string integers(const Image<float>& values, int read, int written, int byte
     return out;
 }
 
+void append_half(char*& to, float value) noexcept {
+    // Written so that NaN becomes 0.
+    const float clamped = value > -65504 ? std::min(value, 65504.0f) : value <= -65504 ? -65504.0f : 0.0f;
+    const std::uint16_t bits = Imath::half(clamped).bits();
+    *to++ = char(bits), *to++ = char(bits >> 8);
+}
+
+/// Half floats; a picture of three channels gets a fourth, 1.
+std::string halves(const Image<float>& values, int read, int written) {
+    std::string out(std::size_t(values.width()) * values.height() * written * 2, '\0');
+    char* to = out.data();
+    for (int y = 0; y < values.height(); ++y)
+        for (int x = 0; x < values.width(); ++x)
+            for (int c = 0; c < written; ++c) append_half(to, c < read ? values.at(x, y, c) : 1.0f);
+    return out;
+}
+
+std::string shared_exponents(const Image<float>& values) {
+    std::string out(std::size_t(values.width()) * values.height() * 4, '\0');
+    char* to = out.data();
+    for (int y = 0; y < values.height(); ++y)
+        for (int x = 0; x < values.width(); ++x)
+            put_bytes(to, rgb9e5_encode({values.at(x, y, 0), values.at(x, y, 1), values.at(x, y, 2)}));
+    return out;
+}
+
 } // namespace
 
 std::optional<TextureContainer> texture_container(const std::string& path) {
@@ -44,14 +73,18 @@ TextureLevel pack_level(const Image<float>& values, TexelFormat format) {
     case TexelFormat::rgba8: level.bytes = integers(values, 3, 4, 1); break;
     case TexelFormat::rgba16: level.bytes = integers(values, 3, 4, 2); break;
     case TexelFormat::bc5: level.bytes = bc5_encode(values); break;
+    case TexelFormat::rgb9e5: level.bytes = shared_exponents(values); break;
+    case TexelFormat::rgba16f: level.bytes = halves(values, 3, 4); break;
+    case TexelFormat::rg16f: level.bytes = halves(values, 2, 2); break;
+    case TexelFormat::bc6h: level.bytes = bc6h_encode(values); break;
     }
     return level;
 }
 
 void write_texture(BlockWriter& out, TextureContainer container, TexelFormat format,
-                   const std::vector<TextureLevel>& levels) {
-    if (container == TextureContainer::dds) write_dds(out, format, levels);
-    else write_ktx2(out, format, levels);
+                   const std::vector<TextureLevel>& levels, int faces) {
+    if (container == TextureContainer::dds) write_dds(out, format, levels, faces);
+    else write_ktx2(out, format, levels, faces);
 }
 
 Image<float> read_back(BlockWriter& out, const std::string& path, TextureContainer container) {
@@ -61,6 +94,11 @@ Image<float> read_back(BlockWriter& out, const std::string& path, TextureContain
     if (container == TextureContainer::dds) read_dds(file, {}, info, &image);
     else read_ktx2(file, {}, info, &image);
     return image;
+}
+
+std::vector<Image<float>> read_back_levels(BlockWriter& out, const std::string& path, TextureContainer container) {
+    const PictureFile file(out.descriptor(), path);
+    return container == TextureContainer::dds ? read_dds_levels(file) : read_ktx2_levels(file);
 }
 
 } // namespace bake

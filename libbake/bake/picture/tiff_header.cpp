@@ -178,6 +178,7 @@ TiffHeader read_tiff_header(TiffFile& tiff, ImageInfo& info) {
     }
     name_channels(tiff, header, info);
     info.description = tiff.text(TIFFTAG_IMAGEDESCRIPTION);
+    info.record = record_in(tiff.text(TIFFTAG_SOFTWARE));
     info.colour = read_colour(tiff, header);
     info.srgb_tagged = info.colour.is_srgb();
     return header;

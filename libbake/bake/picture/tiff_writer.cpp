@@ -47,8 +47,10 @@ bool describe_storage(TIFF* tiff, const WriteOptions& options) {
                         : set(TIFFTAG_ROWSPERSTRIP, strip_rows);
 }
 
-bool describe_remarks(TIFF* tiff, int channels, const WriteOptions& options) {
+bool describe_remarks(TIFF* tiff, int channels, int level, const WriteOptions& options) {
     const auto text = [&](std::uint32_t tag, const char* value) { return TIFFSetField(tiff, tag, value) == 1; };
+    const std::string record = level == 0 ? record_comment(options.facts) : "";
+    if (!record.empty() && !text(TIFFTAG_SOFTWARE, record.c_str())) return false;
     if (!options.description.empty() && !text(TIFFTAG_IMAGEDESCRIPTION, options.description.c_str())) return false;
     // OpenImageIO then takes the directories that follow as mip levels.
     if (options.mips && !text(TIFFTAG_PIXAR_TEXTUREFORMAT, "Plain Texture")) return false;
@@ -96,7 +98,7 @@ void TiffWriter::describe_level() {
     const auto set = [&](std::uint32_t tag, int value) { return TIFFSetField(tiff_, tag, value) == 1; };
     if ((level_ > 0 && !set(TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE)) || !set(TIFFTAG_IMAGEWIDTH, width_) ||
         !set(TIFFTAG_IMAGELENGTH, height_) || !describe_samples(tiff_, channels_, options_) ||
-        !describe_storage(tiff_, options_) || !describe_remarks(tiff_, channels_, options_))
+        !describe_storage(tiff_, options_) || !describe_remarks(tiff_, channels_, level_, options_))
         fail(messages_.error);
 }
 

@@ -1,5 +1,6 @@
 #include "bake/preview/texture.h"
 #include "bake/base/error.h"
+#include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/slope_code.h"
 #include <algorithm>
 #include <array>
@@ -68,9 +69,10 @@ Texture read_bump_table(const std::string& file, float scale, std::vector<std::s
         slopes = {0, 1};
     }
     Image<float> table = pick<2>(image, slopes);
+    const Vec2f factors = Vec2f(recorded_scale(info.record, image.width(), image.height())) * scale;
     for (std::size_t i = 0; i < table.size(); ++i) {
         const float value = table.data()[i];
-        table.data()[i] = scale * (code ? code->decode(value) : value);
+        table.data()[i] = factors[int(i % 2)] * (code ? code->decode(value) : value);
     }
     require_finite(table, file);
     return shared(std::move(table));
@@ -94,6 +96,10 @@ Texture read_normal_map(const std::string& file, NormalEncoding encoding, bool d
         note += "; they were taken as stored; export them as data, not as colour";
     }
     if (notes && !note.empty()) notes->push_back(std::move(note));
+    const std::string green = record_word(info.record, "green");
+    if (notes && !green.empty() && (green == "down") != directx)
+        notes->push_back(file + ": its record says that green points " + green + ", but it is read as pointing " +
+                         (directx ? "down" : "up") + "; set directx = " + (directx ? "false" : "true"));
     if (encoding != NormalEncoding::automatic) values.encoding = encoding;
     Image<float> normals = decode_normals(image, values);
     require_finite(normals, file);

@@ -37,7 +37,8 @@ private:
 Texture read_albedo(const std::string& file, ColourSpace space = ColourSpace::automatic,
                     std::vector<std::string>* notes = nullptr, const LoadedPictures& known = {});
 /// Bump table: two channels, (b_u, b_v), slopes per unit of u and v in object units, times `scale`. The channels are
-/// those named b_u and b_v, otherwise the first two. Integer samples are decoded by the SlopeCode that the file states.
+/// those named b_u and b_v, otherwise the first two. Integer samples are decoded by the SlopeCode that the file states. Where
+/// the record of the file names other units, they are converted.
 /// Unsuitable: integer samples without a SlopeCode; one channel; six and more, as in OpenImageIO's bumpslopes, which are
 /// in other units.
 Texture read_bump_table(const std::string& file, float scale = 1, std::vector<std::string>* notes = nullptr,

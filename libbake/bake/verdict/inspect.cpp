@@ -55,6 +55,7 @@ MeshReport inspect_mesh(const std::string& path, const InspectOptions& options) 
     report.uv = check_uvs(mesh, triangles, options.uv);
     report.audited = options.audit;
     report.origin = mesh.origin;
+    report.record = mesh.record;
     if (options.audit) report.audit = audit(mesh, triangles);
     report.audit.first_place += mesh.origin;
     report.findings = judge(report);

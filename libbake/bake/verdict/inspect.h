@@ -45,6 +45,7 @@ struct MeshReport {
     UvCheck uv;
     bool audited = false;
     MeshAudit audit;
+    std::string record; ///< how the file was made, as Mesh has it
     Findings findings;
 };
 

@@ -1,4 +1,5 @@
 #include "bake/verdict/inspect.h"
+#include "bake/verdict/record_report.h"
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -123,6 +124,7 @@ std::string to_json(const MeshReport& report) {
     json["opposed_normals"] = c.opposed_normals;
     json["uv"] = report.uv.triangles > 0 ? uvs(report.uv) : Json(nullptr);
     if (report.audit.available) json["audit"] = audit(report.audit);
+    if (!report.record.empty()) json["record"] = record_object(report.record);
     add(json, report.findings);
     return dump(json);
 }
@@ -156,6 +158,7 @@ std::string to_json(const ImageReport& report) {
                            {"not_unit", c.kind.normals.not_unit},
                            {"inward", c.kind.normals.inward},
                            {"mean", {c.kind.normals.mean.x, c.kind.normals.mean.y, c.kind.normals.mean.z}}};
+    if (!c.info.record.empty()) json["record"] = record_object(c.info.record);
     add(json, report.findings);
     return dump(json);
 }

@@ -2,6 +2,7 @@
 #include "bake/base/text.h"
 #include "bake/relief/height/sample_type.h"
 #include "bake/verdict/inspect.h"
+#include "bake/verdict/record_report.h"
 #include "bake/verdict/report_text.h"
 
 namespace bake {
@@ -125,6 +126,7 @@ std::string to_text(const MeshReport& report) {
                                 t.flipped_faces, c.duplicate_faces, c.zero_area_faces));
     text += uv_rows(report);
     if (report.audit.available) text += audit_row(report.audit);
+    text += record_rows(report.record);
     return text + endings(report.findings);
 }
 
@@ -160,6 +162,7 @@ std::string to_text(const ImageReport& report) {
     if (c.kind.looks == Looks::normal_map)
         text += row("normals", format("mean length %.4f, %.3g %% over 2 %% off, mean (%.3f %.3f %.3f)", n.length,
                                       100 * n.not_unit, n.mean.x, n.mean.y, n.mean.z));
+    text += record_rows(c.info.record);
     return text + endings(report.findings);
 }
 

@@ -2,6 +2,7 @@
 #include "bake/base/text.h"
 #include "bake/relief/height/dequantise.h"
 #include "bake/relief/height/height_notes.h"
+#include "bake/relief/height/repeat.h"
 #include "bake/relief/height/sample_type.h"
 #include "inputs/choice.h"
 #include <cmath>
@@ -29,6 +30,24 @@ CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& gr
             },
             ""));
 }
+
+namespace {
+
+/// "4" or "4,2"
+std::pair<int, int> parse_repeat(const std::string& text) {
+    constexpr long long most = 1024;
+    const std::size_t comma = text.find(',');
+    const auto number = [&](const std::string& part) {
+        const auto value = parse_whole_number(part);
+        if (!value || *value < 1 || *value > most)
+            throw Error(Refusal::usage, "--repeat " + text + ": is neither N nor U,V of whole numbers from 1 to 1024");
+        return int(*value);
+    };
+    if (comma == std::string::npos) return {number(text), number(text)};
+    return {number(text.substr(0, comma)), number(text.substr(comma + 1))};
+}
+
+} // namespace
 
 void add_height_reading_options(CLI::App& sub, HeightInput& input) {
     add_choice<Wrap>(sub, "--wrap", input.wrap,
@@ -63,6 +82,10 @@ void add_relief_options(CLI::App& sub, HeightInput& input) {
                       false);
     add_number_option(sub, "--midlevel", input.midlevel, -1e12, 1e12,
                       "Value that lies on the surface [0.5; 0 for float files]");
+    sub.add_option_function<std::string>(
+           "--repeat", [&input](const std::string& text) { input.repeat = parse_repeat(text); },
+           "How often the height lies side by side along u and v [1]")
+        ->type_name("N|U,V");
 }
 
 void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info) {
@@ -74,6 +97,12 @@ HeightTexture load_height(const HeightInput& input, const CommonArgs& common) {
     print_notes(common, input.path, height.info);
     if (input.invert) invert(height, input.midlevel);
     if (input.dequantise) dequantise(height, input.wrap_u(), input.wrap_v());
+    const auto [along_u, along_v] = input.repeat;
+    for (const auto& [times, wrap] : {std::pair(along_u, input.wrap_u()), std::pair(along_v, input.wrap_v())})
+        if (times > 1 && wrap == Wrap::clamp)
+            throw Error(Refusal::usage, "--repeat: beyond a border that is clamped nothing repeats; take --wrap repeat "
+                                        "or mirror");
+    repeat(height, along_u, along_v, input.wrap_u(), input.wrap_v(), input.path);
     return height;
 }
 

@@ -16,6 +16,7 @@ struct HeightInput {
     Filter filter = Filter::automatic;
     std::optional<Length> amplitude; ///< none: see height_options()
     std::optional<double> midlevel;
+    std::pair<int, int> repeat = {1, 1}; ///< how often it lies side by side along u and v
 
     Wrap wrap_u() const { return along_u.value_or(wrap); }
     Wrap wrap_v() const { return along_v.value_or(wrap); }
@@ -29,7 +30,7 @@ CLI::Option* add_channel_option(CLI::App& sub, const std::string& flag, Grey& gr
 void add_height_reading_options(CLI::App& sub, HeightInput& input);
 /// The same and --filter, for verbs that take slopes from texels.
 void add_height_options(CLI::App& sub, HeightInput& input);
-/// Adds --amplitude and --midlevel.
+/// Adds --amplitude, --midlevel and --repeat.
 void add_relief_options(CLI::App& sub, HeightInput& input);
 /// Prints what reading a picture has to tell.
 void print_notes(const CommonArgs& common, const std::string& file, const ImageInfo& info);

@@ -69,6 +69,10 @@ WriteOptions write_options(const EnvironmentTarget& target, bool mips) {
     WriteOptions options{
         .depth = target.depth, .colour = target.encode_srgb ? ColourSpace::srgb : ColourSpace::linear, .mips = mips};
     if (picture_format(target.file) == PictureFormat::exr) options.environment = entry_of(target.to).tag;
+    const bool encoded = target.encode_srgb && (target.depth == Depth::u8 || target.depth == Depth::u16);
+    options.facts = {{"content", std::string("environment")},
+                     {"layout", std::string(entry_of(target.to).name)},
+                     {"encoding", std::string(encoded ? "sRGB" : "linear")}};
     return options;
 }
 

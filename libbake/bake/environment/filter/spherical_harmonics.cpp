@@ -173,6 +173,14 @@ void scale_bands(ShCoefficients& series, const std::vector<double>& factors) {
             series.values[i] *= factors[l];
 }
 
+void mirror_x(ShCoefficients& series) noexcept {
+    // (-x + i y)^m is (-1)^m times the conjugate of (x + i y)^m, whose real part belongs to m and imaginary part to -m.
+    for (int l = 0; l < series.bands; ++l)
+        for (int m = -l; m <= l; ++m)
+            if ((m % 2 != 0) == (m >= 0))
+                for (int c = 0; c < series.channels; ++c) series.values[(l * l + l + m) * series.channels + c] *= -1;
+}
+
 std::vector<double> cosine_band_factors(int bands) {
     std::vector<double> A(bands, 0.0);
     // l even: 2 pi (-1)^(l/2 - 1) / ((l + 2) (l - 1)) l! / (2^l (l/2)!^2), the last as a running product.

@@ -24,6 +24,9 @@ Cube evaluate_sh(const ShCoefficients& series, int size);
 /// Multiplies band l by factors[l]: a convolution with a kernel about the direction itself. bands factors.
 void scale_bands(ShCoefficients& series, const std::vector<double>& factors);
 
+/// The same sky in a space whose x points the other way: from cube space to the world, and back.
+void mirror_x(ShCoefficients& series) noexcept;
+
 /// Band factors of the clamped cosine: pi, 2 pi / 3, pi / 4, 0, -pi / 24, 0, pi / 64, ...
 std::vector<double> cosine_band_factors(int bands);
 

@@ -65,12 +65,12 @@ Mesh read_mesh(const std::string& path, const MeshOptions& options) {
     return mesh;
 }
 
-std::int64_t write_mesh(const std::string& path, const Mesh& mesh) {
+std::int64_t write_mesh(const std::string& path, const Mesh& mesh, const Facts& facts) {
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown) throw unknown_format(Refusal::usage, path);
     if (format == MeshFormat::gltf) return write_gltf(path, mesh).bytes;
     refuse_unless_finite(mesh, path);
-    return format == MeshFormat::obj ? write_obj(path, mesh) : write_ply(path, mesh);
+    return format == MeshFormat::obj ? write_obj(path, mesh, facts) : write_ply(path, mesh, facts);
 }
 
 } // namespace bake

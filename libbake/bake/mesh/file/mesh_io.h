@@ -1,5 +1,6 @@
 // Reads and writes OBJ, PLY and glTF files.
 #pragma once
+#include "bake/base/provenance.h"
 #include "bake/mesh/mesh.h"
 
 namespace bake {
@@ -42,6 +43,8 @@ MeshFormat mesh_format(const std::string& path);
 /// materials and tags are lost. .gltf and .glb: see write_gltf().
 /// Throws Error{Refusal::unwritable}, Error{Refusal::unsuitable} if a value of the mesh is not finite or the format cannot
 /// hold the mesh, and Error{Refusal::usage} for another ending.
-std::int64_t write_mesh(const std::string& path, const Mesh& mesh);
+/// Where a RunRecord lives, the file says how it was made and what `facts` say of it: in a comment of OBJ and PLY, in
+/// asset.extras.bake of glTF.
+std::int64_t write_mesh(const std::string& path, const Mesh& mesh, const Facts& facts = {});
 
 } // namespace bake

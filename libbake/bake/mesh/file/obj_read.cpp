@@ -219,6 +219,12 @@ void apply_smoothing(const std::vector<Piece>& pieces, Mesh& mesh) {
     if (any && !all) add_group_normals(mesh, group);
 }
 
+/// The record that write_obj() puts there.
+std::string record_on_first_line(const FileBytes& file) {
+    const std::string_view line(file.begin(), std::size_t(std::find(file.begin(), file.end(), '\n') - file.begin()));
+    return line.starts_with("# ") ? record_in(line.substr(2)) : "";
+}
+
 } // namespace
 
 Mesh read_obj(const std::string& path) {
@@ -273,6 +279,7 @@ Mesh read_obj(const std::string& path) {
     assign_names(found, &Piece::materials, total.faces, mesh.materials, mesh.face_material);
     read_far_positions(bounds, place, mesh);
     apply_smoothing(found, mesh);
+    mesh.record = record_on_first_line(file);
     return mesh;
 }
 

@@ -72,12 +72,13 @@ void append_change(std::string& out, const char* keyword, const std::vector<std:
 
 } // namespace
 
-std::int64_t write_obj(const std::string& path, const Mesh& mesh) {
+std::int64_t write_obj(const std::string& path, const Mesh& mesh, const Facts& facts) {
     std::vector<std::string> groups = mesh.groups, materials = mesh.materials;
     for (std::string& name : groups) name = name_on_a_line(name);
     for (std::string& name : materials) name = name_on_a_line(name);
 
     BlockWriter out(path);
+    if (const std::string comment = record_comment(facts); !comment.empty()) out.write("# " + comment + '\n');
     const bool far = mesh.origin != Vec3d(0);
     const int decimals = far ? coordinate_decimals(mesh) : 0;
     write_rows(out, mesh.positions.size(), [&](std::string& block, std::size_t i) {

@@ -1,5 +1,6 @@
 // Reads and writes PLY, for read_mesh() and write_mesh().
 #pragma once
+#include "bake/base/provenance.h"
 #include "bake/mesh/mesh.h"
 
 namespace bake {
@@ -8,6 +9,6 @@ namespace bake {
 Mesh read_ply(const std::string& path);
 
 /// See write_mesh().
-std::int64_t write_ply(const std::string& path, const Mesh& mesh);
+std::int64_t write_ply(const std::string& path, const Mesh& mesh, const Facts& facts);
 
 } // namespace bake

@@ -1,5 +1,6 @@
 #include "bake/mesh/file/ply_header.h"
 #include "bake/base/error.h"
+#include "bake/base/provenance.h"
 #include "bake/base/text_line.h"
 #include <algorithm>
 #include <optional>
@@ -132,6 +133,9 @@ PlyHeader read_ply_header(const FileBytes& file, const std::string& path) {
             header.format = name == "ascii"                  ? PlyFormat::ascii
                             : name == "binary_little_endian" ? PlyFormat::little_endian
                                                              : PlyFormat::big_endian;
+        } else if (words[0] == "comment" && words.size() > 1) {
+            const std::string record = record_in({words[1].data(), std::size_t(p - 1 - words[1].data())});
+            if (!record.empty()) header.record = record;
         } else if (words[0] == "end_header") {
             if (p > file.end()) p = file.end();
             header.body = p;

@@ -28,6 +28,7 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
+    std::string record;         ///< how the file was made, as Mesh has it
     const char* body = nullptr; ///< first byte after the header
 };
 

@@ -204,6 +204,7 @@ Mesh read_ply(const std::string& path) {
         throw Error(Refusal::unsuitable, path + ": more than 2^32 - 2 vertices; split the mesh");
     PlyBody body = read_body(file, header, layout, path);
     Mesh& mesh = body.mesh;
+    mesh.record = header.record;
     leave_out_not_finite(mesh);
     if (!mesh.normals.empty()) mesh.corner_normal = mesh.corner_position;
     if (!body.texcoord.empty()) weld_texcoord(body);

@@ -25,8 +25,10 @@ std::string property_name(std::string name) {
     return name;
 }
 
-std::string header_of(const Mesh& mesh, std::size_t vertices, bool wide) {
-    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) + '\n';
+std::string header_of(const Mesh& mesh, std::size_t vertices, bool wide, const std::string& comment) {
+    std::string text = "ply\nformat binary_little_endian 1.0\n";
+    if (!comment.empty()) text += "comment " + comment + '\n';
+    text += "element vertex " + std::to_string(vertices) + '\n';
     std::vector<std::string> names;
     const auto property = [&](std::string name, const char* type = "float") {
         while (std::count(names.begin(), names.end(), name)) name += '_';
@@ -57,7 +59,7 @@ void put_doubles(char*& to, const Vec3d& p) noexcept {
 
 } // namespace
 
-std::int64_t write_ply(const std::string& path, const Mesh& mesh) {
+std::int64_t write_ply(const std::string& path, const Mesh& mesh, const Facts& facts) {
     const bool normals = !mesh.corner_normal.empty(), uvs = !mesh.corner_uv.empty(), tangents = !mesh.tangents.empty();
     const DistinctCorners vertices = distinct_corners(mesh); // a vertex of PLY has one value of each kind
     const bool wide = largest_face(mesh) > 255;
@@ -66,7 +68,7 @@ std::int64_t write_ply(const std::string& path, const Mesh& mesh) {
     for (const Attribute& a : mesh.attributes) floats += std::size_t(a.components);
 
     BlockWriter out(path);
-    out.write(header_of(mesh, vertices.first.size(), wide));
+    out.write(header_of(mesh, vertices.first.size(), wide, record_comment(facts)));
     write_fixed_rows(out, vertices.first.size(), 4 * floats, [&](char* to, std::size_t i) {
         const std::uint32_t c = vertices.first[i];
         const auto put = [&to](const auto& value) {

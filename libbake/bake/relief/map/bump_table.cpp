@@ -1,11 +1,22 @@
 #include "bake/relief/map/bump_table.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/base/provenance.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace bake {
+
+const char* name(SlopeUnits units) noexcept {
+    switch (units) {
+    case SlopeUnits::difference: return "difference";
+    case SlopeUnits::texel: return "texel";
+    case SlopeUnits::uv: return "uv";
+    case SlopeUnits::world: break;
+    }
+    return "world";
+}
 
 Filter resolve_filter(Filter filter, const HeightTexture& height) noexcept {
     if (filter != Filter::automatic) return filter;
@@ -26,6 +37,16 @@ Vec2d slope_scale(const BumpTableOptions& options, int width, int height) noexce
     case SlopeUnits::world: break;
     }
     return options.amplitude * texels / resolve_extent(options.extent_u, options.extent_v, width, height);
+}
+
+Vec2d recorded_scale(const std::string& record, int width, int height) {
+    const std::string units = record_word(record, "slope_units");
+    const std::vector<double> extent = record_numbers(record, "extent");
+    BumpTableOptions options;
+    if (extent.size() == 2) options.extent_u = extent[0], options.extent_v = extent[1];
+    for (const SlopeUnits known : {SlopeUnits::difference, SlopeUnits::texel, SlopeUnits::uv, SlopeUnits::world})
+        if (units == name(known)) options.units = known;
+    return Vec2d(width, height) / slope_scale(options, width, height);
 }
 
 BumpTable::BumpTable(const HeightTexture& height, const BumpTableOptions& options, TableLayout layout)

@@ -17,6 +17,9 @@ enum class SlopeUnits {
     world,      ///< height per object unit, for a picture of extent_u x extent_v object units
 };
 
+/// "difference", "texel", "uv" or "world".
+const char* name(SlopeUnits units) noexcept;
+
 struct BumpTableOptions {
     Filter filter = Filter::automatic;
     Wrap wrap_u = Wrap::repeat;
@@ -35,6 +38,10 @@ Vec2d resolve_extent(double extent_u, double extent_v, int width, int height) no
 
 /// Factors from slope per texel to `options.units`, along u and v.
 Vec2d slope_scale(const BumpTableOptions& options, int width, int height) noexcept;
+
+/// Factors that turn the slopes of a table of so many texels to slopes per unit of u and v, where the record of its file
+/// (base/provenance.h) says its units; 1 for a record that does not.
+Vec2d recorded_scale(const std::string& record, int width, int height);
 
 /// What a texel of a table holds.
 enum class TableLayout {
