@@ -1,5 +1,6 @@
 // bake compare SCENE: the methods that show a relief.
 #include "bake/base/block_writer.h"
+#include "bake/base/job.h"
 #include "bake/picture/image_io.h"
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/compare/comparison_pictures.h"
@@ -8,7 +9,6 @@
 #include "inputs/output_folder.h"
 #include "render_progress.h"
 #include <sstream>
-#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -105,7 +105,7 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     const SceneEntries entries = read_entries(args);
     const OutputFolder folder(args.out);
-    if (is_visible(common) && isatty(STDERR_FILENO))
+    if (is_visible(common) && draws_on_terminal())
         options.told = [&](const std::string& line) { note(common, line); };
     Progress progress(common.quiet);
     const SceneComparison comparison = compare_scene(entries, args.methods.object, options, &progress);

@@ -2,6 +2,7 @@
 #include "bake/base/block_writer.h"
 #include "bake/base/file_bytes.h"
 #include "bake/base/interruption.h"
+#include "bake/base/job.h"
 #include "bake/preview/scene_io.h"
 #include "bake/verdict/plan/manifest.h"
 #include "bake/verdict/plan/plan_page.h"
@@ -11,7 +12,6 @@
 #include "plan_options.h"
 #include "render_progress.h"
 #include <filesystem>
-#include <unistd.h>
 
 namespace bake {
 namespace {
@@ -76,7 +76,7 @@ int run(const PlanArgs& args, const CommonArgs& common) {
     // Files that cannot be written are refused before the work.
     for (const std::string* path : {&args.out, &args.manifest, &args.report})
         if (!path->empty()) OutputFile reserved(*path);
-    if (is_visible(common) && isatty(STDERR_FILENO))
+    if (is_visible(common) && draws_on_terminal())
         options.told = [&](const std::string& line) { note(common, line); };
     Progress progress(common.quiet);
     ScenePlan plan = plan_scene(entries, options, &progress);

@@ -1,15 +1,15 @@
 #include "ticker.h"
+#include "bake/base/job.h"
 #include "bake/base/printable.h"
 #include <chrono>
 #include <cstdio>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace bake {
 
 Ticker::Ticker(bool visible, std::function<std::string()> text) : text_(std::move(text)) {
-    if (!visible || !isatty(STDERR_FILENO)) return;
+    if (!visible || !draws_on_terminal()) return;
     try {
         thread_ = std::thread([this] { run(); });
     } catch (const std::system_error&) { // a limit on threads: the work goes on without the line

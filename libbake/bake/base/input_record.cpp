@@ -1,7 +1,7 @@
 #include "bake/base/input_record.h"
 #include "bake/base/content_hash.h"
+#include "bake/base/job.h"
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -11,7 +11,7 @@
 
 namespace bake {
 
-struct InputRecord::Files {
+struct InputFiles {
     std::mutex mutex;
     struct Named {
         std::string path, hash;
@@ -19,31 +19,25 @@ struct InputRecord::Files {
     std::map<std::pair<dev_t, ino_t>, Named> known;
 };
 
-namespace {
-
-std::atomic<InputRecord::Files*> current = nullptr;
-
-} // namespace
-
-InputRecord::InputRecord() : files_(std::make_unique<Files>()) { current = files_.get(); }
-InputRecord::~InputRecord() { current = nullptr; }
+InputRecord::InputRecord() : files_(std::make_unique<InputFiles>()) { current_job().inputs = files_.get(); }
+InputRecord::~InputRecord() { current_job().inputs = nullptr; }
 
 void remember_input(const std::string& path, const struct stat& file) {
-    InputRecord::Files* const files = current;
+    InputFiles* const files = current_job().inputs;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
-    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputRecord::Files::Named{path, ""});
+    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, ""});
 }
 
 bool is_input(const struct stat& file) {
-    InputRecord::Files* const files = current;
+    InputFiles* const files = current_job().inputs;
     if (!files) return false;
     const std::lock_guard lock(files->mutex);
     return files->known.contains({file.st_dev, file.st_ino});
 }
 
 std::vector<InputFile> recorded_inputs() {
-    InputRecord::Files* const files = current;
+    InputFiles* const files = current_job().inputs;
     if (!files) return {};
     std::vector<InputFile> out;
     const std::lock_guard lock(files->mutex);

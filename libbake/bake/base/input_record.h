@@ -8,9 +8,11 @@ struct stat;
 
 namespace bake {
 
+struct InputFiles;
+
 /// While it lives, every file that the library opens for reading is remembered, and an OutputFile refuses to replace one of
 /// them. The command has one for each run; a program that replaces its own inputs on purpose has none. At most one lives
-/// at a time.
+/// at a time in each job (base/job.h).
 class InputRecord {
 public:
     InputRecord();
@@ -18,10 +20,8 @@ public:
     InputRecord(const InputRecord&) = delete;
     InputRecord& operator=(const InputRecord&) = delete;
 
-    struct Files;
-
 private:
-    std::unique_ptr<Files> files_;
+    std::unique_ptr<InputFiles> files_;
 };
 
 /// Remembers a file that was opened for reading. From any thread; does nothing without an InputRecord.

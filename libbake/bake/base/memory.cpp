@@ -1,4 +1,5 @@
 #include "bake/base/memory.h"
+#include "bake/base/job.h"
 #include "bake/base/text.h"
 #include <algorithm>
 #include <atomic>
@@ -96,9 +97,6 @@ std::optional<std::uint64_t> soft_limit(int resource) {
 
 constexpr const char* machine = "this machine's memory";
 
-std::atomic<const MemoryCap*> innermost = nullptr;
-std::mutex one_pause;
-
 /// RLIMIT_DATA as it was before any MemoryCap lowered it; 0 when none did.
 std::atomic<std::uint64_t> data_before_caps = 0;
 
@@ -109,13 +107,28 @@ std::optional<std::uint64_t> data_limit() {
     return before == RLIM_INFINITY ? std::nullopt : std::optional(before);
 }
 
-/// Returns the limit that it replaces, or nothing if that fails.
-std::optional<std::uint64_t> set_data_limit(std::uint64_t bytes) noexcept {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_DATA, &limit) != 0) return {};
-    const std::uint64_t before = limit.rlim_cur;
-    limit.rlim_cur = bytes;
-    return setrlimit(RLIMIT_DATA, &limit) == 0 ? std::optional(before) : std::nullopt;
+/// What the caps of all jobs make of RLIMIT_DATA, which belongs to the process. Caps of different jobs end in any order.
+struct DataCaps {
+    std::mutex mutex;
+    std::vector<std::uint64_t> most;
+    int pauses = 0;
+
+    /// Under the mutex.
+    void apply() noexcept {
+        rlimit limit{};
+        if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+        if (data_before_caps == 0) data_before_caps = limit.rlim_cur;
+        limit.rlim_cur = data_before_caps;
+        if (pauses == 0)
+            for (const std::uint64_t bytes : most) limit.rlim_cur = std::min<std::uint64_t>(limit.rlim_cur, bytes);
+        setrlimit(RLIMIT_DATA, &limit);
+        if (most.empty()) data_before_caps = 0;
+    }
+};
+
+DataCaps& data_caps() {
+    static DataCaps caps;
+    return caps;
 }
 
 } // namespace
@@ -170,7 +183,9 @@ MemoryLimit memory_limit() {
         lower(least, difference(*bytes, difference(now.address_space, now.resident)), "ulimit -v");
     if (const auto bytes = data_limit()) // resident pages of files are not data
         lower(least, difference(*bytes + now.resident, now.data), "ulimit -d");
-    for (const MemoryCap* cap = innermost; cap; cap = cap->outer_) lower(least, cap->limit_.bytes, cap->limit_.reason);
+    for (const Job* job : {&current_job(), &process_job()})
+        for (const MemoryCap* cap = job->caps; cap; cap = cap->outer_)
+            lower(least, cap->limit_.bytes, cap->limit_.reason);
     return *least;
 }
 
@@ -188,36 +203,40 @@ void return_free_memory() noexcept {
 }
 
 MemoryCap::MemoryCap(const MemoryLimit& limit, [[maybe_unused]] int threads)
-    : limit_(limit), outer_(innermost.exchange(this)) {
+    : limit_(limit), outer_(current_job().caps.exchange(this)) {
 #if !defined(__SANITIZE_ADDRESS__) // the sanitizer ends the process where an allocation fails
-    rlimit present{};
-    if (getrlimit(RLIMIT_DATA, &present) != 0) return;
     // Threads that have not started yet map their stacks, and use little of them.
     constexpr std::uint64_t stack = std::uint64_t(8) << 20;
     const ProcessMemory now = process_memory();
-    const std::uint64_t most = now.data + difference(limit.bytes, now.resident) + std::uint64_t(threads) * stack;
-    const auto before = set_data_limit(std::min<std::uint64_t>(present.rlim_cur, most));
-    before_ = before.value_or(0), set_ = before.has_value();
-    if (set_ && data_before_caps == 0) data_before_caps = before_;
+    most_ = now.data + difference(limit.bytes, now.resident) + std::uint64_t(threads) * stack;
+    DataCaps& caps = data_caps();
+    const std::lock_guard lock(caps.mutex);
+    caps.most.push_back(*most_);
+    caps.apply();
 #endif
 }
 
 MemoryCap::~MemoryCap() {
-    innermost = outer_;
-    if (set_) set_data_limit(before_);
-    if (!outer_) data_before_caps = 0;
+    current_job().caps = outer_;
+    if (!most_) return;
+    DataCaps& caps = data_caps();
+    const std::lock_guard lock(caps.mutex);
+    caps.most.erase(std::find(caps.most.begin(), caps.most.end(), *most_));
+    caps.apply();
 }
 
 MemoryCapPause::MemoryCapPause() {
-    one_pause.lock();
-    const std::uint64_t before = data_before_caps;
-    const auto paused = before != 0 ? set_data_limit(before) : std::nullopt;
-    paused_ = paused.value_or(0), set_ = paused.has_value();
+    DataCaps& caps = data_caps();
+    const std::lock_guard lock(caps.mutex);
+    ++caps.pauses;
+    caps.apply();
 }
 
 MemoryCapPause::~MemoryCapPause() {
-    if (set_) set_data_limit(paused_);
-    one_pause.unlock();
+    DataCaps& caps = data_caps();
+    const std::lock_guard lock(caps.mutex);
+    --caps.pauses;
+    caps.apply();
 }
 
 } // namespace bake

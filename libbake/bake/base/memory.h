@@ -46,7 +46,8 @@ void return_free_memory() noexcept;
 /// During the lifetime of this object, allocations fail (std::bad_alloc) that would raise the resident memory of the process
 /// above `limit`, which memory_limit() knows. For work whose need is not known before, such as reading a file. Address space
 /// counts as soon as it is allocated, so some allocations fail earlier; the stacks of `threads` threads that are yet to
-/// start do not count. Caps end in the reverse order of their beginning. A higher one does not raise a lower one.
+/// start do not count. Caps of a job end in the reverse order of their beginning. A higher one does not raise a lower one.
+/// The allocations of other jobs of the process fail too.
 class MemoryCap {
 public:
     MemoryCap(const MemoryLimit& limit, int threads);
@@ -58,8 +59,7 @@ private:
     friend MemoryLimit memory_limit();
     MemoryLimit limit_;
     const MemoryCap* outer_;
-    std::uint64_t before_ = 0;
-    bool set_ = false;
+    std::optional<std::uint64_t> most_; ///< RLIMIT_DATA
 };
 
 /// During the lifetime of this object no MemoryCap is in force: a process that is started meanwhile does not inherit one.
@@ -69,10 +69,6 @@ public:
     ~MemoryCapPause();
     MemoryCapPause(const MemoryCapPause&) = delete;
     MemoryCapPause& operator=(const MemoryCapPause&) = delete;
-
-private:
-    std::uint64_t paused_ = 0;
-    bool set_ = false;
 };
 
 } // namespace bake

@@ -1,11 +1,11 @@
 #include "bake/base/output_file.h"
 #include "bake/base/error.h"
 #include "bake/base/input_record.h"
+#include "bake/base/job.h"
 #include "bake/base/progress.h"
 #include "bake/base/system_lack.h"
 #include "bake/base/temporary_file.h"
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -20,8 +20,6 @@ namespace bake {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::atomic<OutputSet*> current_set = nullptr;
 
 /// The part of a name that other programs replace by the number of a tile or of a frame; empty if there is none.
 std::string number_place(const std::string& written) {
@@ -154,7 +152,7 @@ void refuse_unwritten(const std::string& path, const std::string& reason) {
 }
 
 void OutputFile::sweep_once(const std::filesystem::path& folder) {
-    if (OutputSet* const set = current_set) {
+    if (OutputSet* const set = current_job().outputs) {
         const std::lock_guard lock(set->files_->mutex);
         std::vector<fs::path>& swept = set->files_->swept;
         if (std::find(swept.begin(), swept.end(), folder) != swept.end()) return;
@@ -204,7 +202,7 @@ std::int64_t OutputFile::size() const {
 
 void OutputFile::commit() {
     if (size() == 0) refuse_unwritten(reserved_->path, "it came out empty");
-    if (OutputSet* const set = current_set) {
+    if (OutputSet* const set = current_job().outputs) {
         const std::lock_guard lock(set->files_->mutex);
         set->files_->written.push_back(std::move(reserved_));
         return;
@@ -214,9 +212,9 @@ void OutputFile::commit() {
     rename_all(std::move(alone));
 }
 
-OutputSet::OutputSet() : files_(std::make_unique<Files>()), outer_(current_set.exchange(this)) {}
+OutputSet::OutputSet() : files_(std::make_unique<Files>()), outer_(current_job().outputs.exchange(this)) {}
 
-OutputSet::~OutputSet() { current_set = outer_; }
+OutputSet::~OutputSet() { current_job().outputs = outer_; }
 
 void OutputSet::commit() {
     auto files = std::exchange(files_->written, {});

@@ -1,4 +1,5 @@
 #include "bake/base/parallel.h"
+#include "bake/base/job.h"
 #include "bake/base/progress.h"
 #include <algorithm>
 #include <tbb/global_control.h>
@@ -18,6 +19,7 @@ ThreadLimit::ThreadLimit(int threads) {
 ThreadLimit::~ThreadLimit() = default;
 
 int thread_count() noexcept {
+    if (const int of_job = current_job().threads; of_job > 0) return of_job;
     const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     return std::max(1, int(allowed));
 }

@@ -1,6 +1,7 @@
 #include "bake/base/progress.h"
 #include "bake/base/error.h"
 #include "bake/base/interruption.h"
+#include "bake/base/job.h"
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -10,7 +11,7 @@
 namespace bake {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0, stop_accepted = 0;
+volatile std::sig_atomic_t stop_requested = 0;
 std::atomic<int> shields = 0;
 
 /// A file that is not finished. Its path stays where it is, as the handler may read it at any time.
@@ -54,11 +55,11 @@ void catch_interrupts() noexcept {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool interrupted() noexcept { return stop_requested != 0 && !stop_accepted; }
+bool interrupted() noexcept { return stop_requested != 0 && !current_job().stop_accepted; }
 
 bool accept_interrupt() noexcept {
     if (!stop_requested || stop_requested == SIGXCPU) return false;
-    stop_accepted = 1;
+    current_job().stop_accepted = true;
     return true;
 }
 
@@ -88,7 +89,7 @@ void forget_unfinished(int slot) noexcept {
 SignalShield::SignalShield() noexcept { ++shields; }
 SignalShield::~SignalShield() { --shields; }
 
-Progress::Progress(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO)) {}
+Progress::Progress(bool quiet) : visible_(!quiet && draws_on_terminal()) {}
 
 Progress::~Progress() { finish(); }
 

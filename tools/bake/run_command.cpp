@@ -1,0 +1,74 @@
+#include "run_command.h"
+#include "bake/base/input_record.h"
+#include "bake/base/memory.h"
+#include "bake/base/run_job.h"
+#include "bake/base/system_lack.h"
+#include "command_line.h"
+#include "run_description.h"
+#include <exception>
+#include <new>
+
+namespace bake {
+namespace {
+
+/// Why memory was not granted. The limit is still in force.
+int fail_without_memory() try {
+    const MemoryLimit memory = memory_limit();
+    return fail("out of memory: this takes more than " + memory.described() + "; use smaller inputs or outputs, or " +
+                    memory.advice(),
+                Refusal::unsuitable);
+} catch (const std::bad_alloc&) { // not even for the line
+    std::fputs("bake: out of memory; use smaller inputs or outputs\n", stderr);
+    return int(Refusal::unsuitable);
+}
+
+/// What work() returns, or the exit code of its refusal, which is printed.
+int guarded(const std::function<int()>& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        return fail(error.what(), error.refusal);
+    } catch (const std::bad_alloc&) {
+        return fail_without_memory();
+    } catch (const std::exception& error) {
+        if (lacks_threads(error))
+            return fail("no thread can be started; use --threads 1, or raise ulimit -u or the limit on memory",
+                        Refusal::unsuitable);
+        return fail(std::string("stopped by ") + error.what() + "; please report this", Refusal::unsuitable);
+    }
+}
+
+int run_verb(CommandLine& line) {
+    OutputSet outputs;
+    const InputRecord inputs;
+    line.common.outputs = &outputs;
+    const RunRecord record(describe_run(*line.app.get_subcommands().front()));
+    return line.chosen();
+}
+
+} // namespace
+
+int run_command(const std::vector<std::string>& words, const CommandIo& io) {
+    Job job;
+    job.draws = io.draws, job.print = io.print, job.tell = io.tell;
+    std::unique_ptr<CommandLine> line;
+    std::optional<int> code;
+    job.threads = 1;
+    run_job(job, [&] {
+        const auto read = [&] {
+            line = std::make_unique<CommandLine>();
+            code = line->take(words);
+            return 0;
+        };
+        if (const int refused = guarded(read); refused != 0) code = refused;
+    });
+    if (code) return *code;
+    // What begins here belongs to the process, not to the job.
+    const auto begin = [&] { return io.begins ? (io.begins(line->common.threads), 0) : 0; };
+    if (const int refused = guarded(begin); refused != 0) return refused;
+    job.threads = line->common.threads;
+    run_job(job, [&] { code = guarded([&] { return run_verb(*line); }); });
+    return *code;
+}
+
+} // namespace bake
