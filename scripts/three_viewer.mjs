@@ -3,7 +3,8 @@
 //   three_viewer JOB.json       files in a job are relative to its folder
 //
 //   {"model": "model.glb",
-//    "sky": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"],   8-bit sRGB or .exr; or absent
+//    "sky": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"],   8-bit sRGB or .exr; or absent;
+//                                  or one .dds or .ktx2 of bake cubemap --for three, which is not filtered again
 //    "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40},   vertical field of view
 //    "size": [512, 512],
 //    "outputs": [
@@ -11,6 +12,8 @@
 //      {"what": "radiance", "file": "r.f32", "samples": 4, "background": true},   samples^2 per pixel; with the sky behind
 //      {"what": "radiance", "file": "r.png", "exposure": -1,   in stops, sRGB-encoded
 //       "model": "other.glb", "camera": {...}},   instead of those of the job
+//      {"what": "lobe", "roughness": 0.5, "file": "l.f32",    a sphere of radius 1 at the origin: the filtered sky as it is
+//       "directions": true},       looked up; or the directions, in the world
 //      {"what": "texture", "texture": "n.ktx2", "level": 0, "file": "t.f32"}]}   texels of a level of this "size"
 //
 // .f32: R, G, B, A as 32-bit floats, low byte first, rows from the top down; A is the share of samples on the model, or 1

@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+import { load_dds, load_ktx2 } from './three_environment.mjs';
 
 const renderer = new THREE.WebGLRenderer();
 renderer.toneMapping = THREE.NoToneMapping;
@@ -21,6 +22,7 @@ function upside_down({ image, type }) {
 
 async function load_sky(files) {
   if (!files) return null;
+  if (files.length === 1) return files[0].endsWith('.dds') ? load_dds(url(files[0])) : load_ktx2(url(files[0]));
   if (!files[0].endsWith('.exr')) return new THREE.CubeTextureLoader().loadAsync(files.map(url));
   const faces = await Promise.all(files.map(file => new EXRLoader().loadAsync(url(file))));
   const cube = new THREE.CubeTexture(faces.map(upside_down));
@@ -109,12 +111,35 @@ async function texels(file, level, size) {
   return render(scene, new THREE.Camera(), size, 1);
 }
 
+/// What a white mirror of a roughness shows of the sky, with three.js' own look-up; or the directions in which it is looked up.
+function show_lobe(roughness, directions) {
+  const material = new THREE.MeshStandardMaterial({ metalness: 1 });
+  const value = directions
+    ? `normalize( mix( reflect( - geometryViewDir, geometryNormal ), geometryNormal, pow4( ${roughness.toFixed(6)} ) ) )`
+    : `getIBLRadiance( geometryViewDir, geometryNormal, ${roughness.toFixed(6)} )`;
+  material.onBeforeCompile = shader => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <opaque_fragment>', directions
+      ? `gl_FragColor = vec4( transformDirectionByInverseViewMatrix( ${value}, viewMatrix ), 1.0 );`
+      : `gl_FragColor = vec4( ${value}, 1.0 );`);
+  };
+  material.customProgramCacheKey = () => `lobe ${roughness} ${directions}`;
+  material.blending = THREE.NoBlending;
+  const scene = new THREE.Scene();
+  scene.add(new THREE.Mesh(new THREE.SphereGeometry(1, 256, 128), material));
+  return scene;
+}
+
 let sky = null; // one sky serves all outputs of a job
 
 /// One output of the job, its file as base64.
 window.show = async (job, output) => {
   if (output.what === 'texture')
     return base64(new Uint8Array((await texels(output.texture, output.level ?? 0, job.size)).buffer));
+  if (output.what === 'lobe') {
+    const scene = show_lobe(output.roughness, output.directions ?? false);
+    scene.environment = sky ??= await load_sky(job.sky);
+    return base64(new Uint8Array(render(scene, camera_of(output.camera ?? job.camera, job.size, scene), job.size, 1).buffer));
+  }
   const normals = output.what === 'normals';
   sky ??= normals ? null : await load_sky(job.sky); // its filtering takes seconds
   const scene = new THREE.Scene();

@@ -44,7 +44,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
     check_decode(results, args.decode, args.options.directx.value_or(false), args.options, common);
     for (const std::string& spec : args.brdfs)
         add_result(results, spec, common, [&] { return check_brdf(spec, parse_brdf("--brdf", spec)); });
-    if (common.json) print_json({{"files", results.files}}, -1);
+    if (common.json) common.report->object = {{"files", results.files}}, common.report->indent = -1;
     if (results.code != 0) return results.code;
     return results.over || (args.strict && results.wrong) ? int(Refusal::over_limit) : 0;
 }

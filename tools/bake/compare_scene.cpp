@@ -105,8 +105,7 @@ int compare_methods(const CompareArgs& args, const CommonArgs& common) {
     Stopwatch watch;
     const SceneEntries entries = read_entries(args);
     const OutputFolder folder(args.out);
-    if (is_visible(common) && draws_on_terminal())
-        options.told = [&](const std::string& line) { note(common, line); };
+    if (is_visible(common) && draws_on_terminal()) options.told = [&](const std::string& line) { note(common, line); };
     Progress progress(common.quiet);
     const SceneComparison comparison = compare_scene(entries, args.methods.object, options, &progress);
     watch.lap("compare");

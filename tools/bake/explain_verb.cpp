@@ -25,7 +25,7 @@ int run(ExplainArgs& args, const CommonArgs& common) {
     input.height = &height;
     input.options = resolve_options(args.map, height, mesh);
     const std::vector<RouteStep> route = explain(input);
-    if (common.json) print_json(nlohmann::ordered_json::parse(to_json(route)));
+    if (common.json) common.report->object = nlohmann::ordered_json::parse(to_json(route));
     else print_text(to_text(route));
     return 0;
 }

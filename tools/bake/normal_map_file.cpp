@@ -17,7 +17,7 @@ Image<float> as_colours(const Image<float>& normals) {
 }
 
 StoredNormalMap write_levels(BlockWriter& out, const std::string& path, std::span<const NormalLevel> mips, Depth depth,
-                             bool dither) {
+                             bool dither, const Facts& facts) {
     const TexelFormat format = depth == Depth::u8    ? TexelFormat::rgba8
                                : depth == Depth::u16 ? TexelFormat::rgba16
                                                      : TexelFormat::bc5;
@@ -28,7 +28,7 @@ StoredNormalMap write_levels(BlockWriter& out, const std::string& path, std::spa
                          : dither ? pack_level(dithered(as_colours(mip.normal)), format)
                                   : pack_level(as_colours(mip.normal), format));
     const TextureContainer container = *texture_container(path);
-    write_texture(out, container, format, levels);
+    write_texture(out, container, format, levels, 1, facts);
     const StoredError error = stored_error(read_back(out, path, container), mips[0].normal);
     out.commit();
     StoredNormalMap stored{int(levels.size()), levels[0].width, levels[0].height, blocks, error, {}};
@@ -46,7 +46,7 @@ void write_roughness(BlockWriter& out, const std::string& path, std::span<const 
     std::vector<TextureLevel> levels;
     for (const NormalLevel& mip : mips)
         levels.push_back(pack_level(roughness_map(mip, float(roughness)), TexelFormat::r8));
-    write_texture(out, *texture_container(path), TexelFormat::r8, levels);
+    write_texture(out, *texture_container(path), TexelFormat::r8, levels, 1, {{"content", std::string("roughness")}});
     out.commit();
 }
 
@@ -105,14 +105,14 @@ nlohmann::json to_json(const StoredNormalMap& stored) {
 }
 
 NormalMapFile::NormalMapFile(const NormalMapArgs& args, int width, int height, Depth depth, const HeightOptions* relief)
-    : args_(args), depth_(depth) {
+    : args_(args), depth_(depth), facts_(facts_of(args, relief)) {
     const int levels = std::bit_width(unsigned(std::max(width, height)));
     if (args.skip_mips >= levels)
         throw Error(Refusal::usage, format("--skip-mips %d: a map of %d x %d has %d levels; leave one of them",
                                            args.skip_mips, width, height, levels));
     if (texture_container(args.out)) texture_.emplace(args.out);
     else {
-        WriteOptions options{.depth = depth, .channels = {"R", "G", "B"}, .facts = facts_of(args, relief)};
+        WriteOptions options{.depth = depth, .channels = {"R", "G", "B"}, .facts = facts_};
         if (args.high.alpha) options.channels.push_back("A");
         picture_.emplace(args.out, width, height, int(options.channels.size()), options);
     }
@@ -134,7 +134,7 @@ std::optional<StoredNormalMap> NormalMapFile::write(const Image<float>& map, con
     const std::span<const NormalLevel> mips = std::span(all).subspan(std::size_t(args_.skip_mips));
     if (roughness_) write_roughness(*roughness_, args_.roughness_map, mips, args_.roughness);
     if (!texture_) return stored;
-    return write_levels(*texture_, args_.out, mips, depth_, args_.dither);
+    return write_levels(*texture_, args_.out, mips, depth_, args_.dither, facts_);
 }
 
 } // namespace bake

@@ -32,6 +32,7 @@ public:
 private:
     const NormalMapArgs& args_;
     Depth depth_;
+    Facts facts_; ///< of the map
     std::optional<ImageWriter> picture_;
     std::optional<BlockWriter> texture_, roughness_;
 };

@@ -76,8 +76,7 @@ int run(const PlanArgs& args, const CommonArgs& common) {
     // Files that cannot be written are refused before the work.
     for (const std::string* path : {&args.out, &args.manifest, &args.report})
         if (!path->empty()) OutputFile reserved(*path);
-    if (is_visible(common) && draws_on_terminal())
-        options.told = [&](const std::string& line) { note(common, line); };
+    if (is_visible(common) && draws_on_terminal()) options.told = [&](const std::string& line) { note(common, line); };
     Progress progress(common.quiet);
     ScenePlan plan = plan_scene(entries, options, &progress);
     if (plan.interrupted && interrupted()) accept_interrupt();

@@ -10,6 +10,7 @@ namespace {
 void print_line(const std::string& message) {
     const std::string line = "bake: " + printable(with_flags(message)) + "\n";
     const Job& job = current_job();
+    if (job.hears) job.hears(line);
     if (job.tell) return job.tell(line);
     const char* const wipe = draws_on_terminal() ? "\r\033[K" : ""; // a bar that is drawn there
     std::fprintf(stderr, "%s%s", wipe, line.c_str());
@@ -24,7 +25,9 @@ void print(const std::string& text) {
 } // namespace
 
 void note(const CommonArgs& common, const std::string& line) {
-    if (!line.empty() && !common.quiet && !common.json) print_line(line);
+    if (line.empty()) return;
+    if (common.json) common.report->add_note(with_flags(line));
+    else if (!common.quiet) print_line(line);
 }
 
 int fail(const std::string& message, Refusal why) {
@@ -46,8 +49,8 @@ void print_json(const nlohmann::ordered_json& object, int indent) {
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch) {
     common.outputs->commit();
     if (common.json) {
-        if (!object.contains("seconds")) object["seconds"] = watch.to_json();
-        print_json(object);
+        object["seconds"] = watch.to_json();
+        common.report->object = std::move(object);
     } else if (!common.quiet) {
         print_text(text + watch.to_text() + "\n");
     }

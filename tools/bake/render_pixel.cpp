@@ -18,7 +18,7 @@ int print_pixel(const Scene& scene, const std::pair<int, int>& pixel, const Comm
         settings.exposure ? *settings.exposure : automatic_exposure(render(scene, settings, nullptr, &progress));
     progress.finish();
     const std::vector<RouteStep> route = explain_pixel(scene, x, y, exposure, !settings.exposure);
-    if (common.json) print_json(nlohmann::ordered_json::parse(to_json(route)));
+    if (common.json) common.report->object = nlohmann::ordered_json::parse(to_json(route));
     else print_text(to_text(route));
     return 0;
 }

@@ -47,10 +47,9 @@ void report(const Rendered& r, const Stopwatch& watch, const CommonArgs& common)
     const double seconds = watch.seconds("render"), rate = seconds > 0 ? double(stats.rays) / seconds : 0;
     const std::size_t triangles = r.scene.bvh->triangle_count();
     nlohmann::json object = {
-        {"out", r.output.path},      {"width", settings.width},          {"height", settings.height},
-        {"spp", r.passes.spp()},     {"triangles", triangles},           {"rays", stats.rays},
-        {"rays_per_second", rate},   {"bad_samples", stats.bad_samples}, {"load_seconds", watch.seconds("load")},
-        {"render_seconds", seconds}, {"seconds", watch.total()},         {"interrupted", r.interrupted}};
+        {"out", r.output.path},    {"width", settings.width},          {"height", settings.height},
+        {"spp", r.passes.spp()},   {"triangles", triangles},           {"rays", stats.rays},
+        {"rays_per_second", rate}, {"bad_samples", stats.bad_samples}, {"interrupted", r.interrupted}};
     object["samples"] = {{"mean", samples.mean}, {"least", samples.least}, {"most", samples.most}};
     const double hits = double(std::max<std::int64_t>(1, stats.hits));
     object["relief"] = {{"tilted_away", double(stats.tilted) / hits},

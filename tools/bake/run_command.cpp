@@ -5,6 +5,7 @@
 #include "bake/base/system_lack.h"
 #include "command_line.h"
 #include "run_description.h"
+#include <algorithm>
 #include <exception>
 #include <new>
 
@@ -38,12 +39,21 @@ int guarded(const std::function<int()>& work) {
     }
 }
 
-int run_verb(CommandLine& line) {
+/// Runs the verb, and prints its object under --json, also that of a refusal.
+int run_verb(CommandLine& line, const std::vector<std::string>& words, RunReport& report) {
     OutputSet outputs;
     const InputRecord inputs;
-    line.common.outputs = &outputs;
     const RunRecord record(describe_run(*line.app.get_subcommands().front()));
-    return line.chosen();
+    line.common.outputs = &outputs, line.common.report = &report;
+    const int code = guarded(line.chosen);
+    if (line.common.json) print_json(whole_report(report, words, outputs.committed(), code), report.indent);
+    return code;
+}
+
+/// The words of a reason as it was printed.
+std::string reason_of(const std::string& line) {
+    const std::string before = "bake: ";
+    return line.substr(before.size(), line.size() - before.size() - 1);
 }
 
 } // namespace
@@ -51,6 +61,12 @@ int run_verb(CommandLine& line) {
 int run_command(const std::vector<std::string>& words, const CommandIo& io) {
     Job job;
     job.draws = io.draws, job.print = io.print, job.tell = io.tell;
+    RunReport report;
+    const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+    if (json) // no note is printed then, but reasons alone
+        job.hears = [&](const std::string& line) {
+            if (report.error.empty()) report.error = reason_of(line);
+        };
     std::unique_ptr<CommandLine> line;
     std::optional<int> code;
     job.threads = 1;
@@ -61,13 +77,15 @@ int run_command(const std::vector<std::string>& words, const CommandIo& io) {
             return 0;
         };
         if (const int refused = guarded(read); refused != 0) code = refused;
+        if (json && code.value_or(0) != 0)
+            print_json(whole_report(report, words, {}, *code));
     });
     if (code) return *code;
     // What begins here belongs to the process, not to the job.
     const auto begin = [&] { return io.begins ? (io.begins(line->common.threads), 0) : 0; };
     if (const int refused = guarded(begin); refused != 0) return refused;
     job.threads = line->common.threads;
-    run_job(job, [&] { code = guarded([&] { return run_verb(*line); }); });
+    run_job(job, [&] { code = guarded([&] { return run_verb(*line, words, report); }); });
     return *code;
 }
 

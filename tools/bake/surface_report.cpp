@@ -16,10 +16,16 @@ const char* describe(Degenerate what) {
     }
 }
 
-std::vector<std::pair<const char*, ValueRange>> ranges(const SurfaceSummary& s, bool has_uv) {
-    std::vector<std::pair<const char*, ValueRange>> out = {{"x", s.x}, {"y", s.y}, {"z", s.z}};
-    if (has_uv) out.insert(out.end(), {{"|p_u|", s.length_u}, {"|p_v|", s.length_v}});
-    out.insert(out.end(), {{"mean curvature", s.mean_curvature}, {"gauss curvature", s.gauss_curvature}});
+struct NamedRange {
+    const char *label, *key; ///< in the text, and in the JSON
+    ValueRange range;
+};
+
+std::vector<NamedRange> ranges(const SurfaceSummary& s, bool has_uv) {
+    std::vector<NamedRange> out = {{"x", "x", s.x}, {"y", "y", s.y}, {"z", "z", s.z}};
+    if (has_uv) out.insert(out.end(), {{"|p_u|", "length_p_u", s.length_u}, {"|p_v|", "length_p_v", s.length_v}});
+    out.insert(out.end(), {{"mean curvature", "mean_curvature", s.mean_curvature},
+                           {"gauss curvature", "gauss_curvature", s.gauss_curvature}});
     return out;
 }
 
@@ -28,7 +34,7 @@ std::vector<std::pair<const char*, ValueRange>> ranges(const SurfaceSummary& s, 
 std::string to_text(const std::string& what, const SurfaceMesh& mesh, const SurfaceSummary& s) {
     const bool has_uv = !mesh.mesh.corner_uv.empty();
     std::string text = what + format("\n%-16s %14s %14s %14s\n", "", "min", "max", "mean");
-    for (const auto& [label, range] : ranges(s, has_uv))
+    for (const auto& [label, key, range] : ranges(s, has_uv))
         text += format("%-16s %14.7g %14.7g %14.7g\n", label, range.min, range.max, range.mean);
     text += format("area %.7g, %zu faces, %zu vertices\ndegenerate points: %zu\n", s.area, mesh.mesh.faces(),
                    mesh.mesh.positions.size(), s.degenerate.size());
@@ -46,7 +52,8 @@ std::string to_text(const std::string& what, const SurfaceMesh& mesh, const Surf
 nlohmann::json to_json(const SurfaceSummary& s, bool has_uv) {
     nlohmann::json object = {
         {"area", s.area}, {"degenerate_count", s.degenerate.size()}, {"degenerate", nlohmann::json::array()}};
-    for (const auto& [label, r] : ranges(s, has_uv)) object[label] = {{"min", r.min}, {"max", r.max}, {"mean", r.mean}};
+    for (const auto& [label, key, r] : ranges(s, has_uv))
+        object[key] = {{"min", r.min}, {"max", r.max}, {"mean", r.mean}};
     for (std::size_t i = 0; i < std::min(points_in_json, s.degenerate.size()); ++i) {
         const DegeneratePoint& d = s.degenerate[i];
         object["degenerate"].push_back({{"what", describe(d.what)},

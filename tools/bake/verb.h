@@ -5,6 +5,7 @@
 #include "bake/base/printable.h"
 #include "bake/base/progress.h"
 #include "inputs/stopwatch.h"
+#include "run_report.h"
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
@@ -31,6 +32,7 @@ struct CommonArgs {
     bool quiet = false; ///< no progress, no notes, no result as text
     bool json = false;  ///< one JSON object on stdout instead of text
     OutputSet* outputs; ///< the files that the verb writes, which print_result() makes appear
+    RunReport* report;  ///< what is printed under --json when the verb ends
 };
 
 /// A verb adds its options to `sub` and returns what to run after parsing: it returns the exit code.
@@ -54,7 +56,7 @@ std::string with_flags(const std::string& message);
 
 // All that the command prints goes through the following functions, which escape what a terminal would obey (printable()
 // of base/printable.h).
-/// One line on stderr, unless --quiet or --json (the object says it): a note that does not stop the run.
+/// One line on stderr, unless --quiet; under --json among the notes of the object: a note that does not stop the run.
 void note(const CommonArgs& common, const std::string& line);
 /// One line on stderr: why the run, or a part of it, is refused. Returns the exit code.
 int fail(const std::string& message, Refusal why);
@@ -62,8 +64,8 @@ int fail(const std::string& message, Refusal why);
 void print_text(const std::string& text);
 /// One JSON object on stdout, escaped as JSON does it; bytes that are not UTF-8 become U+FFFD.
 void print_json(const nlohmann::ordered_json& object, int indent = 2);
-/// Makes the files of a verb appear under their names, all together, and prints its result on stdout: the object under --json, else the lines of text unless --quiet, each
-/// with the seconds of the steps.
+/// Makes the files of a verb appear under their names, all together, and tells its result: under --json the object becomes
+/// part of what is printed at the end, else the lines of text are printed unless --quiet, each with the seconds of the steps.
 void print_result(const CommonArgs& common, const std::string& text, nlohmann::json object, const Stopwatch& watch);
 
 } // namespace bake

@@ -43,7 +43,7 @@ std::vector<InputFile> recorded_inputs() {
     const std::lock_guard lock(files->mutex);
     for (auto& [file, named] : files->known) {
         if (named.hash.empty()) named.hash = file_hash(named.path).value_or("");
-        out.push_back({std::filesystem::path(named.path).filename().string(), named.hash});
+        out.push_back({named.path, std::filesystem::path(named.path).filename().string(), named.hash});
     }
     std::sort(out.begin(), out.end(), [](const InputFile& a, const InputFile& b) {
         return std::tie(a.name, a.hash) < std::tie(b.name, b.hash);

@@ -30,6 +30,7 @@ void remember_input(const std::string& path, const struct stat& file);
 bool is_input(const struct stat& file);
 
 struct InputFile {
+    std::string path; ///< as it was opened
     std::string name; ///< without its folder
     std::string hash; ///< file_hash(); empty for a file that is no longer there
 };

@@ -9,6 +9,7 @@ namespace bake {
 struct InputFiles;
 class MemoryCap;
 class OutputSet;
+struct RunDescription;
 
 struct Job {
     /// What thread_count() gives; 0: as many threads as the process may use.
@@ -17,8 +18,11 @@ struct Job {
     bool draws = true;
     /// Take what is printed on stdout and on stderr; empty: these streams. From any thread of the job.
     std::function<void(const std::string&)> print, tell;
+    /// Is told every line of stderr too, as it is printed.
+    std::function<void(const std::string&)> hears;
 
-    // Of InputRecord, OutputSet and MemoryCap, and of accept_interrupt().
+    // Of RunRecord, InputRecord, OutputSet and MemoryCap, and of accept_interrupt().
+    std::atomic<const RunDescription*> run = nullptr;
     std::atomic<InputFiles*> inputs = nullptr;
     std::atomic<OutputSet*> outputs = nullptr;
     std::atomic<const MemoryCap*> caps = nullptr;

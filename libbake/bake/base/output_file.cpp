@@ -218,7 +218,13 @@ OutputSet::~OutputSet() { current_job().outputs = outer_; }
 
 void OutputSet::commit() {
     auto files = std::exchange(files_->written, {});
-    if (!outer_) return rename_all(std::move(files));
+    if (!outer_) {
+        std::vector<std::string> names;
+        for (const auto& file : files) names.push_back(file->path);
+        rename_all(std::move(files));
+        committed_.insert(committed_.end(), names.begin(), names.end());
+        return;
+    }
     const std::lock_guard lock(outer_->files_->mutex);
     for (auto& file : files) outer_->files_->written.push_back(std::move(file));
 }

@@ -60,11 +60,14 @@ public:
     /// fails after others succeeded, the message says which files are new and which are old. After the call
     /// interrupted() may be true, but everything is written.
     void commit();
+    /// The names of the files that commit() renamed so far, as they were given.
+    const std::vector<std::string>& committed() const noexcept { return committed_; }
 
 private:
     friend class OutputFile;
     struct Files;
     std::unique_ptr<Files> files_;
+    std::vector<std::string> committed_;
     OutputSet* outer_;
 };
 

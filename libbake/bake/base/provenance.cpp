@@ -1,5 +1,6 @@
 #include "bake/base/provenance.h"
 #include "bake/base/input_record.h"
+#include "bake/base/job.h"
 #include "bake/base/version.h"
 #include <nlohmann/json.hpp>
 
@@ -7,8 +8,6 @@ namespace bake {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-thread_local const RunDescription* current = nullptr;
 
 json object_of(const Facts& facts) {
     json object = json::object();
@@ -38,13 +37,14 @@ json value_of(const std::string& record, const std::string& name) {
 
 } // namespace
 
-RunRecord::RunRecord(RunDescription run) : run_(std::move(run)), outer_(std::exchange(current, &run_)) {}
-RunRecord::~RunRecord() { current = outer_; }
+RunRecord::RunRecord(RunDescription run) : run_(std::move(run)), outer_(current_job().run.exchange(&run_)) {}
+RunRecord::~RunRecord() { current_job().run = outer_; }
 
 std::string record_text(const Facts& facts) {
-    if (!current) return {};
-    json object = {{"software", "bake"}, {"version", version()}, {"verb", current->verb}};
-    object["options"] = object_of(current->options);
+    const RunDescription* const run = current_job().run;
+    if (!run) return {};
+    json object = {{"software", "bake"}, {"version", version()}, {"verb", run->verb}};
+    object["options"] = object_of(run->options);
     object["inputs"] = inputs();
     if (!facts.empty()) object["values"] = object_of(facts);
     return object.dump(-1, ' ', true, json::error_handler_t::replace);

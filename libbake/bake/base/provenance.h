@@ -23,7 +23,7 @@ struct RunDescription {
     Facts options; ///< those that affect the result, without folders
 };
 
-/// While it lives, the files that this thread writes say which run made them. The command has one for each run. A program
+/// While it lives, the files that the current job (base/job.h) writes say which run made them. The command has one for each run. A program
 /// that uses the library and wants no such record makes none.
 class RunRecord {
 public:

@@ -13,11 +13,11 @@ namespace bake {
 /// Bytes of a picture of this size in blocks; sizes need not be multiples of 4.
 std::size_t bc6h_bytes(int width, int height) noexcept;
 
-/// The first three channels of `radiance` as bc6h_bytes() bytes: rows of blocks from the top down. What is minimised in a block
-/// is the sum over texels of (error / (largest channel + mean of the block's largest channels))^2: relative errors
-/// where a block is even, and absolute ones in a block with a sun, whose light would otherwise be given up for the digits of dark
-/// texels beside it. Values above 65504 and below 0 are clamped; NaN counts as 0. Blocks that reach beyond the picture repeat
-/// its last row and column. The bytes do not depend on the number of threads.
+/// The first three channels of `radiance` as bc6h_bytes() bytes: rows of blocks from the top down. What is minimised in a
+/// block is the sum over texels of (error / v)^2 (1 + v / mean), v the largest channel of a texel and mean that of the block:
+/// relative errors where a block is even, and in a block with a sun the light of the sun first, but not at the price of its
+/// neighbours. Values above 65504 and below 0 are clamped; NaN counts as 0. Blocks that reach beyond the picture repeat its
+/// last row and column. The bytes do not depend on the number of threads.
 std::string bc6h_encode(const Image<float>& radiance);
 
 /// Fills three channels from bc6h_bytes() bytes; a block of an unknown mode is black, as on graphics cards.

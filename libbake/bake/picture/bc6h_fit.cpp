@@ -44,8 +44,8 @@ struct Texels {
         float mean = 0;
         for (const Triple& t : value) mean += std::max({t[0], t[1], t[2], 1e-6f}) / 16;
         for (std::size_t i = 0; i < 16; ++i) {
-            const float sum = std::max({value[i][0], value[i][1], value[i][2]}) + mean;
-            weight[i] = 1 / (sum * sum);
+            const float largest = std::max({value[i][0], value[i][1], value[i][2]}), sum = largest + mean / 1024;
+            weight[i] = (1 + largest / mean) / (sum * sum);
             for (std::size_t c = 0; c < 3; ++c) {
                 const Imath::half half(value[i][c]);
                 at[i][c] = (float(half.bits()) + 0.5f) * (64.0f / 31);                  // which a card rounds down

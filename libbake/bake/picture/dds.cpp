@@ -51,6 +51,7 @@ void describe(const PictureFile& file, const DdsHeader& header, const ReadLimits
     if (header.code == TexelCode::bc5) info.notes.push_back("is compressed as BC5: z is computed from x and y");
     if (!header.masks.empty()) describe_masked(file, masked_texels(header, part_of(header, 0, 0)), limits, info);
     info.width = window.width, info.height = window.height;
+    info.record = header.record;
     if (header.faces == 6) info.environment = EnvironmentTag::cube;
     if (header.srgb) info.srgb_tagged = true, info.colour = {.source = "DXGI format", .curves = {srgb_curve()}};
     if (header.arrays > 1)

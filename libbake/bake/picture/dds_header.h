@@ -32,6 +32,7 @@ struct DdsHeader {
     std::vector<std::uint32_t> masks = {};  ///< one per channel; none: the samples of a texel follow each other
     int alpha_channel = -1;
     bool srgb = false;
+    std::string record = {}; ///< of a KTX2, how it was made, as ImageInfo has it
 };
 
 /// Throws Error{Refusal::unreadable} for a header that is damaged, for a format of texels that is not read and for a file

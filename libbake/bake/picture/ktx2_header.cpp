@@ -37,14 +37,24 @@ void check_kind(const PictureFile& file) {
     if (word(file, 44) != 0) throw unreadable(file.path(), "is supercompressed, which is not read", mend);
 }
 
-/// Rows from the bottom up are said by the second letter of KTXorientation.
-bool bottom_up(const PictureFile& file) {
-    const std::int64_t at = word(file, 56), size = std::min<std::int64_t>(word(file, 60), 1 << 16);
+/// The value of a key, empty if there is none: the pairs stand one behind the other, each padded to four bytes.
+std::string value_of(const PictureFile& file, const std::string& key) {
+    const std::int64_t at = word(file, 56), size = std::min<std::int64_t>(word(file, 60), 1 << 20);
     std::string pairs(std::size_t(size), '\0');
     pairs.resize(std::size_t(std::max<std::int64_t>(0, file.read(at, pairs.data(), size))));
-    const std::string key("KTXorientation\0", 15);
-    const std::size_t found = pairs.find(key);
-    return found != std::string::npos && found + key.size() + 1 < pairs.size() && pairs[found + key.size() + 1] == 'u';
+    for (std::size_t begin = 0; begin + 4 < pairs.size();) {
+        const std::size_t length = little_endian(pairs, begin, 4);
+        const std::string pair = pairs.substr(begin + 4, length);
+        if (pair.compare(0, key.size() + 1, key + '\0') == 0) return pair.substr(key.size() + 1).c_str();
+        begin += 4 + (length + 3) / 4 * 4;
+    }
+    return {};
+}
+
+/// Rows from the bottom up are said by the second letter of KTXorientation.
+bool bottom_up(const PictureFile& file) {
+    const std::string orientation = value_of(file, "KTXorientation");
+    return orientation.size() > 1 && orientation[1] == 'u';
 }
 
 } // namespace
@@ -89,6 +99,7 @@ DdsHeader read_ktx2_header(const PictureFile& file) {
     }
     check_descriptor(file);
     if (bottom_up(file)) throw Error(Refusal::unsuitable, file.path() + ": is stored from the bottom up; turn it over");
+    header.record = valid_record(value_of(file, record_key));
     return header;
 }
 

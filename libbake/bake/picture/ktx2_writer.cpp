@@ -78,7 +78,7 @@ std::string data_format_descriptor(const Texels& texels) {
     return out;
 }
 
-std::string key_values() {
+std::string key_values(const std::string& record) {
     const auto append_pair = [](std::string& to, const std::string& key, const std::string& value) {
         append(to, key.size() + value.size() + 2, 4);
         to += key + '\0' + value + '\0';
@@ -87,14 +87,16 @@ std::string key_values() {
     std::string out;
     append_pair(out, "KTXorientation", "rd"); // rows from the top down
     append_pair(out, "KTXwriter", std::string("bake ") + version());
+    if (!record.empty()) append_pair(out, record_key, record);
     return out;
 }
 
 } // namespace
 
-void write_ktx2(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels, int faces) {
+void write_ktx2(BlockWriter& out, TexelFormat format, const std::vector<TextureLevel>& levels, int faces,
+                const Facts& facts) {
     const Texels texels = texels_of(format);
-    const std::string descriptor = data_format_descriptor(texels), pairs = key_values();
+    const std::string descriptor = data_format_descriptor(texels), pairs = key_values(record_text(facts));
     const std::size_t index_at = 80, descriptor_at = index_at + 24 * levels.size(),
                       pairs_at = descriptor_at + descriptor.size();
     const auto alignment = std::size_t(std::lcm(texels.block_bytes, 4u));

@@ -82,9 +82,9 @@ TextureLevel pack_level(const Image<float>& values, TexelFormat format) {
 }
 
 void write_texture(BlockWriter& out, TextureContainer container, TexelFormat format,
-                   const std::vector<TextureLevel>& levels, int faces) {
+                   const std::vector<TextureLevel>& levels, int faces, const Facts& facts) {
     if (container == TextureContainer::dds) write_dds(out, format, levels, faces);
-    else write_ktx2(out, format, levels, faces);
+    else write_ktx2(out, format, levels, faces, facts);
 }
 
 Image<float> read_back(BlockWriter& out, const std::string& path, TextureContainer container) {

@@ -1,18 +1,11 @@
 // The files of an environment that an engine loads, with the error of what is stored in them.
 #pragma once
+#include "bake/environment/engine/encoding_error.h"
 #include "bake/environment/engine/engine_levels.h"
 #include <cstdint>
 #include <functional>
 
 namespace bake {
-
-/// What is read back from a file against what was to be stored, the worst of its levels.
-struct EncodingError {
-    double rmse = 0;       ///< root mean square over the mean of the level
-    double relative = 0;   ///< root mean square of the error over the sum of the value and the level's mean
-    double flux = 0;       ///< of the flux over the sphere, relative
-    std::int64_t over = 0; ///< values larger than the format holds, which were clamped
-};
 
 struct EngineFile {
     std::string path;

@@ -1,0 +1,77 @@
+#include "run_report.h"
+#include "bake/base/input_record.h"
+#include "bake/base/memory.h"
+#include "bake/base/version.h"
+#include <algorithm>
+
+namespace bake {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "surface_tangents_raster" for "surface, tangents, raster".
+std::string snake_case(const std::string& name) {
+    std::string out;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (plain) out += c;
+        else if (!out.empty() && out.back() != '_') out += '_';
+    }
+    return out;
+}
+
+/// Of the steps that the verb told, and their sum.
+Json seconds_of(const Json& own) {
+    Json out = Json::object();
+    double total = 0;
+    if (own.is_object())
+        for (const auto& [step, seconds] : own.items()) {
+            out[snake_case(step)] = seconds;
+            total += seconds.get<double>();
+        }
+    out["total"] = total;
+    return out;
+}
+
+Json inputs() {
+    Json list = Json::array();
+    for (const InputFile& input : recorded_inputs()) {
+        Json one = {{"file", input.path}};
+        if (!input.hash.empty()) one["xxh128"] = input.hash;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+Json texts_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_array() ? *found : Json::array();
+}
+
+} // namespace
+
+void RunReport::add_note(const std::string& line) {
+    if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+}
+
+Json whole_report(const RunReport& report, const std::vector<std::string>& words,
+                  const std::vector<std::string>& outputs, int code) {
+    std::vector<std::string> argv = {"bake"};
+    argv.insert(argv.end(), words.begin(), words.end());
+    Json whole = {{"verb", words.empty() ? "" : words[0]}, {"version", version()}, {"argv", argv}, {"exit_code", code}};
+    if (!report.error.empty()) whole["error"] = report.error;
+    whole["inputs"] = inputs();
+    whole["outputs"] = outputs;
+    const Json& own = report.object;
+    whole["seconds"] = seconds_of(own.contains("seconds") ? own["seconds"] : Json());
+    whole["memory"] = {{"peak_bytes", peak_memory()}};
+    RunReport notes = report;
+    for (const Json& line : texts_of(own, "notes")) notes.add_note(line.get<std::string>());
+    whole["notes"] = notes.notes;
+    whole["warnings"] = texts_of(own, "warnings");
+    for (const auto& [key, value] : own.items())
+        if (!whole.contains(key)) whole[key] = value;
+    return whole;
+}
+
+} // namespace bake
