@@ -140,7 +140,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                    "picture of a flat rectangle");
     add_output_option(sub, args->out,
                       "Normal map to write (.png, .exr, .tif; with mips .dds, .ktx2): rgb = (n + 1) / 2; <UDIM> in the "
-                      "name: one for each tile; .glb, .gltf: the mesh with the map");
+                      "name: one for each tile; .glb, .gltf, .usda: the mesh with the map; .mtlx: its material");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
     add_bevel_option(sub, *args);
@@ -155,6 +155,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "  bake normal-map meshes/bricks.png -o bricks.png\n"
         "  bake normal-map meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n"
+        "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.usda --size 512\n"
         "The detail of a mesh that is displaced already:\n"
         "  bake displace meshes/torus.obj --height meshes/bricks.png --amplitude 1% --levels 2 -o displaced.glb\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% --residual-of displaced.glb -o "
