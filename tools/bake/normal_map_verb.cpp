@@ -120,7 +120,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     note_all(common, args.mesh, in.mesh.notes);
     for (const auto& [one, result] : baked) warn(common, one, result.report);
     const NormalMapResult& first = baked[0].second;
-    if (args.engine) note(common, size_note(*args.engine, first.options.width, first.options.height));
+    if (args.engine) note(common, size_note(*args.engine->normal_map, first.options.width, first.options.height));
     if (args.like.empty())
         note(common, default_amplitude_note(args.height, in.height.info, first.options.height_options,
                                             whole_of(args, in.mesh)));
