@@ -4,7 +4,8 @@
 //
 //   {"model": "model.glb",            or .gltf, .usda
 //    "sky": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"],   8-bit sRGB or .exr; or absent;
-//                                  or one .dds or .ktx2 of bake cubemap --for three, which is not filtered again
+//                                  or one .dds or .ktx2 of bake cubemap --for three, which is not filtered again;
+//                                  or one lat-long, .hdr or .exr
 //    "camera": {"position": [0, 1, 5], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40},   vertical field of view
 //    "size": [512, 512],
 //    "outputs": [

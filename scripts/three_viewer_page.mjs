@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
 import { load_dds, load_ktx2 } from './three_environment.mjs';
 import { camera_of, load_model, url } from './three_model.mjs';
 
@@ -19,9 +20,18 @@ function upside_down({ image, type }) {
   return new THREE.DataTexture(turned, width, height, THREE.RGBAFormat, type);
 }
 
+async function load_latlong(file) {
+  const picture = await (file.endsWith('.hdr') ? new HDRLoader() : new EXRLoader()).loadAsync(url(file));
+  picture.mapping = THREE.EquirectangularReflectionMapping;
+  return picture;
+}
+
 async function load_sky(files) {
   if (!files) return null;
-  if (files.length === 1) return files[0].endsWith('.dds') ? load_dds(url(files[0])) : load_ktx2(url(files[0]));
+  if (files.length === 1) {
+    const load = { dds: load_dds, ktx2: load_ktx2 }[files[0].split('.').pop()];
+    return load ? load(url(files[0])) : load_latlong(files[0]);
+  }
   if (!files[0].endsWith('.exr')) return new THREE.CubeTextureLoader().loadAsync(files.map(url));
   const faces = await Promise.all(files.map(file => new EXRLoader().loadAsync(url(file))));
   const cube = new THREE.CubeTexture(faces.map(upside_down));

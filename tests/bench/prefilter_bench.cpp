@@ -15,7 +15,7 @@
 // Filament, with bilinear interpolation, 16 times per texel. Of half floats or of R11F_G11F_B10F, which cmgen writes.
 #include "bake/base/file_bytes.h"
 #include "bake/base/vec.h"
-#include "bake/environment/engine/consumer.h"
+#include "bake/environment/engine/roughness_ladder.h"
 #include "bake/environment/file/face_files.h"
 #include "bake/environment/filter/convolve.h"
 #include "bake/environment/filter/irradiance.h"

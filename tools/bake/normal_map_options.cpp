@@ -138,18 +138,18 @@ void complete_engine(NormalMapArgs& args) {
                                             "loads it, which names the file");
         return;
     }
-    const Engine& engine = *args.engine;
-    if (args.directx && !engine.directx)
-        throw Error(Refusal::usage,
-                    std::string("--directx, --for ") + engine.name + ": it expects green up; leave out one of the two");
+    const NormalMapRule& rule = *args.engine->normal_map;
+    if (args.directx && !rule.directx)
+        throw Error(Refusal::usage, std::string("--directx, --for ") + args.engine->name +
+                                        ": it expects green up; leave out one of the two");
     if (names_folder(args.out)) {
         const std::string& of = args.height.path.empty() ? args.mesh : args.height.path;
         args.folder = std::make_shared<OutputFolder>(args.out);
-        args.out = normal_map_name(engine, args.out, std::filesystem::path(of).stem().string());
+        args.out = normal_map_name(rule, args.out, std::filesystem::path(of).stem().string());
     }
-    args.directx = engine.directx && args.space == Space::tangent && !writes_asset(args);
+    args.directx = rule.directx && args.space == Space::tangent && !writes_asset(args);
     const bool png = writes_asset(args) || picture_format(args.out) == PictureFormat::png;
-    if (args.depth == MapDepth::automatic && png) args.depth = engine.depth == Depth::u8 ? MapDepth::u8 : MapDepth::u16;
+    if (args.depth == MapDepth::automatic && png) args.depth = rule.depth == Depth::u8 ? MapDepth::u8 : MapDepth::u16;
 }
 
 namespace {

@@ -36,6 +36,8 @@ struct NormalMapArgs {
     int skip_mips = 0;   ///< largest levels that textures leave out
     std::string roughness_map;
     double roughness = 0.5; ///< of the material that the map is for
+    std::string preview;    ///< picture of the map on its mesh, or on a rectangle
+    int preview_size = 512; ///< pixels along its edges
 };
 
 /// The options that the normal of one texel depends on.

@@ -4,6 +4,7 @@
 #include "high_to_low.h"
 #include "inputs/tile_names.h"
 #include "normal_map_output.h"
+#include "normal_map_preview.h"
 
 namespace bake {
 namespace {
@@ -74,6 +75,7 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     set_stored(result, file.write(result.map));
     result.asset_map = file.asset_map();
     watch.lap("write");
+    write_preview(args, result.map, depth, watch);
     result.map = {};
     return result;
 }
@@ -94,6 +96,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     complete_engine(args);
     const Depth depth = resolve_map_depth(args);
     complete(args, "normal-map");
+    check_preview(args);
     if (args.high.given()) return bake_high(args, depth, common);
     if (args.bevel) return bake_bevel(args, depth, common);
     Stopwatch watch;
@@ -121,7 +124,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     note_all(common, args.mesh, in.mesh.notes);
     for (const auto& [one, result] : baked) warn(common, one, result.report);
     const NormalMapResult& first = baked[0].second;
-    if (args.engine) note(common, size_note(*args.engine, first.options.width, first.options.height));
+    if (args.engine) note(common, size_note(*args.engine->normal_map, first.options.width, first.options.height));
     if (args.like.empty())
         note(common, default_amplitude_note(args.height, in.height.info, first.options.height_options,
                                             whole_of(args, in.mesh)));
@@ -150,10 +153,12 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_texture_options(sub, *args);
     add_target_options(sub, *args);
+    add_preview_options(sub, *args);
     add_examples(
         sub,
         "  bake normal-map meshes/bricks.png -o bricks.png\n"
         "  bake normal-map meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
+        "  bake normal-map meshes/bricks.png --for unreal -o T_bricks_N.png --preview bricks_preview.png\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.usda --size 512\n"
         "The detail of a mesh that is displaced already:\n"

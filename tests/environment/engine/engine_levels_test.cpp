@@ -40,7 +40,7 @@ TEST_SUITE("oracle") {
             CAPTURE(int(consumer));
             const EngineLevels made = engine_levels(sunny(64), {.consumer = consumer, .size = 64});
             REQUIRE(made.levels.size() == made.roughness.size());
-            CHECK(made.levels.back().size() == entry_of(consumer).least_edge);
+            CHECK(made.levels.back().size() == entry_of(consumer).levels->least_edge);
             for (std::size_t k = 1; k < made.levels.size(); ++k) {
                 const double alpha = made.roughness[k];
                 const oracle::ConvolvedSun exact(sun, [=](double c) { return oracle::ggx_kernel(c, alpha); });

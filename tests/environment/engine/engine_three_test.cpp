@@ -127,6 +127,17 @@ TEST_SUITE("oracle") {
         }
     }
 
+    TEST_CASE("cubemap --for three: a lat-long lights from where the sky is in bake" * doctest::skip(no_browser())) {
+        const Folder folder;
+        write_sky(folder / "sky.exr");
+        for (const std::string file : {"for_three.hdr", "for_three.exr"}) {
+            CAPTURE(file);
+            // Of this width three.js makes a cube of 512, which it filters itself.
+            run(folder, {"cubemap", "sky.exr", "--for", "three", "--size", "2048", "-o", file});
+            for (const double error : errors_of(shown(folder, {file}))) CHECK(error < 0.03);
+        }
+    }
+
     TEST_CASE("cubemap --for three: KTX2 is read by ktx-parse and shows the same" * doctest::skip(no_browser())) {
         const Folder folder;
         write_sky(folder / "sky.exr");

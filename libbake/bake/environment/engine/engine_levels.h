@@ -8,7 +8,7 @@ namespace bake {
 class Progress;
 
 struct EngineOptions {
-    Consumer consumer = Consumer::three;
+    Consumer consumer = Consumer::three; ///< one that loads levels
     int size = 0; ///< texels along an edge of level 0, a power of two; 0: the engine's usual number, at most
                   ///< the power of two below the sky's
     std::optional<TexelFormat> texels; ///< rgb9e5, rgba16f or bc6h; none: the engine's
