@@ -58,9 +58,10 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
             displaced = make_bake_target(in.diced, args.displaced, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
     }
-    if (!args.like.empty())
-        result.options.height_options.amplitude =
-            args.like_amplitude * (target ? double(target->scale.u) : args.extent.value_or(Vec2d(1)).x);
+    if (!args.like.empty()) { // like_amplitude is for a copy that is one unit wide
+        const double width = target ? double(target->scale.u) : args.extent.value_or(Vec2d(1)).x;
+        result.options.height_options.amplitude = args.like_amplitude * width / args.height.repeat.first;
+    }
     // Opened before the work, so that a long bake does not fail at its end.
     NormalMapFile file(args, options.width, options.height, depth, &options.height_options);
     const HeightField field(in.height, options.height_options, options.filter, options.width, options.height);
