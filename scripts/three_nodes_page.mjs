@@ -25,18 +25,27 @@ async function render(scene, camera, [width, height]) {
   return out;
 }
 
-/// Gives all meshes the first material of the document. MaterialXLoader wants tangents, and looks up pictures as GLTFLoader
-/// does, with v down, whatever its `uvSpace` is: the uvs of USD would show them upside down.
+/// Gives all meshes the first material of the document. What MaterialXLoader needs for that:
+/// - tangents;
+/// - uvs with v down, as in glTF, whatever its `uvSpace` is: those of USD would show pictures upside down;
+/// - meshes that are not turned: it takes the normals of the world for those of the object.
 async function dress(model, file) {
   const { materials, warnings } = await new MaterialXLoader().loadAsync(url(file));
   for (const warning of warnings) console.warn(warning.message);
   const material = Object.values(materials)[0];
-  model.traverse(object => { if (object.isMesh) object.material = material; });
+  model.updateMatrixWorld(true);
+  const dressed = new THREE.Group();
+  model.traverse(({ isMesh, geometry, matrixWorld, material: own }) => {
+    if (!isMesh) return;
+    material.side = own.side; // a document does not say whether both sides are seen
+    dressed.add(new THREE.Mesh(geometry.clone().applyMatrix4(matrixWorld), material));
+  });
+  return dressed;
 }
 
 window.show = async (job, output) => {
-  const model = await load_model(output.model ?? job.model, output.tangents);
-  if (output.material) await dress(model, output.material);
+  let model = await load_model(output.model ?? job.model, output.tangents);
+  if (output.material) model = await dress(model, output.material);
   const scene = new THREE.Scene();
   scene.add(model);
   scene.updateMatrixWorld(true);

@@ -140,6 +140,7 @@ TEST_SUITE("cli") {
         CHECK(has(text, "def Material \"_2__red___x_\" (\n            displayName = \"2 <red> \\\"x\\\"\"\n"));
         CHECK(has(text, "rel material:binding = </asset/Materials/__red___x_>"));
         CHECK(has(text, "familyType = \"partition\""));
+        CHECK(has(text, "cube \\x5ba--b.obj")); // USDLoader would look for the other bracket on the next lines
         bake_to(folder, "cube [a--b.obj", "a.mtlx");
         text = contents(folder / "a.mtlx");
         CHECK(count(text, "<surfacematerial ") == 2);
