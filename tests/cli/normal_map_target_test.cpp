@@ -99,6 +99,35 @@ TEST_SUITE("cli") {
                       "--like");
     }
 
+    TEST_CASE("--like: what is taken is told, and green stays up where no green can point down") {
+        const Folder folder;
+        write_waves(folder / "h.png", 64, 64);
+        write_file(folder / "q.obj",
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+        REQUIRE(run_bake(folder, {"normal-map", "h.png", "--amplitude", "0.07", "--directx", "--invert", "-o", "a.png"})
+                    .code == 0);
+        const Run run = run_bake(folder, {"normal-map", "h.png", "--like", "a.png", "-o", "n.png"});
+        CHECK(run.err.find("a.png: is that of the inverted height") != std::string::npos);
+        const Run record = run_bake(folder, {"check", "n.png"});
+        CHECK(record.out.find("green down") != std::string::npos);
+        CHECK(record.out.find("inverted true") != std::string::npos);
+
+        const auto map = [&](const std::string& out, const std::vector<std::string>& more) {
+            std::vector<std::string> words = {"normal-map", "q.obj", "--height", "h.png", "-o", out};
+            words.insert(words.end(), more.begin(), more.end());
+            const Run done = run_bake(folder, words);
+            REQUIRE_MESSAGE(done.code == 0, done.err);
+        };
+        map("like.png", {"--like", "a.png", "--space", "object"});
+        map("right.png", {"--amplitude", "0.07", "--invert", "--space", "object"});
+        CHECK(largest_difference(folder / "like.png", folder / "right.png") < 2e-3);
+        map("like.usda", {"--like", "a.png", "--depth", "16"});
+        map("right.usda", {"--amplitude", "0.07", "--invert", "--depth", "16"});
+        CHECK(largest_difference(folder / "like_normal.png", folder / "right_normal.png") < 2e-3);
+        check_refused(folder, {"normal-map", "q.obj", "--high", "q.obj", "--like", "a.png", "-o", "x.png"}, 2,
+                      "--like: belongs to a height");
+    }
+
     TEST_CASE("--like: with --repeat each copy is as steep as the author's map") {
         const Folder folder;
         write_waves(folder / "h.png", 64, 64);
@@ -122,6 +151,24 @@ TEST_SUITE("cli") {
                         most = std::max(most, double(std::abs(map.at(x, y, c) - author.at(x % 64, y % 64, c))));
             CHECK(most < 0.02);
         }
+    }
+
+    TEST_CASE("--like: the author's rectangle is that of each copy") {
+        const Folder folder;
+        write_waves(folder / "h.png", 64, 64);
+        REQUIRE(run_bake(folder, {"normal-map", "h.png", "--extent", "1,2", "--amplitude", "0.07", "-o", "author.png"})
+                    .code == 0);
+        const Run run =
+            run_bake(folder, {"normal-map", "h.png", "--like", "author.png", "--repeat", "4,2", "-o", "n.png"});
+        REQUIRE_MESSAGE(run.code == 0, run.err);
+        const Image<float> author = read_image(folder / "author.png"), map = read_image(folder / "n.png");
+        REQUIRE(map.width() == 256);
+        double most = 0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 256; ++x)
+                for (int c = 0; c < 3; ++c)
+                    most = std::max(most, double(std::abs(map.at(x, y, c) - author.at(x % 64, y % 64, c))));
+        CHECK(most < 2e-3);
     }
 
     TEST_CASE("--repeat: a mesh with the height N times is that with a height of N times as many waves") {

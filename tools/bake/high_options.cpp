@@ -105,8 +105,9 @@ void complete(const HighArgs& args, bool asset) {
 }
 
 void refuse_height_options(const CLI::App& sub, const std::string& instead) {
-    for (const char* flag : {"--amplitude", "--midlevel", "--method", "--filter", "--wrap", "--wrap-u", "--wrap-v",
-                             "--channel", "--invert", "--dequantise", "--extent", "--residual-of"})
+    for (const char* flag :
+         {"--amplitude", "--midlevel", "--method", "--filter", "--wrap", "--wrap-u", "--wrap-v", "--channel",
+          "--invert", "--dequantise", "--extent", "--residual-of", "--like", "--repeat"})
         if (sub.count(flag) > 0)
             throw Error(Refusal::usage, std::string(flag) + ": belongs to a height; leave it out with " + instead);
 }

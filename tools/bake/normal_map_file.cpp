@@ -73,6 +73,7 @@ Facts normal_map_facts(const NormalMapArgs& args, const HeightOptions* relief) {
     if (relief) {
         facts.push_back({"amplitude", relief->amplitude});
         facts.push_back({"midlevel", relief->midlevel});
+        if (args.height.invert) facts.push_back({"inverted", true}); // with --like no option says so
         facts.push_back({"units", std::string("object units")});
     }
     return facts;

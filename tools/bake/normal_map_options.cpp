@@ -126,8 +126,14 @@ void take_likeness(NormalMapArgs& args) {
                                              "; see bake check --pair, and give --amplitude instead");
     args.like_amplitude = pair.recipe->amplitude;
     args.height.invert = pair.recipe->invert;
-    if (!args.engine) args.directx = pair.recipe->directx;
-    if (args.mesh.empty() && !args.extent && pair.recipe->extent_v > 0) args.extent = Vec2d(1, pair.recipe->extent_v);
+    if (!args.engine && args.space == Space::tangent && !writes_asset(args)) args.directx = pair.recipe->directx;
+    if (args.mesh.empty() && !args.extent && pair.recipe->extent_v > 0)
+        args.extent = Vec2d(args.height.repeat.first, pair.recipe->extent_v * args.height.repeat.second);
+    if (pair.check.corr < pair_agrees)
+        args.like_notes.push_back(format("agrees only roughly with %s (correlation %.3f); its mean strength is taken",
+                                         args.height.path.c_str(), pair.check.corr));
+    if (args.height.invert)
+        args.like_notes.push_back("is that of the inverted height, which was baked, as with --invert");
 }
 
 void complete_engine(NormalMapArgs& args) {

@@ -27,6 +27,7 @@ struct NormalMapArgs {
     std::shared_ptr<OutputFolder> folder; ///< made for --for; goes again if nothing comes into it
     std::string like;                     ///< a normal map whose amplitude and green are taken
     double like_amplitude = 0;            ///< of that map, in widths of the picture; set by take_likeness()
+    std::vector<std::string> like_notes;  ///< on that map; likewise
     NormalMethod method = NormalMethod::exact;
     Space space = Space::tangent;
     bool directx = false;
@@ -57,8 +58,8 @@ Depth resolve_map_depth(const NormalMapArgs& args);
 /// Throws Error{Refusal::usage} for options that contradict each other, before anything is read. A lone picture is the
 /// height of a flat rectangle.
 void complete(NormalMapArgs& args, const std::string& verb);
-/// Takes amplitude, green and inversion from the normal map `like`, as bake check --pair finds them. Throws
-/// Error{Refusal::unsuitable} if the two do not show the same relief.
+/// Takes amplitude, green and inversion from the normal map `like`, as bake check --pair finds them; green only where the
+/// map may have it down. Throws Error{Refusal::unsuitable} if the two do not show the same relief.
 void take_likeness(NormalMapArgs& args);
 /// The arguments of each map: those given, or one for each tile of the mesh if the name of the map has <UDIM> in it.
 std::vector<NormalMapArgs> args_of_tiles(const NormalMapArgs& args, const Mesh& mesh);

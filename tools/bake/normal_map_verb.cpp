@@ -122,6 +122,7 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     }
     print_result(common, text, names_tiles(args.out) ? nlohmann::json{{"tiles", tiles}} : tiles[0], watch);
     note_all(common, args.mesh, in.mesh.notes);
+    note_all(common, args.like, args.like_notes);
     for (const auto& [one, result] : baked) warn(common, one, result.report);
     const NormalMapResult& first = baked[0].second;
     if (args.engine) note(common, size_note(*args.engine->normal_map, first.options.width, first.options.height));
