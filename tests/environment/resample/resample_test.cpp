@@ -292,6 +292,31 @@ TEST_SUITE("unit") {
         CHECK(!snap_to_axes(slight));
     }
 
+    TEST_CASE("resample: a yaw by whole columns moves the columns of a lat-long") {
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> uniform(0, 1);
+        for (const auto& [projection, width] : {std::pair(Projection::latlong, 16), {Projection::latlong_edges, 17}}) {
+            Environment sky;
+            sky.projection = projection;
+            sky.picture = Image<float>(width, 8, 1);
+            for (std::size_t i = 0; i < sky.picture.size(); ++i) sky.picture.data()[i] = uniform(random);
+            for (int y = 0; y < 8 && width == 17; ++y) sky.picture.at(16, y) = sky.picture.at(0, y);
+            for (const double yaw : {22.5, 90.0, -45.0, 180.0}) {
+                const auto turned = to_picture(sky, projection, width, 8, {.turn = turn_of(yaw, 0, 0)});
+                const int columns = int(std::lround(yaw / 22.5));
+                double most = 0;
+                for (int y = projection == Projection::latlong ? 0 : 1; y < 7; ++y)
+                    for (int x = 0; x < 16; ++x)
+                        most = std::max(most, std::abs(double(turned.at((x + columns + 16) % 16, y)) -
+                                                       double(sky.picture.at(x, y))));
+                CHECK(most < 1e-6);
+            }
+            CHECK(resolve(sky, sky.density(), true, {.turn = turn_of(23, 0, 0)}) == Samples::exact);
+            CHECK(resolve(sky, sky.density(), true, {.turn = turn_of(22.5, 10, 0)}) == Samples::exact);
+            CHECK(resolve(sky, sky.density() / 2, false, {.turn = turn_of(90, 0, 0)}) == Samples::exact);
+        }
+    }
+
     TEST_CASE("resample: what automatic takes") {
         Environment cube = smooth_cube(8), ball = smooth_picture(Projection::ball, 16, 16);
         CHECK(resolve(cube, cube.density(), true, {}) == Samples::one);

@@ -104,6 +104,16 @@ bool same_lattice(const Environment& source, const FaceGrid& grid) noexcept {
 
 double density_of(const FaceGrid& grid) noexcept { return std::sqrt(6.0 * grid.texels * grid.texels / (4 * pi)); }
 
+/// Whether a turn moves each texel of a lat-long onto another one: about the vertical, by whole columns.
+bool moves_whole_columns(const Environment& source, const glm::dmat3& turn) noexcept {
+    if (source.is_cube() || turn[1] != Vec3d(0, 1, 0)) return false;
+    const bool edges = source.projection == Projection::latlong_edges; // the last column repeats the first one
+    if (!edges && source.projection != Projection::latlong) return false;
+    const double columns = source.picture.width() - (edges ? 1 : 0);
+    const double moved = std::atan2(turn[2].x, turn[2].z) / (2 * pi) * columns;
+    return std::abs(moved - std::round(moved)) < 1e-9 * columns;
+}
+
 } // namespace
 
 Samples resolve(const Environment& source, double density, bool same, const ResampleOptions& options) {
@@ -115,7 +125,8 @@ Samples resolve(const Environment& source, double density, bool same, const Resa
     if (disc) return Samples::grid4;
     glm::dmat3 turn = options.turn;
     const bool unturned = turn == glm::dmat3(1);
-    if (same && (unturned || (source.is_cube() && snap_to_axes(turn)))) return Samples::one;
+    if (same && (unturned || (source.is_cube() && snap_to_axes(turn)) || moves_whole_columns(source, turn)))
+        return Samples::one;
     return density > 2 * source.density() ? Samples::grid4 : Samples::exact;
 }
 

@@ -23,7 +23,7 @@ class Progress;
 enum class Samples { automatic, one, grid4, exact };
 
 struct ResampleOptions {
-    /// automatic: one if texels map to texels, grid4 from a projection with discs and to a result more than twice as fine as
+    /// automatic: one if texels map to texels (also after a yaw by whole columns of a lat-long), grid4 from a projection with discs and to a result more than twice as fine as
     /// the source, otherwise exact.
     Samples samples = Samples::automatic;
     glm::dmat3 turn{1}; ///< a rotation, source to result, in cube space
