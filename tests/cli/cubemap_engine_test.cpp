@@ -168,6 +168,21 @@ TEST_SUITE("cli") {
         }
     }
 
+    TEST_CASE("cubemap --for: faces that do not fit are told as without it") {
+        const Folder folder;
+        REQUIRE(run_bake(folder, words("labels --size 32 --to faces -o f_%s.png")).code == 0);
+        fs::rename(folder / "f_px.png", folder / "other.png");
+        fs::rename(folder / "f_nx.png", folder / "f_px.png");
+        fs::rename(folder / "other.png", folder / "f_nx.png");
+        const nlohmann::json plain = json_of(folder, "f_%s.png --to latlong -o plain.exr"),
+                             engine = json_of(folder, "f_%s.png --for three --size 32 -o engine.dds");
+        CHECK(!plain["notes"].empty());
+        CHECK(engine["notes"] == plain["notes"]);
+        CHECK(engine["orientation"] == plain["orientation"]);
+        CHECK(run_bake(folder, words("f_%s.png --for three --size 32 -o engine.dds")).err.find("seams") !=
+              std::string::npos);
+    }
+
     TEST_CASE("cubemap: spherical harmonics are printed and written") {
         const Folder folder;
         write_sky(folder / "sky.tif");

@@ -2,6 +2,7 @@
 #include "bake/base/text.h"
 #include "bake/environment/engine/engine_picture.h"
 #include "bake/environment/engine/roughness_ladder.h"
+#include "cubemap_report.h"
 #include "options.h"
 #include <algorithm>
 #include <filesystem>
@@ -118,8 +119,9 @@ std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output
 
 int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const EngineOutput& output, const ReadSky& read,
                    Progress& progress, Stopwatch& watch) {
-    const std::vector<std::string> notes = reading_notes(read.report);
+    const std::vector<std::string> notes = input_notes(args, read.report);
     nlohmann::json json = {{"from", name(read.report.format)}, {"notes", notes}};
+    add_orientation(read.report, json);
     const std::string text = write_for_engine(args, output, read.sky, progress, json);
     progress.finish();
     watch.lap("convert, filter and write");

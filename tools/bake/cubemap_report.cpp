@@ -54,12 +54,17 @@ bool has_seams(const EnvironmentReport& report) { return report.checked && !repo
 
 } // namespace
 
-std::vector<std::string> cubemap_notes(const CubemapArgs& args, const EnvironmentReport& report,
-                                       const EnvironmentWritten& written) {
+std::vector<std::string> input_notes(const CubemapArgs& args, const EnvironmentReport& report) {
     std::vector<std::string> notes = reading_notes(report);
     if (has_seams(report))
         if (const std::string seams = seams_note(report, args.reading.fix_orientation); !seams.empty())
             notes.push_back(seams);
+    return notes;
+}
+
+std::vector<std::string> cubemap_notes(const CubemapArgs& args, const EnvironmentReport& report,
+                                       const EnvironmentWritten& written) {
+    std::vector<std::string> notes = input_notes(args, report);
     if (args.target.depth == Depth::automatic && written.target.depth == Depth::float32 &&
         resolve_depth(args.target.file, Depth::automatic) == Depth::half)
         notes.push_back("written as float: half floats hold no radiance above 65504");
@@ -88,7 +93,12 @@ nlohmann::json cubemap_json(const CubemapArgs& args, const EnvironmentReport& re
                            {"negative_share", report.faults.negative_share},
                            {"over_half", to_json(written.over)},
                            {"clipped", written.clipped}};
-    if (!report.checked) return json;
+    add_orientation(report, json);
+    return json;
+}
+
+void add_orientation(const EnvironmentReport& report, nlohmann::json& json) {
+    if (!report.checked) return;
     const OrientationCheck& check = report.orientation;
     nlohmann::json faces = nlohmann::json::object();
     for (int k = 0; k < 6; ++k)
@@ -105,7 +115,6 @@ nlohmann::json cubemap_json(const CubemapArgs& args, const EnvironmentReport& re
                            {"wrong", check.wrong},      {"open_seams", check.open_given()},
                            {"seams", ratios},           {"fixed", report.fixed},
                            {"unknown", check.unknown},  {"closes_with", faces}};
-    return json;
 }
 
 std::string seam_text(const EnvironmentReport& report) {
