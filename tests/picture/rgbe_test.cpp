@@ -87,6 +87,19 @@ TEST_SUITE("unit") {
         CHECK(info.notes.empty());
     }
 
+    TEST_CASE("rgbe: other primaries are told, and zeros, which Photoshop writes, are none") {
+        const Folder folder;
+        const std::string path = folder / "a.hdr";
+        for (const auto& [numbers, told] : {std::pair("0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329", true),
+                                            {"0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329", false},
+                                            {"0 0 0 0 0 0 0 0", false}}) {
+            write_file(path, header("-Y 1 +X 1", std::string("PRIMARIES=") + numbers + "\n") + texel(64));
+            ImageInfo info;
+            read_image(path, &info);
+            CHECK(info.colour.note.empty() != told);
+        }
+    }
+
     TEST_CASE("rgbe: damage is refused") {
         const Folder folder;
         const std::string path = folder / "a.hdr", run = std::string("\1\1\1\3", 4);

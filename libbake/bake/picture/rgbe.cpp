@@ -153,7 +153,9 @@ ImageInfo describe(const Header& header) {
                              (corrected ? " and by its COLORCORR" : "") + ", as the format asks for");
     float p[8] = {};
     constexpr float srgb[] = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f}; // Radiance's own differ by 0.01 in one number
-    if (std::sscanf(header.primaries.c_str(), "%f %f %f %f %f %f", &p[0], &p[1], &p[2], &p[3], &p[4], &p[5]) == 6)
+    const int numbers =
+        std::sscanf(header.primaries.c_str(), "%f %f %f %f %f %f", &p[0], &p[1], &p[2], &p[3], &p[4], &p[5]);
+    if (numbers == 6 && *std::max_element(p, p + 6) > 0) // Photoshop writes zeros for those that it does not know
         for (int i = 0; i < 6; ++i)
             if (std::abs(p[i] - srgb[i]) > 0.015f)
                 info.colour.note = "has other primaries than sRGB: its colours are not converted";
