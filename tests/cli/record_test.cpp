@@ -97,6 +97,15 @@ TEST_SUITE("cli") {
         CHECK(contents(folder / "n.png") != before);
     }
 
+    TEST_CASE("record: a bump table of 16 bits is no normal map for check") {
+        const Folder folder;
+        write_height(folder / "h.png");
+        REQUIRE(run_bake(folder, {"bump-table", "h.png", "-o", "b.png"}).code == 0);
+        const Run run = run_bake(folder, {"check", "b.png"});
+        CHECK(run.out.find("looks like     data") != std::string::npos);
+        CHECK(run.out.find("z is rebuilt") == std::string::npos);
+    }
+
     TEST_CASE("record: a bump table is rendered in the units that its file names") {
         const Folder folder;
         write_height(folder / "h.png");

@@ -1,5 +1,6 @@
 #include "bake/relief/height/picture_kind.h"
 #include "bake/base/parallel.h"
+#include "bake/base/provenance.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -76,7 +77,8 @@ PictureKind guess_kind(const Image<float>& image, const ImageInfo& info) {
     if (is_constant(image, colours == 2 ? 2 : grey)) kind.looks = Looks::constant;
     if (grey == 3) measure_tint(image, kind);
     if (kind.looks == Looks::constant) return kind;
-    if (colours > 4) {
+    // Slopes in 16 bits look like a normal map without blue.
+    if (colours > 4 || record_word(info.record, "content") == "bump table") {
         kind.looks = Looks::data;
         return kind;
     }
