@@ -1,4 +1,5 @@
 // bake cubemap --for: what engines load.
+#include "bake/base/vec.h"
 #include "bake/environment/engine/engine_levels.h"
 #include "bake/environment/file/environment_io.h"
 #include "bake/picture/image_io.h"
@@ -115,7 +116,7 @@ TEST_SUITE("cli") {
         json_of(folder, "sky.tif --for three --size 32 --levels-as-files -o levels/");
         CHECK(names_in(folder / "levels").count("environment_2.dds") == 1);
         CHECK(read_image(folder / "levels/environment_2.dds").width() == 8);
-        json_of(folder, "sky.tif --for unreal -o sky.hdr");
+        CHECK(json_of(folder, "sky.tif --for unreal --yaw 180 -o sky.hdr")["yaw_deg"] == 180); // to and back
         json_of(folder, "sky.tif --for godot -o godot/");
         const Image<float> truth = read_image(folder / "sky.tif");
         for (const std::string file : {"sky.hdr", "godot/panorama.exr"}) {
@@ -124,6 +125,46 @@ TEST_SUITE("cli") {
             REQUIRE(picture.width() == 64);
             for (int x = 0; x < 64; x += 7)
                 CHECK(double(picture.at(x, 9, 1)) == doctest::Approx(double(truth.at(x, 9, 1))).epsilon(0.01));
+        }
+    }
+
+    TEST_CASE("cubemap --for: a lat-long has each direction where the program looks it up") {
+        const Folder folder;
+        Image<float> sky(64, 32, 3); // in the axes of glTF: radiance 2 + direction
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const double azimuth = 2 * pi * ((x + 0.5) / 64 - 0.5), polar = pi * (y + 0.5) / 32;
+                sky.at(x, y, 0) = float(2 - std::sin(polar) * std::sin(azimuth));
+                sky.at(x, y, 1) = float(2 + std::cos(polar));
+                sky.at(x, y, 2) = float(2 + std::sin(polar) * std::cos(azimuth));
+            }
+        write_image(folder / "sky.tif", sky, {.depth = Depth::float32});
+        // u of a direction, by the formula of each program and in its own axes.
+        struct Program {
+            const char *name, *middle;
+            double (*u)(double x, double z); ///< of the axes of a glTF file, as the program imports it
+        };
+        const Program programs[] = {
+            {"three", "+X", [](double x, double z) { return std::atan2(z, x) / (2 * pi) + 0.5; }},
+            {"blender", "+X", [](double x, double z) { return 0.5 - std::atan2(-z, x) / (2 * pi); }}, // its y is -z
+            {"godot", "+Z", [](double x, double z) { return std::atan2(x, -z) / (2 * pi); }},
+            {"unity", "+Z", [](double x, double z) { return 1 - std::atan2(-x, -z) / (2 * pi); }}, // its x is -x
+            {"unreal", "-Z", [](double x, double z) { return (1 + std::atan2(x, -z) / pi) / 2; }}, // its y is z
+            {"substance", "-X", [](double x, double z) { return std::atan2(-z, -x) / (2 * pi) + 0.5; }},
+        };
+        for (const Program& program : programs) {
+            CAPTURE(std::string(program.name));
+            const Run run = run_bake(folder, words(std::string("sky.tif --for ") + program.name + " -o made.hdr"));
+            REQUIRE(run.code == 0);
+            CHECK(run.out.find(program.name + std::string(" has ") + program.middle) != std::string::npos);
+            const Image<float> made = read_image(folder / "made.hdr");
+            for (double azimuth = 0.1; azimuth < 2 * pi; azimuth += 0.7) {
+                const double x = std::sin(azimuth), z = std::cos(azimuth), u = program.u(x, z);
+                const int column = std::min(63, int(64 * (u - std::floor(u))));
+                CHECK(std::abs(double(made.at(column, 16, 0)) - 2 - x) < 0.1);
+                CHECK(std::abs(double(made.at(column, 16, 2)) - 2 - z) < 0.1);
+                CHECK(made.at(column, 4, 1) > 2.8f);
+            }
         }
     }
 
@@ -150,8 +191,11 @@ TEST_SUITE("cli") {
             check_refused(folder, words("sky.tif " + line), 2, named);
         };
         refused("--for three --size 100 -o a.dds", "give a power of two");
-        refused("--for three -o a.exr", "write .dds or .ktx2");
-        refused("--for godot -o a.dds", "write .exr");
+        refused("--for three -o a.tif", "write .dds or .ktx2");
+        refused("--for godot -o a.dds", "write .hdr or .exr");
+        refused("--for bevy -o a.hdr", "is no cube map for bevy");
+        refused("--for three --texels half -o a.hdr", "gets a lat-long");
+        refused("--for three --sh a.txt -o a.hdr", "gets a lat-long");
         refused("--for three --mips -o a.dds", "leave out --irradiance");
         refused("--for three --to latlong -o a.dds", "leave out --to");
         refused("--for three --levels-as-files -o a.dds", "needs a folder");

@@ -20,6 +20,11 @@ using nlohmann::json;
 
 bool no_python() { return std::system("python3 -c 'import sys' 2>/dev/null") != 0; }
 bool no_validator() { return !fs::exists(source_folder() / "build/gltf_validator/node_modules/gltf-validator"); }
+/// The options of scripts/gltf_round_trip for the programs that are installed.
+std::string checks() {
+    const bool inspect = fs::exists(source_folder() / "build/gltf_inspect/node_modules/@gltf-transform");
+    return std::string(no_validator() ? "" : "--validate ") + (inspect ? "--inspect " : "");
+}
 bool no_viewer() {
     return !fs::exists(source_folder() / "build/three_viewer/node_modules/three") ||
            std::system("command -v chromium >/dev/null") != 0;
@@ -66,7 +71,7 @@ TEST_SUITE("cli") {
     TEST_CASE("gltf asset: nothing of seven files is lost by surface, displace and normal-map" *
               doctest::skip(no_python())) {
         const Folder folder;
-        CHECK(round_trip(folder, no_validator() ? "" : "--validate") == "");
+        CHECK(round_trip(folder, checks()) == "");
     }
 
     TEST_CASE("gltf asset: a mesh of two nodes stays shared if both displace it alike, and is copied if not") {
@@ -290,7 +295,7 @@ TEST_SUITE("real" * doctest::skip(no_shared_data())) {
                            {"leeperrysmith/LeePerrySmith.glb", "materialx/boombox.glb", "materialx/shaderball.glb"});
         for (const std::string& sample : samples) files += "'" + (shared_data() / "meshes" / sample).string() + "' ";
         const bool pictures = !sanitized && !no_viewer();
-        CHECK(round_trip(folder, files + (no_validator() ? "" : "--validate") + (pictures ? " --pictures" : "")) == "");
+        CHECK(round_trip(folder, files + checks() + (pictures ? "--pictures" : "")) == "");
     }
 
     TEST_CASE("gltf asset: three.js shows the seven files as before" *

@@ -6,6 +6,7 @@
 #include "inputs/file_kind.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
+#include "normal_map_preview.h"
 #include "raster_notes.h"
 
 namespace bake {
@@ -121,6 +122,7 @@ Baked bake_one(const NormalMapArgs& args, bool all_tiles, const Mesh& mesh, Dept
     watch.lap("bake");
     const auto stored = file.write(result.map);
     watch.lap("write");
+    write_preview(args, result.map, depth, watch);
     Report report{.args = args, .options = options, .target = target, .result = result.report, .all_tiles = all_tiles};
     report.seams = seam_disagreement(target, result.map, options.space, options.directx, options.tile);
     report.texels = options.radius * texel_density(target, options.width, options.height).median;
@@ -128,6 +130,7 @@ Baked bake_one(const NormalMapArgs& args, bool all_tiles, const Mesh& mesh, Dept
     Baked out{to_text(report), to_json(report), notes_of(report), file.asset_map()};
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
     if (!args.roughness_map.empty()) out.object["roughness_map"] = args.roughness_map;
+    if (!args.preview.empty()) out.text += preview_text(args) + "\n", out.object["preview"] = args.preview;
     return out;
 }
 

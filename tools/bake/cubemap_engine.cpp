@@ -1,6 +1,7 @@
 #include "cubemap_engine.h"
 #include "bake/base/text.h"
 #include "bake/environment/engine/engine_picture.h"
+#include "bake/environment/engine/roughness_ladder.h"
 #include "options.h"
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +21,8 @@ void add_engine_options(CLI::App& sub, CubemapArgs& args) {
     for (const ConsumerEntry& entry : consumers) names.emplace_back(entry.name, entry.consumer);
     add_choice<std::optional<Consumer>>(
         sub, "--for", args.engine.consumer, names,
-        "Write what this engine loads, filtered by its own rule, to a file or a folder");
+        "Write what this program loads, to a file or a folder: levels filtered by its own rule, or a lat-long (.hdr, "
+        ".exr) turned so that the sky stands as in bake");
     add_choice<std::optional<TexelFormat>>(
         sub, "--texels", args.engine.texels,
         {{"rgb9e5", TexelFormat::rgb9e5}, {"half", TexelFormat::rgba16f}, {"bc6h", TexelFormat::bc6h}},
@@ -42,18 +44,17 @@ void check_engine_options(const CubemapArgs& args) {
     }
     const ConsumerEntry& entry = entry_of(*engine.consumer);
     const std::string flag = std::string("--for ") + entry.name;
+    const bool levels = entry.levels && !is_latlong_file(args.target.file);
     if (!args.irradiance.empty() || args.specular != Specular::none || args.mips)
         usage(flag + ": decides what is filtered; leave out --irradiance, --specular and --mips");
     if (args.target.to != SkyFormat::automatic || args.target.order != FaceOrder::gl ||
         args.target.depth != Depth::automatic)
         usage(flag + ": decides the format; leave out --to, --order and --depth");
     const bool folder = names_folder(args.target.file);
-    if (engine.levels_as_files && (!folder || !entry.prefiltered))
+    if (engine.levels_as_files && (!folder || !levels))
         usage("--levels-as-files: needs a folder and an engine that loads levels; give such as --for three -o sky/");
-    if (engine.texels && !entry.prefiltered)
-        usage("--texels: " + std::string(entry.name) + " takes a picture; leave it out");
-    if (!args.sh_file.empty() && !entry.prefiltered)
-        usage("--sh: " + std::string(entry.name) + " takes a picture alone");
+    if (engine.texels && !levels) usage("--texels: " + flag + " gets a lat-long picture; leave it out");
+    if (!args.sh_file.empty() && !levels) usage("--sh: " + flag + " gets a lat-long picture alone; leave it out");
 }
 
 EngineOutput::EngineOutput(const CubemapArgs& args)
@@ -61,7 +62,8 @@ EngineOutput::EngineOutput(const CubemapArgs& args)
 
 std::string EngineOutput::ending() const {
     const ConsumerEntry& entry = entry_of(*args_.engine.consumer);
-    return is_folder() ? entry.ending : bake::ending(args_.target.file);
+    if (!is_folder()) return bake::ending(args_.target.file);
+    return entry.levels ? entry.levels->ending : entry.latlong->ending;
 }
 
 std::string EngineOutput::path(const std::string& name) const {
@@ -73,8 +75,7 @@ void EngineOutput::check() const {
     check_engine_file(file, args_.engine.options(args_.target.size, is_folder()));
     OutputFile{file};
     if (!args_.sh_file.empty()) OutputFile{args_.sh_file};
-    if (entry_of(*args_.engine.consumer).prefiltered && args_.target.size > 0)
-        roughness_ladder(*args_.engine.consumer, args_.target.size);
+    if (!is_latlong_file(file) && args_.target.size > 0) roughness_ladder(*args_.engine.consumer, args_.target.size);
 }
 
 namespace {
@@ -86,10 +87,10 @@ std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output
     json["for"] = entry_of(options.consumer).name;
     std::vector<EngineFile> files;
     std::string text;
-    if (!entry_of(options.consumer).prefiltered) {
+    if (const std::string picture = output.path("panorama" + output.ending()); is_latlong_file(picture)) {
         progress.start("convert and write", 0);
-        files.push_back(write_engine_picture(sky, options.size, output.path("panorama" + output.ending()),
-                                             args.resampling, &progress));
+        files.push_back(write_engine_picture(sky, options, picture, args.resampling, &progress));
+        json["yaw_deg"] = 90 * entry_of(options.consumer).latlong->quarter_turns;
     } else {
         progress.start("convert", 0);
         const int edge = std::max(sky.face_edge(), engine_edge(options, sky.face_edge()));
@@ -108,6 +109,7 @@ std::string write_for_engine(const CubemapArgs& args, const EngineOutput& output
         json["files"].push_back(file_json(file));
         if (!lines.empty()) lines += '\n';
         lines += file_line(file);
+        if (file.what == "panorama") lines += latlong_text(entry_of(options.consumer));
     }
     return text + lines;
 }

@@ -36,6 +36,8 @@ int run_for_engine(const CubemapArgs& args, const CommonArgs& common, const Engi
 
 nlohmann::json file_json(const EngineFile& file);
 std::string file_line(const EngineFile& file);
+/// What --for did to a lat-long: ", turned by 90 degrees: ...".
+std::string latlong_text(const ConsumerEntry& consumer);
 /// {l m} as lists of channels.
 nlohmann::json sh_json(const ShCoefficients& series);
 /// One line per coefficient.

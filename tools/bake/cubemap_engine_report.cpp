@@ -32,6 +32,12 @@ std::string file_line(const EngineFile& file) {
     return line;
 }
 
+std::string latlong_text(const ConsumerEntry& consumer) {
+    const LatlongRule& rule = *consumer.latlong;
+    return format(", turned by %d degrees: %s has %s of the world in the middle", 90 * rule.quarter_turns,
+                  consumer.name, middle_axis(rule));
+}
+
 nlohmann::json sh_json(const ShCoefficients& series) {
     nlohmann::json json = nlohmann::json::array();
     for (std::size_t i = 0; i < series.values.size(); i += std::size_t(series.channels))

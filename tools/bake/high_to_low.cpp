@@ -8,6 +8,7 @@
 #include "high_report.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
+#include "normal_map_preview.h"
 #include "render_progress.h"
 #include "ticker.h"
 #include <algorithm>
@@ -192,6 +193,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
         map_writers[m]->finish();
     }
     watch_.lap("write");
+    write_preview(args, result.map, depth_, watch_);
     HighReport report{.args = args,
                       .options = options,
                       .target = target,
@@ -219,6 +221,7 @@ HighBake::Baked HighBake::bake(const NormalMapArgs& args) {
             out.asset_maps.push_back(asset_map(GltfMap::Slot::occlusion, result.details[m], Depth::u8));
     if (stored) out.text += to_text(*stored) + "\n", out.object["stored"] = to_json(*stored);
     if (!args.roughness_map.empty()) out.object["roughness_map"] = args.roughness_map;
+    if (!args.preview.empty()) out.text += preview_text(args) + "\n", out.object["preview"] = args.preview;
     return out;
 }
 

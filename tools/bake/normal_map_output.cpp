@@ -1,4 +1,5 @@
 #include "normal_map_output.h"
+#include "normal_map_preview.h"
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,7 @@ std::string to_text(const NormalMapArgs& args, const HeightTexture& height, cons
                        share * double(r.covered), share * double(r.border), share * double(r.padded),
                        share * double(r.empty));
     if (result.stored) text += "\n" + to_text(*result.stored);
+    if (!args.preview.empty()) text += "\n" + preview_text(args);
     return text + "\n" + to_text(result.budget) + "\n";
 }
 
@@ -53,6 +55,7 @@ nlohmann::json to_json(const NormalMapArgs& args, const HeightTexture& height, c
     if (options.method != NormalMethod::exact) object["method_error"] = to_json(result.method_error, options.method);
     if (result.stored) object["stored"] = to_json(*result.stored);
     if (!args.roughness_map.empty()) object["roughness_map"] = args.roughness_map;
+    if (!args.preview.empty()) object["preview"] = args.preview;
     if (!args.mesh.empty())
         object["texels"] = {{"covered", r.covered},
                             {"uncovered", r.uncovered},

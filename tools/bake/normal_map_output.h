@@ -16,7 +16,7 @@ struct NormalMapResult {
     std::optional<StoredNormalMap> stored; ///< a texture
     double tilt_deg = 0;                   ///< of the normal, by one level of the height
     Filter filter = Filter::central;
-    GltfMap asset_map;                          ///< of a glTF file
+    GltfMap asset_map;              ///< of a glTF file
     std::vector<std::string> notes; ///< doubts about the height
 };
 

@@ -7,10 +7,10 @@ namespace {
 
 /// Options that name outputs, or that say how a run is made and told.
 constexpr std::string_view left_out[] = {
-    "help",    "out",      "maps-out", "cage-out", "debug-rays", "report-map", "roughness-map",
-    "report",  "manifest", "threads",  "quiet",    "json",       "max-memory", "time-limit",
-    "measure", "audit",    "strict",   "limit",    "preview",    "display",    "pixel",
-    "repeats", "csv",      "verify",   "sh",
+    "help",    "out",      "maps-out", "cage-out", "debug-rays",   "report-map", "roughness-map",
+    "report",  "manifest", "threads",  "quiet",    "json",         "max-memory", "time-limit",
+    "measure", "audit",    "strict",   "limit",    "preview",      "display",    "pixel",
+    "repeats", "csv",      "verify",   "sh",       "preview-size",
 };
 
 /// Of every file that the value names, such as "profile=folder/curve.txt,pointed=0", the name alone.

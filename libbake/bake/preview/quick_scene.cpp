@@ -10,9 +10,6 @@
 namespace bake {
 namespace {
 
-/// Values of a [[material]] that show relief, before those of the user.
-constexpr const char* glossy = "specular=0.25,shininess=40";
-
 /// How often a square picture is repeated along u and v so that it is not much stretched; on shapes without an entry once.
 std::string repeat_on(const std::string& shape) {
     const std::string kind = shape.substr(0, shape.find(':'));
@@ -62,18 +59,24 @@ void set_map(MaterialEntry& material, const QuickScene& quick, const LoadedPictu
 
 } // namespace
 
-SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& notes) {
+SceneEntries studio_scene() {
     SceneEntries entries;
-    entries.file = quick.mesh.empty() ? quick.map : quick.mesh;
     entries.background = Vec3f(0.1f, 0.11f, 0.12f);
     entries.studio = true;
+    return entries;
+}
+
+SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& notes) {
+    SceneEntries entries = studio_scene();
+    entries.file = quick.mesh.empty() ? quick.map : quick.mesh;
     MeshEntry mesh;
     mesh.material = 0;
     const bool shown = quick.mesh.empty();
     // A baked map needs uvs that do not repeat.
     const bool baked = quick.material.find("shade=normal") != std::string::npos ||
                        quick.material.find("shade=displace+normal") != std::string::npos;
-    MaterialEntry material = material_of(quick.material, glossy + (shown && !baked ? repeat_on(quick.shape) : ""));
+    MaterialEntry material =
+        material_of(quick.material, studio_material + (shown && !baked ? repeat_on(quick.shape) : ""));
     if (material.reflectance.model == Reflectance::Model::dielectric) entries.settings.bounces = 8;
     if (shown) {
         mesh.shape = quick.shape;

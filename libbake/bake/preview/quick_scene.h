@@ -18,6 +18,11 @@ struct QuickScene {
 /// was found or assumed, with fields of QuickScene in backquotes. Throws Error as the readers and material_of().
 SceneEntries quick_scene(const QuickScene& quick, std::vector<std::string>& notes);
 
+/// A scene without meshes: a dark grey background and three lights, placed relative to the camera (add_studio_lights()).
+SceneEntries studio_scene();
+/// A material of it that shows relief, for material_of().
+inline constexpr const char* studio_material = "specular=0.25,shininess=40";
+
 /// By the text: "diffuse=.8,reflect=.2:.3:.4,albedo=wood.png": keys of [[material]] of a scene file; colours are grey, r:g:b
 /// (linear) or #rrggbb (sRGB). A later value replaces an earlier one, and all replace those of `defaults`. Files are
 /// relative to the working folder. Throws Error{Refusal::usage} that starts with "`material` TEXT: ".

@@ -26,12 +26,12 @@ std::vector<TextureLevel> packed(std::span<const Cube> levels, TexelFormat texel
 
 EngineFile write_cube(const std::string& path, const char* what, std::span<const Cube> levels,
                       const EngineOptions& options, const ShCoefficients& sh) {
-    const ConsumerEntry& consumer = entry_of(options.consumer);
-    EngineFile file{path, what, levels[0].size(), int(levels.size()), options.texels.value_or(consumer.texels)};
+    const LevelsRule& rule = *entry_of(options.consumer).levels;
+    EngineFile file{path, what, levels[0].size(), int(levels.size()), options.texels.value_or(rule.texels)};
     std::vector<Cube> turned;
-    if (consumer.mirrored)
+    if (rule.mirrored)
         for (const Cube& level : levels) turned.push_back(mirrored_x(level));
-    const std::span<const Cube> stored = consumer.mirrored ? std::span<const Cube>(turned) : levels;
+    const std::span<const Cube> stored = rule.mirrored ? std::span<const Cube>(turned) : levels;
     const std::vector<TextureLevel> bytes = packed(stored, file.texels);
     BlockWriter out(path);
     std::vector<Image<float>> read;
@@ -67,20 +67,18 @@ const char* name(TexelFormat texels) noexcept {
     }
 }
 
+bool is_latlong_file(const std::string& path) { return ending(path) == ".hdr" || ending(path) == ".exr"; }
+
 void check_engine_file(const std::string& path, const EngineOptions& options) {
     const ConsumerEntry& consumer = entry_of(options.consumer);
     const std::string end = ending(path);
     const auto refuse = [&](const std::string& why) { throw Error(Refusal::usage, path + ": " + why); };
+    if (consumer.latlong && is_latlong_file(path)) return;
+    if (!consumer.levels) refuse(std::string(consumer.name) + " takes a lat-long picture; write .hdr or .exr");
     const bool filament = options.consumer == Consumer::filament;
-    if (!consumer.prefiltered) {
-        if (end != ".exr" && !(end == ".hdr" && options.consumer == Consumer::unreal))
-            refuse(std::string(consumer.name) + " filters a lat-long picture itself; write " +
-                   (options.consumer == Consumer::unreal ? ".hdr or .exr" : ".exr"));
-        return;
-    }
     if (end != ".dds" && end != ".ktx2" && !(end == ".ktx" && filament))
         refuse(std::string("is no cube map for ") + consumer.name + "; write " + (filament ? ".ktx" : ".dds or .ktx2") +
-               ", or a folder");
+               (consumer.latlong ? ", .hdr or .exr for a lat-long," : ",") + " or a folder");
     if (end == ".ktx" && options.texels.value_or(TexelFormat::rgba16f) != TexelFormat::rgba16f)
         refuse("holds half floats; leave out `texels`");
 }

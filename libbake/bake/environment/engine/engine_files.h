@@ -19,8 +19,10 @@ struct EngineFile {
 /// rgb9e5, half, bc6h.
 const char* name(TexelFormat texels) noexcept;
 
-/// Throws Error{Refusal::usage} for an ending that no file for the consumer can have, or texels that its container cannot hold: .dds and .ktx2
-/// hold all three, .ktx, which is Filament's, half floats.
+/// Whether the ending is that of a lat-long picture (.hdr, .exr), not of levels.
+bool is_latlong_file(const std::string& path);
+/// Throws Error{Refusal::usage} for an ending that no file for the consumer can have, or texels that its container cannot
+/// hold: .dds and .ktx2 hold all three, .ktx, which is Filament's, half floats.
 void check_engine_file(const std::string& path, const EngineOptions& options);
 
 /// Writes one file, or the whole set. `path(name)` gives the path of a file: "environment", "skybox", "irradiance" and

@@ -8,7 +8,7 @@ namespace bake {
 class Progress;
 
 struct EngineOptions {
-    Consumer consumer = Consumer::three;
+    Consumer consumer = Consumer::three; ///< one that loads levels
     int size = 0; ///< texels along an edge of level 0, a power of two; 0: the engine's usual number, at most
                   ///< the power of two below the sky's
     std::optional<TexelFormat> texels; ///< rgb9e5, rgba16f or bc6h; none: the engine's
@@ -20,10 +20,10 @@ struct EngineOptions {
 int engine_edge(const EngineOptions& options, int sky_edge);
 
 struct EngineLevels {
-    std::vector<Cube> levels;      ///< three channels, in cube space
+    std::vector<Cube> levels;      ///< three channels, in cube space; after level 0 by interpolated_best()
     std::vector<double> roughness; ///< alpha of each
     std::vector<Cube> skybox; ///< the sky with plain mips, down to one texel; empty unless the whole set is asked for
-    Cube irradiance;          ///< divided by pi, 32 texels along an edge; likewise
+    Cube irradiance;          ///< divided by pi, 32 texels along an edge, by interpolated_best(); likewise
     ShCoefficients sh;
 };
 

@@ -7,9 +7,10 @@
 
 namespace bake {
 
-EngineFile write_engine_picture(const Environment& sky, int size, const std::string& path,
-                                const ResampleOptions& resampling, Progress* progress) {
-    const int width = size > 0 ? size : 4 * sky.face_edge();
+EngineFile write_engine_picture(const Environment& sky, const EngineOptions& options, const std::string& path,
+                                ResampleOptions resampling, Progress* progress) {
+    const int width = options.size > 0 ? options.size : 4 * sky.face_edge();
+    resampling.turn = turn_of(90 * entry_of(options.consumer).latlong->quarter_turns, 0, 0) * resampling.turn;
     EngineFile file{.path = path, .what = "panorama", .edge = width, .levels = 1};
     if (ending(path) == ".exr") {
         write_environment(sky, {.file = path, .to = SkyFormat::latlong, .size = width}, resampling, progress);

@@ -1,7 +1,7 @@
 // The nine coefficients of spherical harmonics that stand for an environment's diffuse light, as engines take them.
 #pragma once
-#include "bake/environment/engine/consumer.h"
 #include "bake/environment/filter/spherical_harmonics.h"
+#include "bake/picture/consumer.h"
 
 namespace bake {
 

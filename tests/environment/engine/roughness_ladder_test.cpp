@@ -1,8 +1,8 @@
 // The ladders that engines agree on, and the numbers that they take beside the levels.
 #include "bake/base/error.h"
 #include "bake/base/vec.h"
-#include "bake/environment/engine/consumer.h"
 #include "bake/environment/engine/dfg.h"
+#include "bake/environment/engine/roughness_ladder.h"
 #include "bake/environment/engine/sh_text.h"
 #include "bake/light/ggx.h"
 #include <cmath>

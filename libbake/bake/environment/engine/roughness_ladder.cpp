@@ -1,4 +1,4 @@
-#include "bake/environment/engine/consumer.h"
+#include "bake/environment/engine/roughness_ladder.h"
 #include "bake/base/error.h"
 #include <algorithm>
 #include <bit>
@@ -20,13 +20,13 @@ double alpha_of_level(Consumer consumer, int level, int last, int edge) noexcept
 
 std::vector<double> roughness_ladder(Consumer consumer, int edge) {
     const ConsumerEntry& entry = entry_of(consumer);
-    if (!entry.prefiltered) return {};
-    const int least = 2 * entry.least_edge;
+    if (!entry.levels) return {};
+    const int least_edge = entry.levels->least_edge, least = 2 * least_edge;
     if (!std::has_single_bit(unsigned(edge)) || edge < least)
         throw Error(Refusal::usage, "`size` " + std::to_string(edge) + ": levels for " + entry.name +
-                                        " halve down to " + std::to_string(entry.least_edge) +
+                                        " halve down to " + std::to_string(least_edge) +
                                         " texels; give a power of two, " + std::to_string(least) + " or more");
-    const int last = std::bit_width(unsigned(edge / entry.least_edge)) - 1;
+    const int last = std::bit_width(unsigned(edge / least_edge)) - 1;
     std::vector<double> ladder;
     for (int level = 0; level <= last; ++level) ladder.push_back(alpha_of_level(consumer, level, last, edge));
     return ladder;
