@@ -257,6 +257,31 @@ TEST_SUITE("cli") {
         CHECK(root["materials"][0]["normalTexture"]["index"] != root["materials"][0]["occlusionTexture"]["index"]);
         CHECK(folder.names() == std::set<std::string>{"b.glb"});
     }
+
+    TEST_CASE("gltf asset: an image beside the file replaces no file that has nothing to do with it") {
+        const Folder folder;
+        const std::string one = contents((own_meshes() / "dots.png").string());
+        const auto source = [&](const std::string& image) {
+            std::string text =
+                bake_tests::replaced(square(""), R"("name":"m",)", R"("name":"m","normalTexture":{"index":0},)");
+            text = bake_tests::replaced(text, R"("materials":[)",
+                                        R"("textures":[{"source":0}],"images":[{"uri":"dots.png"}],"materials":[)");
+            fs::create_directories(folder / "in");
+            write_file(folder / "in/a.gltf", text);
+            write_file(folder / "in/dots.png", image);
+        };
+        const std::vector<std::string> words = {"surface", "in/a.gltf", "-o", "b.gltf"};
+        source(one);
+        write_file(folder / "dots.png", "somebody else's");
+        check_refused(folder, words, 2, "dots.png: is there already");
+        CHECK(contents(folder / "dots.png") == "somebody else's");
+        write_file(folder / "dots.png", one); // the same image
+        run_json(folder, words);
+        const std::string two = contents((own_meshes() / "ripples.png").string());
+        source(two);
+        run_json(folder, words); // b.gltf is replaced, and the image is its own
+        CHECK(contents(folder / "dots.png") == two);
+    }
 } // cli
 
 TEST_SUITE("real" * doctest::skip(no_shared_data())) {

@@ -106,6 +106,18 @@ TEST_SUITE("cli") {
         CHECK(run.out.find("z is rebuilt") == std::string::npos);
     }
 
+    TEST_CASE("record: a texture that is read back for its error is no input, also where it replaces another one") {
+        const Folder folder;
+        const std::string bricks = (own_meshes() / "bricks.png").string();
+        for (int run = 0; run < 2; ++run) {
+            const Run made = run_bake(folder, {"normal-map", bricks, "-o", "n.dds", "--json"});
+            REQUIRE_MESSAGE(made.code == 0, made.err);
+            const Json inputs = Json::parse(made.out)["inputs"];
+            REQUIRE(inputs.size() == 1);
+            CHECK(inputs[0]["file"] == bricks);
+        }
+    }
+
     TEST_CASE("record: a bump table is rendered in the units that its file names") {
         const Folder folder;
         write_height(folder / "h.png");

@@ -118,6 +118,19 @@ TEST_SUITE("cli") {
                       "normal,tangent,curvature");
     }
 
+    TEST_CASE("surface: an OBJ has the normals, and no more vertices than the mesh") {
+        const Folder folder;
+        surface(folder, {torus, "-o", "t.obj"});
+        const Mesh given = read_mesh(torus), written = read_mesh(folder / "t.obj");
+        CHECK(written.positions.size() == given.positions.size());
+        CHECK(written.faces() == given.faces());
+        REQUIRE(written.corner_normal.size() == written.corners());
+        for (const Vec3f& n : written.normals) CHECK(glm::length(n) == doctest::Approx(1).epsilon(1e-5));
+        surface(folder, {torus, "-o", "u.obj", "--attributes", "normal"});
+        CHECK(contents(folder / "u.obj").substr(contents(folder / "u.obj").find('\n')) ==
+              contents(folder / "t.obj").substr(contents(folder / "t.obj").find('\n')));
+    }
+
     TEST_CASE("surface: the text has ranges, the area, and where the degenerate points are") {
         const Folder folder;
         const Run run = run_bake(folder, {"surface", "--shape", "cone:R=1,h=2", "-o", "cone.ply"});
@@ -245,8 +258,9 @@ TEST_SUITE("cli") {
         refused({"cage.obj", "--subdivide", "bilinear", "-o", "a.ply"}, "--subdivide");
         refused({torus, "--uv-smoothing", "all", "-o", "a.ply"}, "--uv-smoothing");
         refused({"cage.obj", "--subdivide", "catmark", "--uv-smoothing", "some", "-o", "a.ply"}, "--uv-smoothing");
-        refused({torus, "-o", "a.obj"}, ".ply or .glb");
-        refused({torus, "-o", "a"}, ".ply or .glb");
+        refused({torus, "-o", "a.obj", "--attributes", "curvature"}, ".ply or .glb");
+        refused({torus, "-o", "a.obj", "--attributes", "normal,tangent"}, ".ply or .glb");
+        refused({torus, "-o", "a"}, ".ply, .glb or .obj");
         refused({torus, "-o", "a.ply", "--maps", "normal"}, "--maps-out");
         refused({torus, "--maps-out", "m", "--attributes", "normal"}, "--attributes");
         refused({torus, "--maps-out", "m", "--maps", "normals"},

@@ -35,7 +35,10 @@ Json seconds_of(const Json& own) {
 
 Json inputs() {
     Json list = Json::array();
-    for (const InputFile& input : recorded_inputs()) list.push_back({{"file", input.path}, {"xxh128", input.hash}});
+    for (const InputFile& input : recorded_inputs()) {
+        list.push_back({{"file", input.path}});
+        if (!input.hash.empty()) list.back()["xxh128"] = input.hash;
+    }
     return list;
 }
 

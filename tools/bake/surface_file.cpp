@@ -7,7 +7,7 @@ void write_surface(const SurfaceArgs& args, const SurfaceMesh& surface, std::vec
     const SurfaceAttributes wanted = args.attributes.value_or(SurfaceAttributes());
     const bool keeps = keeps_file(args.surface, args.out);
     Mesh mesh = surface.kind == SurfaceKind::mesh ? surface.mesh : without_repeats(surface.mesh);
-    if (!wanted.tangent) mesh.tangents.clear();
+    if (!wanted.tangent || mesh_format(args.out) == MeshFormat::obj) mesh.tangents.clear(); // OBJ has none
     // Tangents are told from the normals, and a limit surface replaces those of its cage.
     if (!wanted.normal && !wanted.tangent && !keeps) mesh.normals.clear(), mesh.corner_normal.clear();
     if (!wanted.curvature)

@@ -34,11 +34,11 @@ void add_surface_options(CLI::App& sub, SurfaceArgs& args) {
     add_size_option(sub, args.resolution, "Cells of a shape along u and v, or along every edge of a cage's patches [4]",
                     65536, "--resolution")
         ->type_name("NxM|N");
-    add_output_option(sub, args.out, "Mesh to write (.ply, .glb, .gltf); of a glTF file all else is kept")
+    add_output_option(sub, args.out, "Mesh to write (.ply, .glb, .gltf, .obj); of a glTF file all else is kept")
         ->required(false);
     sub.add_option_function<std::string>(
            "--attributes", [&args](const std::string& text) { args.attributes = parse_attributes(text); },
-           "What the mesh has, apart by commas [normal,tangent]: normal, tangent, curvature")
+           "What the mesh has, apart by commas [normal,tangent; of .obj normal]: normal, tangent, curvature")
         ->type_name("NAMES");
     sub.add_option_function<std::string>(
            "--maps", [&args](const std::string& text) { args.maps = parse_maps(text); },
@@ -73,8 +73,10 @@ void check_usage(const SurfaceArgs& args) {
             throw usage("--resolution: cells along every edge of the cage's patches; write one number up to 1024");
     if (args.out.empty()) return;
     const MeshFormat format = mesh_format(args.out);
-    if (format != MeshFormat::ply && format != MeshFormat::gltf)
-        throw usage("--out " + args.out + ": cannot hold curvatures; choose a name that ends in .ply or .glb");
+    if (format == MeshFormat::unknown)
+        throw usage("--out " + args.out + ": is no mesh by its ending; choose a name that ends in .ply, .glb or .obj");
+    if (format == MeshFormat::obj && args.attributes && (args.attributes->tangent || args.attributes->curvature))
+        throw usage("--attributes: .obj has no place for tangents and curvatures; write .ply or .glb");
 }
 
 } // namespace bake

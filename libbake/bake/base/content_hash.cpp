@@ -1,4 +1,5 @@
 #include "bake/base/content_hash.h"
+#include "bake/base/descriptor.h"
 #include <cerrno>
 #include <fcntl.h>
 #include <memory>
@@ -20,19 +21,12 @@ std::string digits_of(const XXH128_hash_t& hash) {
     return text;
 }
 
-struct Descriptor {
-    int number;
-    ~Descriptor() {
-        if (number >= 0) close(number);
-    }
-};
-
 } // namespace
 
 std::string content_hash(const void* bytes, std::size_t size) { return digits_of(XXH3_128bits(bytes, size)); }
 
 std::optional<std::string> file_hash(const std::string& path) {
-    const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (file.number < 0 || fstat(file.number, &status) != 0 || !S_ISREG(status.st_mode)) return {};
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);

@@ -1,4 +1,5 @@
 #include "bake/base/file_bytes.h"
+#include "bake/base/descriptor.h"
 #include "bake/base/error.h"
 #include "bake/base/input_record.h"
 #include "bake/base/memory.h"
@@ -14,13 +15,6 @@
 namespace bake {
 namespace {
 
-struct Descriptor {
-    int number;
-    ~Descriptor() {
-        if (number >= 0) close(number);
-    }
-};
-
 [[noreturn]] void refuse(const std::string& path, int reason) {
     if (reason == ENOENT || reason == ENOTDIR)
         throw Error(Refusal::unreadable, path + ": no such file; check the name");
@@ -34,7 +28,7 @@ struct Descriptor {
 
 FileBytes read_file(const std::string& path) {
     // Without O_NONBLOCK, opening a pipe would wait for a writer for ever.
-    const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     if (file.number < 0) refuse(path, errno);
     struct stat status {};
     if (fstat(file.number, &status) != 0) refuse(path, errno);

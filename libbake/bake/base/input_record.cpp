@@ -14,8 +14,9 @@ namespace bake {
 struct InputFiles {
     std::mutex mutex;
     struct Named {
-        std::string path, hash;
+        std::string path;
         FileStamp stamp;
+        std::optional<std::string> hash = {}; ///< nothing: not looked for yet
     };
     std::map<std::pair<dev_t, ino_t>, Named> known;
 };
@@ -27,7 +28,7 @@ void remember_input(const std::string& path, const struct stat& file) {
     InputFiles* const files = current_job().inputs;
     if (!files) return;
     const std::lock_guard lock(files->mutex);
-    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, "", stamp_of(file)});
+    files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, stamp_of(file)});
 }
 
 bool is_input(const struct stat& file) {
@@ -42,6 +43,22 @@ FileStamp stamp_of(const struct stat& file) noexcept {
     return {std::int64_t(file.st_size), std::int64_t(file.st_mtim.tv_sec) * second + file.st_mtim.tv_nsec,
             std::uint64_t(file.st_ino)};
 }
+
+std::optional<FileStamp> stamp_at(const std::string& path) {
+    struct stat file {};
+    return stat(path.c_str(), &file) == 0 ? std::optional(stamp_of(file)) : std::nullopt;
+}
+
+namespace {
+
+/// Of the contents that the file had when it was opened, as InputFile has it. What was read of a file that has changed since
+/// then is not known.
+std::string hash_of(const std::string& path, const FileStamp& opened) {
+    const std::string hash = file_hash(path).value_or("");
+    return stamp_at(path) == opened ? hash : "";
+}
+
+} // namespace
 
 std::vector<ReadFile> files_read() {
     InputFiles* const files = current_job().inputs;
@@ -58,9 +75,9 @@ std::vector<InputFile> recorded_inputs() {
     std::vector<InputFile> out;
     const std::lock_guard lock(files->mutex);
     for (auto& [file, named] : files->known) {
-        if (named.hash.empty()) named.hash = file_hash(named.path).value_or("");
-        if (named.hash.empty()) continue; // a temporary file of our own
-        out.push_back({named.path, std::filesystem::path(named.path).filename().string(), named.hash});
+        if (!named.hash && !stamp_at(named.path)) continue; // a temporary file of our own
+        if (!named.hash) named.hash = hash_of(named.path, named.stamp);
+        out.push_back({named.path, std::filesystem::path(named.path).filename().string(), *named.hash});
     }
     std::sort(out.begin(), out.end(), [](const InputFile& a, const InputFile& b) {
         return std::tie(a.name, a.hash) < std::tie(b.name, b.hash);

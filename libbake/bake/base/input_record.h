@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct FileStamp {
     bool operator==(const FileStamp&) const = default;
 };
 FileStamp stamp_of(const struct stat& file) noexcept;
+/// Of the file that has this name now; nothing if there is none.
+std::optional<FileStamp> stamp_at(const std::string& path);
 
 struct ReadFile {
     std::string path; ///< as it was opened
@@ -50,10 +53,10 @@ std::vector<ReadFile> files_read();
 struct InputFile {
     std::string path; ///< as it was opened
     std::string name; ///< without its folder
-    std::string hash; ///< file_hash()
+    std::string hash; ///< file_hash(); empty if the file was changed or replaced after it was opened
 };
-/// The files that were read so far, in the order of their names. Each is hashed once. Files
-/// that are no longer there are left out, as they are temporary ones. Empty without an InputRecord.
+/// The files that were read so far, in the order of their names. Each is hashed once. Files that are no longer there are
+/// left out, as they are temporary ones. Empty without an InputRecord.
 std::vector<InputFile> recorded_inputs();
 
 } // namespace bake

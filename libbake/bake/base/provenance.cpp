@@ -1,4 +1,5 @@
 #include "bake/base/provenance.h"
+#include "bake/base/error.h"
 #include "bake/base/input_record.h"
 #include "bake/base/job.h"
 #include "bake/base/version.h"
@@ -17,7 +18,11 @@ json object_of(const Facts& facts) {
 
 json inputs() {
     json list = json::array();
-    for (const InputFile& input : recorded_inputs()) list.push_back({{"name", input.name}, {"xxh128", input.hash}});
+    for (const InputFile& input : recorded_inputs()) {
+        if (input.hash.empty())
+            throw Error(Refusal::unreadable, input.path + ": was changed while it was used; run the command again");
+        list.push_back({{"name", input.name}, {"xxh128", input.hash}});
+    }
     return list;
 }
 

@@ -1,17 +1,8 @@
 #include "bake/batch/ledger.h"
 #include "bake/base/content_hash.h"
 #include <algorithm>
-#include <sys/stat.h>
 
 namespace bake {
-namespace {
-
-std::optional<FileStamp> stamp_at(const std::string& path) {
-    struct stat file {};
-    return stat(path.c_str(), &file) == 0 ? std::optional(stamp_of(file)) : std::nullopt;
-}
-
-} // namespace
 
 std::string Ledger::key_of(const BatchTask& task) const {
     std::string text = program_;

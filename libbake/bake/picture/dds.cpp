@@ -40,12 +40,15 @@ std::vector<std::string> channels_of(const DdsHeader& header) {
 
 int bits_of(SampleType type) noexcept { return type == SampleType::float32 ? 32 : 16; }
 
+/// The faces of the largest level below each other.
+Window largest_window(const DdsHeader& header) { return {0, 0, int(header.width), int(header.height * header.faces)}; }
+
 void describe(const PictureFile& file, const DdsHeader& header, const ReadLimits& limits, ImageInfo& info) {
     info.channels = channels_of(header);
     info.alpha_channel = header.alpha_channel;
     const auto before_alpha = int(info.channels.size()) - (header.alpha_channel >= 0 ? 1 : 0);
     info.colours = before_alpha == 1 || before_alpha == 3 ? before_alpha : 0;
-    const Window window{0, 0, int(header.width), int(header.height * header.faces)};
+    const Window window = largest_window(header);
     check_size(file.path(), file.size(), {window, window, int(info.channels.size())}, limits);
     info.type = header.code == TexelCode::samples ? header.type : SampleType::float32, info.bits = bits_of(info.type);
     if (header.code == TexelCode::bc5) info.notes.push_back("is compressed as BC5: z is computed from x and y");
@@ -127,10 +130,18 @@ void read_largest(const PictureFile& file, const DdsHeader& header, const ReadLi
     if (image) *image = read_level(file, header, 0);
 }
 
-std::vector<Image<float>> read_levels(const PictureFile& file, const DdsHeader& header) {
+std::vector<Image<float>> read_levels(const PictureFile& file, const DdsHeader& header) try {
+    const auto channels = int(channels_of(header).size());
+    if (channels == 0)
+        throw Error(Refusal::unsuitable, file.path() + ": is compressed in a way whose levels are not read here; give "
+                                                       "one of RGB9E5, half floats or unsigned BC6H");
+    const Window window = largest_window(header);
+    check_size(file.path(), file.size(), {window, window, channels}, within_memory({}));
     std::vector<Image<float>> levels;
     for (std::int64_t level = 0; level < header.levels; ++level) levels.push_back(read_level(file, header, level));
     return levels;
+} catch (const std::bad_alloc&) {
+    throw out_of_memory(file.path());
 }
 
 } // namespace

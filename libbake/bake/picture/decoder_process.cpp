@@ -1,4 +1,5 @@
 #include "bake/picture/decoder_process.h"
+#include "bake/base/descriptor.h"
 #include "bake/base/memory.h"
 #include "bake/base/progress.h"
 #include "bake/base/system_lack.h"
@@ -20,18 +21,6 @@ namespace {
 
 constexpr int picture_descriptor = 3, answer_descriptor = 4, first_free_descriptor = 5;
 constexpr int look_around_ms = 50; ///< how often a wait looks for interrupts
-
-/// A descriptor that is closed at the end.
-struct Descriptor {
-    int number = -1;
-    explicit Descriptor(int opened) : number(opened) {}
-    ~Descriptor() {
-        if (number >= 0) close(number);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int release() noexcept { return std::exchange(number, -1); }
-};
 
 /// How the process begins: on two descriptors, with nothing to read or print, all signals as they are by default, and those
 /// by which a user ends a program blocked: they reach all processes of a terminal, and the parent ends this one.

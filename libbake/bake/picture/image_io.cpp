@@ -54,9 +54,7 @@ namespace {
 
 /// Reads the header, and the texels into `image` when that is given.
 ImageInfo read_picture(const std::string& path, ReadLimits limits, Image<float>* image) try {
-    const MemoryLimit memory = memory_limit();
-    if (image && memory.bytes < std::uint64_t(limits.max_bytes))
-        limits = {.max_bytes = std::int64_t(memory.bytes), .reason = memory.reason};
+    if (image) limits = within_memory(std::move(limits));
     ImageInfo info;
     const PictureFile file(path);
     const PictureKind kind = picture_kind(file);

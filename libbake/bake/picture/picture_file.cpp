@@ -15,7 +15,10 @@ namespace bake {
 
 PictureFile::PictureFile(const std::string& path)
     // Without O_NONBLOCK, opening a pipe would wait for a writer.
-    : PictureFile(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC), path) {}
+    : PictureFile(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC), path) {
+    struct stat status {};
+    if (fstat(descriptor_, &status) == 0) remember_input(path, status);
+}
 
 PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path), descriptor_(descriptor) {
     struct stat status {};
@@ -23,7 +26,6 @@ PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path),
     const bool folder = S_ISDIR(status.st_mode), regular = S_ISREG(status.st_mode);
     size_ = status.st_size;
     if (reason == 0 && regular && size_ > 0) {
-        remember_input(path, status);
         head_.resize(1200);
         head_.resize(std::size_t(read(0, head_.data(), std::int64_t(head_.size()))));
         return;
@@ -76,6 +78,13 @@ Error out_of_memory(const std::string& path) {
 
 Error decoder_failed(const std::string& path, const std::string& what) {
     return unreadable(path, "its decoder " + what, "the file is damaged; export it again, as EXR, TIFF or PNG");
+}
+
+ReadLimits within_memory(ReadLimits limits) {
+    const MemoryLimit memory = memory_limit();
+    if (memory.bytes < std::uint64_t(limits.max_bytes))
+        limits = {.max_bytes = std::int64_t(memory.bytes), .reason = memory.reason};
+    return limits;
 }
 
 void check_size(const std::string& path, std::int64_t stored, const ClaimedSize& claimed, const ReadLimits& limits) {

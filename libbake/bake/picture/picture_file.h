@@ -12,7 +12,7 @@ class PictureFile {
 public:
     /// Throws Error{Refusal::unreadable} for a file that is missing, empty or not a regular file.
     explicit PictureFile(const std::string& path);
-    /// Takes over the descriptor of an open file, which `path` names in messages.
+    /// Takes over the descriptor of an open file, which `path` names in messages, and which is no input of the run.
     PictureFile(int descriptor, const std::string& path);
     ~PictureFile();
     PictureFile(const PictureFile&) = delete;
@@ -45,6 +45,9 @@ Error out_of_memory(const std::string& path);
 
 /// "<path>: its decoder <what>; ..."
 Error decoder_failed(const std::string& path, const std::string& what);
+
+/// The limits, or what memory_limit() allows if that is less.
+ReadLimits within_memory(ReadLimits limits);
 
 /// Position and size of a part of a picture, in texels.
 struct Window {

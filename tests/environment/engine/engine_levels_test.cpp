@@ -140,6 +140,39 @@ TEST_SUITE("unit") {
         CHECK_THROWS_AS(read_cube_levels(folder / "flat.ktx2"), Error);
     }
 
+    TEST_CASE("read_cube_levels: more texels than memory has room for are refused before any is allocated") {
+        // Files with holes: they hold what their headers claim, and take no room.
+        const Folder folder;
+        constexpr std::uint32_t edge = 1 << 16;
+        constexpr std::uint64_t bytes = 6ull * edge * edge * 8; // of half floats, 192 GiB
+        for (const char* file : {"huge.dds", "huge.ktx2"}) {
+            CAPTURE(file);
+            const std::string path = folder / file;
+            BlockWriter out(path);
+            std::vector<Cube> small;
+            small.push_back(sunny(2));
+            write_texture(out, *texture_container(path), TexelFormat::rgba16f, packed(small, TexelFormat::rgba16f), 6);
+            out.commit();
+            std::string text = contents(path);
+            const bool dds = path.ends_with(".dds");
+            const auto put = [&](std::size_t at, std::uint64_t value, int size) {
+                for (int i = 0; i < size; ++i) text[at + std::size_t(i)] = char(value >> 8 * i);
+            };
+            put(dds ? 12 : 20, edge, 4), put(dds ? 16 : 24, edge, 4);
+            if (!dds) put(88, bytes, 8), put(96, bytes, 8);
+            write_file(path, text);
+            std::filesystem::resize_file(path, bytes + text.size());
+            try {
+                read_cube_levels(path);
+                FAIL("was read");
+            } catch (const Error& error) {
+                CHECK(error.refusal == Refusal::unsuitable);
+                CHECK(std::string(error.what()).find("65536 x 393216 pixels need 384 GiB of memory") !=
+                      std::string::npos);
+            }
+        }
+    }
+
     TEST_CASE("write_ktx1_cube: header, keys and levels as the specification has them") {
         const Folder folder;
         std::vector<Cube> levels;

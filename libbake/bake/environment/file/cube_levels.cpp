@@ -15,7 +15,7 @@ std::vector<Cube> read_cube_levels(const std::string& path) {
     std::vector<Cube> cubes;
     for (Image<float>& level : dds ? read_dds_levels(file) : read_ktx2_levels(file)) {
         const int n = level.width();
-        if (level.channels() < 1 || level.height() != 6 * n)
+        if (level.height() != 6 * n)
             throw Error(Refusal::unsuitable, path + ": is no cube map that is read here; give one of RGB9E5, half "
                                                     "floats or unsigned BC6H");
         mend(level, BadPolicy::refuse, path);

@@ -151,17 +151,17 @@ std::vector<GltfBeside> GltfAsset::place_images(const std::string& path, std::ve
             notes.push_back("its image " + shown(document_.images[i].uri) + " is missing, and stays so");
             continue;
         }
-        const GltfBlock block{bytes.size(), [bytes](BlockWriter& out) { put(out, bytes); }};
         if (binary) {
             image.erase("uri");
             if (const std::string type = gltf_mime_type(bytes); !type.empty()) image["mimeType"] = type;
-            image["bufferView"] = new_view(block, json::object());
+            image["bufferView"] =
+                new_view({bytes.size(), [bytes](BlockWriter& out) { put(out, bytes); }}, json::object());
         } else {
             const std::string wanted = fresh ? "" : fs::path(document_.images[i].uri).filename().string();
             image.erase("mimeType");
             const std::string name = names.next(wanted, i, ".png");
             image["uri"] = percent_encoded(name);
-            beside.push_back({name, block});
+            beside.push_back({name, bytes});
         }
         at("images", i) = std::move(image);
     }

@@ -1,7 +1,10 @@
 #include "bake/mesh/gltf/container.h"
+#include "bake/base/content_hash.h"
 #include "bake/base/error.h"
 #include "bake/base/text.h"
+#include <algorithm>
 #include <cstring>
+#include <fstream>
 
 namespace bake {
 namespace {
@@ -44,8 +47,34 @@ std::int64_t write_glb(const std::string& path, const json& root, std::span<cons
     return out.bytes();
 }
 
+/// Whether a .gltf of this name is there and names the file as one of its images.
+bool names_image(const std::string& path, const std::string& name) {
+    std::ifstream in(path, std::ios::binary);
+    const json root = in ? json::parse(in, nullptr, false) : json();
+    if (!root.is_object() || !root.contains("images") || !root["images"].is_array()) return false;
+    const auto names_it = [&](const json& image) {
+        return image.is_object() && image.contains("uri") && image["uri"] == percent_encoded(name);
+    };
+    return std::any_of(root["images"].begin(), root["images"].end(), names_it);
+}
+
+/// The user chose the name of the .gltf alone: an image must not replace a file that has nothing to do with it.
+void refuse_strangers(const std::string& path, std::span<const GltfBeside> beside) {
+    for (const GltfBeside& file : beside) {
+        const std::string target = (fs::path(path).parent_path() / file.name).string();
+        std::error_code ignored;
+        if (!fs::exists(target, ignored) || file_hash(target) == content_hash(file.bytes.data(), file.bytes.size()))
+            continue;
+        if (!names_image(path, file.name))
+            throw Error(Refusal::usage, target + ": is there already, and an image of " +
+                                            fs::path(path).filename().string() +
+                                            " would replace it; choose another folder, or write a .glb");
+    }
+}
+
 std::int64_t write_beside(const std::string& path, const json& root, std::span<const GltfBlock> blocks,
                           std::span<const GltfBeside> beside, std::size_t bytes) {
+    refuse_strangers(path, beside);
     const fs::path folder = fs::path(path).parent_path();
     OutputSet together;
     std::int64_t all = 0;
@@ -58,7 +87,8 @@ std::int64_t write_beside(const std::string& path, const json& root, std::span<c
     if (bytes > 0)
         write((folder / (fs::path(path).stem().string() + ".bin")).string(),
               [&](BlockWriter& out) { write_blocks(out, blocks); });
-    for (const GltfBeside& file : beside) write((folder / file.name).string(), file.content.write);
+    for (const GltfBeside& file : beside)
+        write((folder / file.name).string(), [&](BlockWriter& out) { put(out, file.bytes); });
     write(path, [&](BlockWriter& out) { out.write(text_of(root, 1) + '\n'); });
     together.commit();
     return all;

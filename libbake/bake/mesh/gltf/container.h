@@ -18,10 +18,10 @@ struct GltfBlock {
     std::size_t padded() const noexcept { return (bytes + 3) / 4 * 4; }
 };
 
-/// A file beside a .gltf.
+/// An image beside a .gltf.
 struct GltfBeside {
     std::string name; ///< in the folder of the .gltf
-    GltfBlock content;
+    std::span<const std::uint8_t> bytes;
 };
 
 /// Names of files beside a .gltf, each once.
@@ -45,7 +45,8 @@ std::string gltf_mime_type(std::span<const std::uint8_t> bytes);
 
 /// Writes .glb or .gltf by the name, atomically, the .gltf last. Sets the one buffer of `root`, and
 /// asset.extras.bake to the record of the run with `facts`, if there is a run. Returns the bytes of all files.
-/// Throws Error{Refusal::unwritable}, and {Refusal::unsuitable} for a .glb above 4 GiB.
+/// Throws Error{Refusal::unwritable}, {Refusal::unsuitable} for a .glb above 4 GiB, and {Refusal::usage} for an image that
+/// would replace a file of other contents, unless the .gltf that is replaced names that file.
 std::int64_t write_gltf_files(const std::string& path, nlohmann::ordered_json& root, std::span<const GltfBlock> blocks,
                               std::span<const GltfBeside> beside, const Facts& facts);
 

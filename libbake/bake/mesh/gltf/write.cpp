@@ -168,7 +168,7 @@ Images add_images(Layout& layout, const Gltf& gltf, const std::string& path, boo
             const std::string ending = mime_type == "image/png" ? ".png" : ".jpg";
             const std::string name = names.next(fs::path(image.uri).filename().string(), out.number.size() - 1, ending);
             object["uri"] = percent_encoded(name);
-            out.beside.push_back({name, {image.bytes.size(), [&image](BlockWriter& file) { put(file, image.bytes); }}});
+            out.beside.push_back({name, image.bytes});
         }
         out.number.back() = layout.root.contains("images") ? std::uint32_t(layout.root["images"].size()) : 0;
         layout.root["images"].push_back(std::move(object));
