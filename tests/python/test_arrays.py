@@ -132,6 +132,12 @@ def test_skies_are_read(meshes):
                                                    for face in ("px", "nx", "py", "ny", "pz", "nz")])[0])
 
 
+def test_bright_values_survive_a_file(tmp_path):
+    light = np.full((4, 4, 3), 2e6, "f")
+    bake.arrays.write_image(tmp_path / "sun.exr", light)
+    assert (bake.arrays.read_image(tmp_path / "sun.exr") == light).all()
+
+
 def test_flip_of_equal_pictures_is_0():
     picture = np.random.default_rng(1).random((16, 16, 3), dtype=np.float32)
     assert arrays.flip(picture, picture).max() == 0

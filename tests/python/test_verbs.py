@@ -61,6 +61,12 @@ def test_results_and_files_are_those_of_the_command(command, meshes, tmp_path):
     assert np.array_equal(arrays.read_image(tmp_path / "ours.png"), arrays.read_image(tmp_path / "theirs.png"))
 
 
+def test_numbers_of_numpy_are_numbers(meshes, tmp_path):
+    result = bake.normal_map(meshes / "bricks.png", out=tmp_path / "n.png", size=(np.int64(32), np.int32(16)),
+                             threads=np.int64(1), amplitude=np.float32(0.5))
+    assert (result["width"], result["height"], result["amplitude"]) == (32, 16, 0.5)
+
+
 def test_jpeg_is_read_by_the_helper_program(meshes):
     result = bake.check(meshes.parent / "tests/data/dots.jpg")
     assert "16" in json.dumps(result)

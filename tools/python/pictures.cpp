@@ -1,6 +1,7 @@
 // Pictures, and maps of heights.
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/picture/picture_name.h"
 #include "bake/relief/map/normal_map.h"
 #include "bake/verdict/metric/flip.h"
 #include "choice.h"
@@ -8,6 +9,8 @@
 #include "mesh_class.h"
 #include "module.h"
 #include "wait.h"
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -150,6 +153,11 @@ void write_picture(const Path& path, const FloatArray& array, const std::string&
                                    {"half", Depth::half},
                                    {"float", Depth::float32}});
     const Image<float> image = to_image(array, "image");
+    // As bake cubemap does: an .exr is of half floats unless these would be infinite.
+    constexpr float largest_half = 65504;
+    if (options.depth == Depth::automatic && picture_format(path.string()) == PictureFormat::exr &&
+        std::any_of(image.data(), image.data() + image.size(), [](float v) { return std::abs(v) > largest_half; }))
+        options.depth = Depth::float32;
     wait_for_job(py::none(), threads, [&] { write_image(path.string(), image, options); });
 }
 
@@ -159,8 +167,11 @@ void add_pictures(py::module_& m) {
     using py::arg;
     m.def("read_image", &read_picture, arg("path"), py::kw_only(), arg("threads") = 0,
           "The values of a picture as they are stored: integers divided by their largest value, sRGB not decoded.");
-    m.def("write_image", &write_picture, arg("path"), arg("image"), py::kw_only(), arg("depth") = "auto",
-          arg("threads") = 0, "Writes .png, .exr or .tif. depth: auto, 8, 16, half or float.");
+    m.def(
+        "write_image", &write_picture, arg("path"), arg("image"), py::kw_only(), arg("depth") = "auto",
+        arg("threads") = 0,
+        "Writes .png, .exr or .tif. depth: auto, 8, 16, half or float; auto of .exr is half, or float for values above "
+        "65504.");
     m.def("normal_map", &normal_map_of, arg("height"), arg("amplitude") = 1.0, arg("mesh") = MeshHandle(),
           py::kw_only(), arg("midlevel") = 0.0, arg("extent") = py::none(), arg("wrap") = "repeat",
           arg("filter") = "auto", arg("method") = "exact", arg("space") = "tangent", arg("directx") = false,

@@ -2,6 +2,7 @@
 import inspect
 import json
 import keyword
+import numbers
 import os
 
 from . import _bake
@@ -29,8 +30,8 @@ def _word(value, option):
         return "yes" if value else "no"
     if isinstance(value, (str, bytes, os.PathLike)):
         return os.fsdecode(value)
-    if isinstance(value, int):
-        return str(value)
+    if isinstance(value, numbers.Integral):  # also those of numpy
+        return str(int(value))
     return repr(float(value))
 
 
