@@ -57,6 +57,20 @@ TEST_SUITE("unit") {
         CHECK(recorded.why() == "new");
     }
 
+    TEST_CASE("Ledger: a task that another version ran last is known as such, whatever ran since") {
+        const Recorded recorded;
+        BatchTask other = recorded.task;
+        other.name = "other";
+        {
+            Ledger ledger(recorded.file, "2 b");
+            ledger.record(other, {read_now(recorded.in)}, {recorded.out}, 1);
+            ledger.write();
+        }
+        CHECK(recorded.why("2 b") == "another version of bake");
+        CHECK(recorded.why("1 a") == "");
+        CHECK(Ledger(recorded.file, "2 b").why(other) == "");
+    }
+
     TEST_CASE("Ledger: an input that changed while the task ran is changed the next time") {
         const Recorded recorded;
         ReadFile old = read_now(recorded.in);

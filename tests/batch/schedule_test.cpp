@@ -1,3 +1,4 @@
+#include "bake/base/error.h"
 #include "bake/batch/schedule.h"
 #include "cli/command.h"
 #include <mutex>
@@ -68,6 +69,33 @@ TEST_SUITE("unit") {
         CHECK(order == std::vector<std::string>{"b", "c"});
         CHECK(reports[0].result == Result::unchanged);
         CHECK(run_batch(tasks, ledger, {.threads = 2}, run, progress)[2].result == Result::unchanged);
+    }
+
+    TEST_CASE("run_batch: what is thrown fails the task, and the others go on") {
+        const test::Folder folder;
+        for (const int threads : {1, 3}) {
+            Ledger ledger(folder / "ledger", "1");
+            BatchProgress progress;
+            std::atomic<int> calls = 0;
+            const auto run = [&](const BatchTask& one, int) {
+                if (one.name == "no memory") throw std::bad_alloc();
+                if (one.name == "unknown") throw 1;
+                return TaskRun();
+            };
+            const auto every = [&] {
+                ++calls;
+                throw std::bad_alloc();
+            };
+            const auto reports =
+                run_batch({task("no memory"), task("unknown"), task("a", {0}), task("b"), task("c", {3})}, ledger,
+                          {.threads = threads, .seconds_between_calls = 0}, run, progress, every);
+            CHECK(reports[0].message == "out of memory");
+            CHECK(reports[1].code == int(Refusal::unsuitable));
+            CHECK(reports[2].why == "needs no memory");
+            CHECK(reports[4].result == Result::done);
+            CHECK(calls == 4);
+            CHECK(progress.failed == 2);
+        }
     }
 
     TEST_CASE("run_batch: many tasks have one thread each, a task that is alone has all, and no other runs meanwhile") {

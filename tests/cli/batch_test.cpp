@@ -1,4 +1,4 @@
-#include "cli/command.h"
+#include "cli/batch_manifest.h"
 #include <chrono>
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -8,26 +8,6 @@ using namespace bake::test;
 namespace {
 
 const std::string bricks = (own_meshes() / "bricks.png").string(), torus = (own_meshes() / "torus.obj").string();
-
-/// A flat map of each of three heights, a displaced mesh, and a map of what that lacks.
-void write_manifest(const Folder& folder, const std::string& more = "") {
-    fs::create_directories(folder / "heights");
-    for (const char* name : {"a.png", "b.png", "c.png"})
-        fs::copy_file(own_meshes() / "dots.png", folder / (std::string("heights/") + name),
-                      fs::copy_options::overwrite_existing);
-    fs::copy_file(torus, folder / "torus.obj", fs::copy_options::overwrite_existing);
-    write_file(folder / "m.toml",
-               "manifest = 1\n"
-               "[[bake]]\nname = \"flat_{stem}\"\nverb = \"normal-map\"\nfiles = [\"heights/*.png\"]\n"
-               "options = {amplitude = \"0.1\"}\noutputs = {out = \"flat_{stem}.png\"}\n"
-               "[[bake]]\nname = \"rest\"\nverb = \"normal-map\"\nfiles = [\"torus.obj\"]\n"
-               "inputs = {height = \"heights/a.png\", residual-of = \"moved.ply\"}\n"
-               "options = {amplitude = \"0.05\", size = \"32\"}\noutputs = {out = \"rest.png\"}\n"
-               "[[bake]]\nname = \"moved\"\nverb = \"displace\"\nfiles = [\"torus.obj\"]\n"
-               "inputs = {height = \"heights/a.png\"}\noptions = {amplitude = \"0.05\", levels = \"1\"}\n"
-               "outputs = {out = \"moved.ply\"}\n" +
-                   more);
-}
 
 nlohmann::json batch(const Folder& folder, const std::vector<std::string>& more = {}, int code = 0) {
     std::vector<std::string> words = {"batch", "m.toml", "--json"};
@@ -50,7 +30,7 @@ TEST_SUITE("cli") {
 
     TEST_CASE("batch: runs what changed alone, and files are those of single commands") {
         const Folder folder;
-        write_manifest(folder);
+        write_manifest(folder.path);
         const auto first = batch(folder);
         CHECK(first.size() == 5);
         for (const auto& task : first) CHECK(task["result"] == "done");
@@ -93,7 +73,7 @@ TEST_SUITE("cli") {
 
     TEST_CASE("batch: goes on after a failure, and its code is that of the first one") {
         const Folder folder;
-        write_manifest(folder,
+        write_manifest(folder.path,
                        "[[bake]]\nname = \"none\"\nverb = \"bump-table\"\nfiles = [\"none.png\"]\noutputs = {out "
                        "= \"none.exr\"}\n[[bake]]\nname = \"of_none\"\nverb = \"check\"\nfiles = "
                        "[\"none.exr\"]\noutputs = {out = \"none.txt\"}\n");
@@ -113,7 +93,7 @@ TEST_SUITE("cli") {
         for (int i = 0; i < 200; ++i)
             more += "[[bake]]\nname = \"m" + std::to_string(i) + "\"\nverb = \"normal-map\"\nfiles = [\"" + bricks +
                     "\"]\noutputs = {out = \"m" + std::to_string(i) + ".png\"}\n";
-        write_manifest(folder, more);
+        write_manifest(folder.path, more);
         const Run run = run_bake(folder, {"batch", "m.toml"}, {.seconds = 60, .interrupt_after = 0.5});
         CHECK(run.code == 130);
         std::size_t made = 0;
@@ -136,72 +116,6 @@ TEST_SUITE("cli") {
         write_file(folder / "m.toml",
                    "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"check\"\noutputs = {out = \"b\"}\n");
         check_refused(folder, {"batch", "m.toml", "--filter", "c*"}, 2, "no task has a name like");
-    }
-
-    TEST_CASE("batch: Ninja runs what it emits, and then nothing" *
-              doctest::skip(std::system("ninja --version >/dev/null") != 0)) {
-        const Folder folder;
-        write_manifest(folder);
-        REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "ninja", "-o", "build.ninja"}).code == 0);
-        const std::string path = "PATH=" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
-        const std::string ninja = "cd '" + folder.path.string() + "' && " + path + "ninja > log";
-        CHECK(std::system(ninja.c_str()) == 0);
-        CHECK(fs::exists(folder / "rest.png"));
-        const std::string made = contents(folder / "rest.png");
-        CHECK(std::system(ninja.c_str()) == 0);
-        CHECK(contents(folder / "log").find("no work to do") != std::string::npos);
-        batch(folder);
-        CHECK(contents(folder / "rest.png") == made);
-    }
-
-    TEST_CASE("batch: the lines of --emit commands make the same files") {
-        const Folder folder;
-        write_manifest(folder);
-        const Run run = run_bake(folder, {"batch", "m.toml", "--emit", "commands"});
-        REQUIRE(run.code == 0);
-        write_file(folder / "lines.sh", run.out);
-        const std::string path = "PATH=" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
-        CHECK(std::system(("cd '" + folder.path.string() + "' && " + path + "sh -e lines.sh >log").c_str()) == 0);
-        const std::string made = contents(folder / "rest.png");
-        batch(folder);
-        CHECK(contents(folder / "rest.png") == made);
-    }
-
-    TEST_CASE(
-        "batch: the script for Slurm runs its tasks, and after a failure of the machine those alone that are left") {
-        const Folder folder;
-        write_manifest(folder);
-        REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "slurm", "--chunk", "3", "-o", "farm.sh"}).code == 0);
-        // An sbatch that runs the array at once, each job twice.
-        fs::create_directories(folder / "bin");
-        write_file(folder / "bin/sbatch",
-                   "#!/bin/bash\necho \"$@\" >>sbatch.log\nfor word in \"$@\"; do case $word in\n--array=0-*) "
-                   "last=${word##*-} ;;"
-                   "\n--export=ALL,*) IFS=, read -ra pairs <<<\"${word#--export=ALL,}\"; export "
-                   "\"${pairs[@]}\" ;;\nesac; done\nfor ((i = 0; i <= last; ++i)); do for again in 1 2; do "
-                   "SLURM_ARRAY_TASK_ID=$i bash \"${@: -1}\" || exit; done; done >&2\necho 7\n");
-        fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
-        const std::string path = "PATH='" + folder.path.string() +
-                                 "/bin':" + fs::path(std::getenv("BAKE")).parent_path().string() + ":$PATH ";
-        CHECK(std::system(
-                  ("cd '" + folder.path.string() + "' && " + path + "bash farm.sh --partition=night >log").c_str()) ==
-              0);
-        CHECK(fs::exists(folder / "rest.png"));
-        const std::string log = contents(folder / "sbatch.log");
-        CHECK(log.find("--array=0-1 --job-name=bake-0") != std::string::npos); // four tasks by threes
-        CHECK(log.find("--array=0-0 --job-name=bake-1") != std::string::npos);
-        CHECK(log.find("--dependency=afterok:7 --kill-on-invalid-dep=yes --partition=night") != std::string::npos);
-    }
-
-    TEST_CASE("batch: the OpenJD template has a step for each level") {
-        const Folder folder;
-        write_manifest(folder);
-        const Run run = run_bake(folder, {"batch", "m.toml", "--emit", "openjd", "--chunk", "2"});
-        const auto job = nlohmann::json::parse(run.out);
-        CHECK(job["specificationVersion"] == "jobtemplate-2023-09");
-        REQUIRE(job["steps"].size() == 2);
-        CHECK(job["steps"][0]["parameterSpace"]["taskParameterDefinitions"][0]["range"] == "0-1");
-        CHECK(job["steps"][1]["dependencies"][0]["dependsOn"] == job["steps"][0]["name"]);
     }
 
     TEST_CASE("batch: a task whose command writes nothing fails, and is no done one the next time") {

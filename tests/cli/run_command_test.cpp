@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "command_line.h"
 #include "run_command.h"
+#include "run_report.h"
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -43,6 +44,22 @@ std::vector<std::vector<std::string>> commands(const std::string& name) {
 } // namespace
 
 TEST_SUITE("cli") {
+
+    TEST_CASE("RunReport: takes notes and reasons from all threads at once") {
+        bake::RunReport report;
+        std::vector<std::thread> threads;
+        for (int thread = 0; thread < 4; ++thread)
+            threads.emplace_back([&, thread] {
+                for (int i = 0; i < 500; ++i) {
+                    report.add_error("a reason that needs memory of its own, " + std::to_string(thread));
+                    report.add_note("note " + std::to_string(i));
+                    report.add_note("note " + std::to_string(i) + " of " + std::to_string(thread));
+                }
+            });
+        for (std::thread& thread : threads) thread.join();
+        CHECK(report.notes().size() == 5 * 500);
+        CHECK(report.error().starts_with("a reason that needs memory of its own, "));
+    }
 
     TEST_CASE("run_command: commands that run at the same time do as they do one after another") {
         const Folder folder;

@@ -66,9 +66,7 @@ int run_command(const std::vector<std::string>& words, const CommandIo& io) {
     RunReport report;
     const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
     if (json) // no note is printed then, but reasons alone
-        job.hears = [&](const std::string& line) {
-            if (report.error.empty()) report.error = reason_of(line);
-        };
+        job.hears = [&](const std::string& line) { report.add_error(reason_of(line)); };
     std::unique_ptr<CommandLine> line;
     std::optional<int> code;
     job.threads = 1;

@@ -47,10 +47,30 @@ Json texts_of(const Json& object, const char* key) {
     return found != object.end() && found->is_array() ? *found : Json::array();
 }
 
+void add_new(std::vector<std::string>& lines, const std::string& line) {
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+}
+
 } // namespace
 
 void RunReport::add_note(const std::string& line) {
-    if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+    const std::lock_guard lock(mutex_);
+    add_new(notes_, line);
+}
+
+void RunReport::add_error(const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    if (error_.empty()) error_ = line;
+}
+
+std::vector<std::string> RunReport::notes() const {
+    const std::lock_guard lock(mutex_);
+    return notes_;
+}
+
+std::string RunReport::error() const {
+    const std::lock_guard lock(mutex_);
+    return error_;
 }
 
 Json whole_report(const RunReport& report, const std::vector<std::string>& words,
@@ -58,15 +78,15 @@ Json whole_report(const RunReport& report, const std::vector<std::string>& words
     std::vector<std::string> argv = {"bake"};
     argv.insert(argv.end(), words.begin(), words.end());
     Json whole = {{"verb", words.empty() ? "" : words[0]}, {"version", version()}, {"argv", argv}, {"exit_code", code}};
-    if (!report.error.empty()) whole["error"] = report.error;
+    if (const std::string error = report.error(); !error.empty()) whole["error"] = error;
     whole["inputs"] = inputs();
     whole["outputs"] = outputs;
     const Json& own = report.object;
     whole["seconds"] = seconds_of(own.contains("seconds") ? own["seconds"] : Json());
     whole["memory"] = {{"peak_bytes", peak_memory()}};
-    RunReport notes = report;
-    for (const Json& line : texts_of(own, "notes")) notes.add_note(line.get<std::string>());
-    whole["notes"] = notes.notes;
+    std::vector<std::string> notes = report.notes();
+    for (const Json& line : texts_of(own, "notes")) add_new(notes, line.get<std::string>());
+    whole["notes"] = notes;
     whole["warnings"] = texts_of(own, "warnings");
     for (const auto& [key, value] : own.items())
         if (!whole.contains(key)) whole[key] = value;

@@ -1,5 +1,6 @@
 // The JSON object that a run prints under --json: what every verb says, and the verb's own.
 #pragma once
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -12,11 +13,19 @@ class OutputSet;
 struct RunReport {
     nlohmann::ordered_json object = nlohmann::ordered_json::object(); ///< the verb's own
     int indent = 2;                                                   ///< -1: all in one line
-    std::vector<std::string> notes;                                   ///< as they would be printed
-    std::string error;                                                ///< the first reason of a refusal
 
-    /// Adds the notes of the verb's object to its own, and keeps one of each.
+    /// Keeps a note as it would be printed, one of each. From any thread.
     void add_note(const std::string& line);
+    /// Keeps the first reason of a refusal. From any thread.
+    void add_error(const std::string& line);
+
+    std::vector<std::string> notes() const;
+    std::string error() const; ///< empty: none
+
+private:
+    mutable std::mutex mutex_;
+    std::vector<std::string> notes_;
+    std::string error_;
 };
 
 /// The whole object. `words`: the command behind "bake".

@@ -1,5 +1,4 @@
 #include "bake/batch/emit.h"
-#include "bake/base/content_hash.h"
 #include "bake/batch/levels.h"
 #include <algorithm>
 #include <filesystem>
@@ -7,47 +6,6 @@
 
 namespace bake {
 namespace {
-
-/// As a path or a value of build.ninja has it.
-std::string ninja_escaped(const std::string& text, bool path) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '$' || (path && (c == ' ' || c == ':'))) out += '$';
-        out += c;
-    }
-    return out;
-}
-
-/// Outputs whose names hold a place for a number are not known before: a file of its own tells that the task was done.
-bool has_place(const std::string& path) {
-    return path.find('%') != std::string::npos || path.find('<') != std::string::npos;
-}
-
-std::string stamp_of(const BatchTask& task) { return ".bake-done/" + content_hash(task.name.data(), task.name.size()); }
-
-std::vector<std::string> ninja_outputs(const BatchTask& task) {
-    if (std::any_of(task.outputs.begin(), task.outputs.end(), has_place)) return {stamp_of(task)};
-    return task.outputs;
-}
-
-std::string ninja(const std::vector<BatchTask>& tasks) {
-    std::string text = "# Made by bake batch for Ninja. Run ninja in the folder of the manifest.\n"
-                       "rule bake\n  command = $line\n  description = $name\n";
-    for (const BatchTask& task : tasks) {
-        const std::vector<std::string> outputs = ninja_outputs(task);
-        text += "\nbuild";
-        for (const std::string& path : outputs) text += " " + ninja_escaped(path, true);
-        text += ": bake";
-        for (const std::string& path : task.inputs) text += " " + ninja_escaped(path, true);
-        if (!task.needs.empty()) text += " |";
-        for (const std::uint32_t need : task.needs)
-            for (const std::string& path : ninja_outputs(tasks[need])) text += " " + ninja_escaped(path, true);
-        std::string line = command_line_of(task);
-        if (outputs != task.outputs) line += " && mkdir -p .bake-done && touch " + outputs[0];
-        text += "\n  line = " + ninja_escaped(line, false) + "\n  name = " + ninja_escaped(task.name, false) + "\n";
-    }
-    return text;
-}
 
 std::string commands(const std::vector<BatchTask>& tasks) {
     std::string text =
@@ -92,7 +50,7 @@ std::vector<std::vector<std::size_t>> levels_of(const std::vector<BatchTask>& ta
 
 std::string emitted(const std::vector<BatchTask>& tasks, EmitFormat format, const EmitOptions& options) {
     switch (format) {
-    case EmitFormat::ninja: return ninja(tasks);
+    case EmitFormat::ninja: return emitted_ninja(tasks);
     case EmitFormat::slurm: return emitted_slurm(tasks, options);
     case EmitFormat::commands: return commands(tasks);
     case EmitFormat::openjd: return emitted_openjd(tasks, options);

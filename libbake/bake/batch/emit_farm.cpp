@@ -1,4 +1,5 @@
 // The tasks for farms: levels of jobs, each with a chunk of tasks.
+#include "bake/base/printable.h"
 #include "bake/batch/emit.h"
 #include "bake/batch/levels.h"
 #include <algorithm>
@@ -29,27 +30,31 @@ constexpr const char* slurm_head = R"sh(#!/bin/bash
 # It submits one array of jobs for each level of the tasks; a level starts when all jobs of the one before succeeded.
 )sh";
 
+// Level and folder are arguments of the script: a value of --export ends at a comma, and `--export=NONE` is an option that
+// sites ask for.
 constexpr const char* slurm_submit = R"sh(
-if [ -z "${BAKE_LEVEL:-}" ]; then
+if [ "${1:-}" != run-level ]; then
     script=$(realpath "$0") && cd "$folder" || exit
     done_tasks=$(mktemp -d "$folder/.bake-slurm-XXXXXX") || exit
     after=()
     for level in "${!jobs[@]}"; do
         id=$(sbatch --parsable --requeue --array="0-$((jobs[level] - 1))" --job-name="bake-$level" --chdir="$folder" \
-            --export="ALL,BAKE_LEVEL=$level,BAKE_DONE=$done_tasks" "${after[@]}" "$@" "$script") || exit
+            "${after[@]}" "$@" "$script" run-level "$level" "$done_tasks") || exit
         echo "$id"
         after=(--dependency="afterok:${id%%;*}" --kill-on-invalid-dep=yes)
     done
     exit
 fi
+level=$2
+done_tasks=$3
 
 # A job that is run again, as its machine failed, leaves out the tasks that were done.
 code=0
 run() {
     local task=$1
     shift
-    [ -e "$BAKE_DONE/$task" ] && return
-    if "$@"; then : >"$BAKE_DONE/$task"; else code=$?; fi
+    [ -e "$done_tasks/$task" ] && return
+    if "$@"; then : >"$done_tasks/$task"; else code=$?; fi
 }
 
 )sh";
@@ -58,7 +63,7 @@ run() {
 
 std::string emitted_slurm(const std::vector<BatchTask>& tasks, const EmitOptions& options) {
     constexpr std::size_t most_jobs = 1000; // of an array, where Slurm's MaxArraySize is as it comes
-    std::string counts, cases = "case $BAKE_LEVEL in\n";
+    std::string counts, cases = "case $level in\n";
     const auto levels = levels_of(tasks);
     for (std::size_t level = 0; level < levels.size(); ++level) {
         const std::size_t chunk =
@@ -72,16 +77,28 @@ std::string emitted_slurm(const std::vector<BatchTask>& tasks, const EmitOptions
            folder_line_of(tasks) + cases + "esac\nexit $code\n";
 }
 
+/// A name for a job: of 1 to 128 bytes of whole characters, without control characters and what would be a format string.
+std::string job_name(const std::string& file) {
+    constexpr std::size_t most = 128;
+    std::string name = printable(file);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '{' || c == '}'; }, '_');
+    std::size_t end = std::min(name.size(), most);
+    while (end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+    return name.substr(0, end);
+}
+
 std::string emitted_openjd(const std::vector<BatchTask>& tasks, const EmitOptions& options) {
     Json steps = Json::array();
     const auto levels = levels_of(tasks);
     for (std::size_t level = 0; level < levels.size(); ++level) {
         std::size_t jobs = 0;
         const std::string cases = branches(tasks, levels[level], std::size_t(options.chunk), jobs);
-        const std::string script = "#!/bin/bash\ncd '{{Param.Folder}}' || exit\n" + folder_line_of(tasks) +
+        // Folder and number of the job are arguments: what replaces {{Param.Folder}} in a script is not quoted for a shell.
+        const std::string script = "#!/bin/bash\ncd -- \"$1\" || exit\n" + folder_line_of(tasks) +
                                    "code=0\n"
                                    "run() {\n    shift\n    \"$@\" || code=$?\n}\n"
-                                   "case {{Task.Param.Job}} in\n" +
+                                   "case $2 in\n" +
                                    cases + "esac\nexit $code\n";
         Json step = {
             {"name", "Level" + std::to_string(level)},
@@ -89,7 +106,10 @@ std::string emitted_openjd(const std::vector<BatchTask>& tasks, const EmitOption
              {{"taskParameterDefinitions",
                {{{"name", "Job"}, {"type", "INT"}, {"range", "0-" + std::to_string(jobs - 1)}}}}}},
             {"script",
-             {{"actions", {{"onRun", {{"command", "{{Task.File.Run}}"}}}}},
+             {{"actions",
+               {{"onRun",
+                 {{"command", "{{Task.File.Run}}"},
+                  {"args", Json::array({"{{Param.Folder}}", "{{Task.Param.Job}}"})}}}}},
               {"embeddedFiles", {{{"name", "Run"}, {"type", "TEXT"}, {"runnable", true}, {"data", script}}}}}}};
         if (level > 0) step["dependencies"] = {{{"dependsOn", "Level" + std::to_string(level - 1)}}};
         steps.push_back(std::move(step));
@@ -98,7 +118,7 @@ std::string emitted_openjd(const std::vector<BatchTask>& tasks, const EmitOption
                          {"objectType", "DIRECTORY"}, {"dataFlow", "INOUT"},
                          {"default", options.folder}, {"description", "Folder of the manifest"}};
     const Json job = {{"specificationVersion", "jobtemplate-2023-09"},
-                      {"name", options.name},
+                      {"name", job_name(options.name)},
                       {"description", "Made by bake batch"},
                       {"parameterDefinitions", Json::array({folder})},
                       {"steps", steps}};

@@ -3,12 +3,15 @@
 #include <algorithm>
 
 namespace bake {
+namespace {
 
-std::string Ledger::key_of(const BatchTask& task) const {
-    std::string text = program_;
+std::string key_of(const BatchTask& task) {
+    std::string text;
     for (const std::string& word : task.words) text += '\0' + word;
     return content_hash(text.data(), text.size());
 }
+
+} // namespace
 
 std::optional<FileStamp> Ledger::stamp_now(const std::string& path) {
     const auto [known, fresh] = stamps_.try_emplace(path);
@@ -34,7 +37,8 @@ std::string Ledger::why(const BatchTask& task) {
     const auto found = entries_.find(task.name);
     if (found == entries_.end()) return "new";
     LedgerEntry& entry = found->second;
-    if (entry.key != key_of(task)) return written_by_ == program_ ? "options changed" : "another version of bake";
+    if (entry.program != program_) return "another version of bake";
+    if (entry.key != key_of(task)) return "options changed";
     std::string changed;
     for (FileMark& mark : entry.inputs)
         if (!is_unchanged(mark)) changed += (changed.empty() ? "inputs changed: " : ", ") + mark.path;
@@ -69,7 +73,7 @@ FileMark Ledger::mark_of(const std::string& path, std::optional<FileStamp> befor
 
 void Ledger::record(const BatchTask& task, const std::vector<ReadFile>& read, const std::vector<std::string>& written,
                     double seconds) {
-    LedgerEntry entry{key_of(task), seconds, {}, {}};
+    LedgerEntry entry{program_, key_of(task), seconds, {}, {}};
     for (const ReadFile& file : read) entry.inputs.push_back(mark_of(file.path, file.stamp));
     for (const std::string& path : written) entry.outputs.push_back(mark_of(path, {}));
     const auto by_path = [](const FileMark& a, const FileMark& b) { return a.path < b.path; };

@@ -17,7 +17,8 @@ struct FileMark {
 };
 
 struct LedgerEntry {
-    std::string key; ///< of the task's command and of the program
+    std::string program; ///< that ran it
+    std::string key;     ///< of the task's command
     double seconds = 0;
     std::vector<FileMark> inputs, outputs;
 };
@@ -29,8 +30,8 @@ public:
     /// files. A file that is no ledger of this format counts as absent.
     Ledger(std::string path, std::string program);
 
-    /// Why a task is to run: "new", "options changed", "inputs changed: a.png", "outputs changed: b.png", "output missing:
-    /// b.png" or "another version of bake". Empty if it would write what is there. A file whose stamp is as it was counts
+    /// Why a task is to run: "new", "another version of bake", "options changed", "inputs changed: a.png", "output changed:
+    /// b.png" or "output missing: b.png". Empty if it would write what is there. A file whose stamp is as it was counts
     /// as unchanged, other files are hashed, each once.
     std::string why(const BatchTask& task);
     /// Seconds that the task took when it last ran; nothing if it never did.
@@ -45,13 +46,12 @@ public:
     void write();
 
 private:
-    std::string key_of(const BatchTask& task) const;
     std::optional<FileStamp> stamp_now(const std::string& path);
     bool is_unchanged(FileMark& mark);
     FileMark mark_of(const std::string& path, std::optional<FileStamp> before);
     void read();
 
-    std::string path_, program_, written_by_;
+    std::string path_, program_;
     mutable std::mutex mutex_;
     std::unordered_map<std::string, LedgerEntry> entries_;
     std::unordered_map<std::string, std::optional<FileStamp>> stamps_; ///< of this run

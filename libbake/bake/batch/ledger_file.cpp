@@ -1,5 +1,5 @@
-// The ledger as a file of lines: the program, one line for each file as a task met it, one for each task. Fields are apart by
-// one blank; in names, blanks, % and control characters are %20 and the like.
+// The ledger as a file of lines: one for each file as a task met it, and one for each task, behind that of the program that ran
+// it. Fields are apart by one blank; in names, blanks, % and control characters are %20 and the like.
 #include "bake/base/block_writer.h"
 #include "bake/base/file_bytes.h"
 #include "bake/base/text.h"
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <tuple>
 
 namespace bake {
 namespace {
@@ -84,8 +85,7 @@ struct Marks {
 
 } // namespace
 
-Ledger::Ledger(std::string path, std::string program)
-    : path_(std::move(path)), program_(std::move(program)), written_by_(program_) {
+Ledger::Ledger(std::string path, std::string program) : path_(std::move(path)), program_(std::move(program)) {
     std::error_code absent;
     if (std::filesystem::is_regular_file(path_, absent)) read();
 }
@@ -94,6 +94,7 @@ void Ledger::read() {
     const FileBytes bytes = read_file(path_);
     std::string_view text(bytes.begin(), bytes.size);
     std::vector<FileMark> marks;
+    std::string program;
     std::unordered_map<std::string, LedgerEntry> entries;
     for (std::size_t line = 0; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -102,7 +103,7 @@ void Ledger::read() {
         if (line == 0 && fields.rest != first_line) return;
         if (line == 0) continue;
         const std::string_view kind = fields.word();
-        if (kind == "program") written_by_ = unescaped(fields.word());
+        if (kind == "program") program = unescaped(fields.word());
         if (kind == "file") {
             const auto size = fields.number<std::int64_t>(), changed = fields.number<std::int64_t>();
             const FileStamp stamp{size, changed, fields.number<std::uint64_t>()};
@@ -110,7 +111,7 @@ void Ledger::read() {
             marks.push_back({unescaped(fields.word()), stamp, hash == "-" ? "" : hash});
         }
         if (kind == "task") {
-            LedgerEntry entry{std::string(fields.word()), fields.number<double>(), {}, {}};
+            LedgerEntry entry{program, std::string(fields.word()), fields.number<double>(), {}, {}};
             entry.inputs = fields.marks(marks);
             entry.outputs = fields.marks(marks);
             entries[unescaped(fields.word())] = std::move(entry);
@@ -123,20 +124,25 @@ void Ledger::read() {
 void Ledger::write() {
     const std::lock_guard lock(mutex_);
     if (!changed_) return;
-    std::vector<const std::string*> names;
-    for (const auto& [name, entry] : entries_) names.push_back(&name);
-    std::sort(names.begin(), names.end(), [](const std::string* a, const std::string* b) { return *a < *b; });
+    using Named = const std::pair<const std::string, LedgerEntry>*;
+    std::vector<Named> sorted;
+    for (const auto& named : entries_) sorted.push_back(&named);
+    std::sort(sorted.begin(), sorted.end(), [](Named a, Named b) {
+        return std::tie(a->second.program, a->first) < std::tie(b->second.program, b->first);
+    });
     Marks marks;
     std::string tasks;
-    for (const std::string* name : names) {
-        const LedgerEntry& entry = entries_.at(*name);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const auto& [name, entry] = *sorted[i];
+        if (i == 0 || entry.program != sorted[i - 1]->second.program)
+            tasks += "program " + escaped(entry.program) + "\n";
         tasks += "task " + entry.key + format(" %.3f", entry.seconds);
         tasks += marks.listed(entry.inputs);
         tasks += marks.listed(entry.outputs);
-        tasks += " " + escaped(*name) + "\n";
+        tasks += " " + escaped(name) + "\n";
     }
     BlockWriter file(path_);
-    file.write(std::string(first_line) + "\nprogram " + escaped(program_) + "\n" + marks.lines + tasks);
+    file.write(std::string(first_line) + "\n" + marks.lines + tasks);
     file.commit();
     changed_ = false;
 }

@@ -16,6 +16,7 @@ std::string folder_line_of(const std::vector<BatchTask>& tasks);
 
 /// Emitters of their formats, see emit.h.
 struct EmitOptions;
+std::string emitted_ninja(const std::vector<BatchTask>& tasks);
 std::string emitted_slurm(const std::vector<BatchTask>& tasks, const EmitOptions& options);
 std::string emitted_openjd(const std::vector<BatchTask>& tasks, const EmitOptions& options);
 

@@ -17,7 +17,24 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-constexpr double seconds_between_calls = 5; ///< of `every`
+/// What a run gave that ended with the exception that is being handled.
+TaskRun failure() noexcept {
+    TaskRun run{int(Refusal::unsuitable), {}, {}, {}};
+    try {
+        try {
+            throw;
+        } catch (const Error& error) {
+            run.code = int(error.refusal);
+            run.message = error.what();
+        } catch (const std::bad_alloc&) {
+            run.message = "out of memory";
+        } catch (const std::exception& error) {
+            run.message = error.what();
+        }
+    } catch (...) { // no memory for the message: the code alone tells of the failure
+    }
+    return run;
+}
 
 class Schedule {
 public:
@@ -30,6 +47,7 @@ public:
             open_[i] = tasks[i].needs.size();
             for (const std::uint32_t need : tasks[i].needs) users_[need].push_back(i);
         }
+        unsettled_.reserve(tasks.size());
         for (std::uint32_t i = 0; i < tasks.size(); ++i)
             if (tasks[i].needs.empty()) settle(i);
     }
@@ -37,12 +55,14 @@ public:
     std::vector<TaskReport> result() {
         const std::size_t count = std::min<std::size_t>(std::size_t(options_.threads), ready_.size() + waiting());
         std::vector<std::thread> workers;
+        workers.reserve(count);
         try {
             while (workers.size() + 1 < count) workers.emplace_back([this] { work(); });
-        } catch (const std::system_error&) { // a limit on threads: those that started do the work
+        } catch (const std::exception&) { // a limit on threads or on memory: those that started do the work
         }
         work();
         for (std::thread& worker : workers) worker.join();
+        skip_users();
         return std::move(reports_);
     }
 
@@ -53,36 +73,40 @@ private:
     }
 
     /// All that task `i` needs is done: it is unchanged, and with it perhaps those that need it, or it is to run.
-    void settle(std::uint32_t i) {
-        std::vector<std::uint32_t> next{i};
-        while (!next.empty()) {
-            const std::uint32_t task = next.back();
-            next.pop_back();
+    void settle(std::uint32_t i) noexcept {
+        unsettled_.push_back(i);
+        while (!unsettled_.empty()) {
+            const std::uint32_t task = unsettled_.back();
+            unsettled_.pop_back();
             TaskReport& report = reports_[task];
-            report.why = options_.force ? "forced" : ledger_.why(tasks_[task]);
-            if (!report.why.empty()) {
-                ready_.insert({-ledger_.seconds(tasks_[task]).value_or(0), task});
+            try {
+                report.why = options_.force ? "forced" : ledger_.why(tasks_[task]);
+                if (!report.why.empty()) {
+                    ready_.insert({-ledger_.seconds(tasks_[task]).value_or(0), task});
+                    ++progress_.total;
+                    continue;
+                }
+            } catch (...) {
                 ++progress_.total;
+                finish(task, failure(), 0);
                 continue;
             }
             report.result = Result::unchanged;
             for (const std::uint32_t user : users_[task])
-                if (--open_[user] == 0) next.push_back(user);
+                if (--open_[user] == 0) unsettled_.push_back(user);
         }
     }
 
-    void skip_users(std::uint32_t failed) {
-        std::vector<std::uint32_t> left = {failed};
-        while (!left.empty()) {
-            const std::uint32_t i = left.back();
-            left.pop_back();
-            for (const std::uint32_t user : users_[i]) {
-                if (reports_[user].result == Result::skipped) continue;
-                reports_[user].result = Result::skipped;
-                reports_[user].why = "needs " + tasks_[i].name;
-                left.push_back(user);
+    /// Tasks that were not reached, as one that they need failed. Needs stand before those that need them.
+    void skip_users() {
+        for (std::size_t i = 0; i < tasks_.size(); ++i)
+            for (const std::uint32_t need : tasks_[i].needs) {
+                const Result result = reports_[need].result;
+                if (result != Result::failed && result != Result::skipped) continue;
+                reports_[i].result = Result::skipped;
+                reports_[i].why = "needs " + tasks_[need].name;
+                break;
             }
-        }
     }
 
     bool stopped() const { return interrupted() || (!options_.keep_going && progress_.failed > 0); }
@@ -113,44 +137,48 @@ private:
             alone_ = tasks_[*task].alone;
             lock.unlock();
             const auto begin = Clock::now();
-            const TaskRun done = run(*task, threads);
+            TaskRun done = run(*task, threads, begin);
             const double seconds = seconds_since(begin);
-            if (done.code == 0) ledger_.record(tasks_[*task], done.read, done.written, seconds);
-            else ledger_.forget(tasks_[*task]);
             lock.lock();
             --running_;
             alone_ = false;
-            finish(*task, done, seconds);
+            finish(*task, std::move(done), seconds);
+            call_every();
             changed_.notify_all();
         }
         changed_.notify_all();
     }
 
-    TaskRun run(std::uint32_t task, int threads) {
+    /// Runs and records a task. One that cannot be recorded has failed, as it would run again the next time.
+    TaskRun run(std::uint32_t task, int threads, Clock::time_point begin) noexcept {
+        TaskRun done;
         try {
-            return run_(tasks_[task], threads);
-        } catch (const Error& error) {
-            return {int(error.refusal), error.what(), {}, {}};
-        } catch (const std::exception& error) {
-            return {int(Refusal::unsuitable), error.what(), {}, {}};
+            done = run_(tasks_[task], threads);
+            if (done.code == 0) ledger_.record(tasks_[task], done.read, done.written, seconds_since(begin));
+        } catch (...) {
+            done = failure();
         }
+        if (done.code != 0) ledger_.forget(tasks_[task]);
+        return done;
     }
 
-    void finish(std::uint32_t i, const TaskRun& done, double seconds) {
+    void finish(std::uint32_t i, TaskRun done, double seconds) noexcept {
         TaskReport& report = reports_[i];
-        report.code = done.code, report.message = done.message, report.seconds = seconds;
+        report.code = done.code, report.message = std::move(done.message), report.seconds = seconds;
         const bool stopped = done.code == int(Refusal::interrupted);
         report.result = done.code == 0 ? Result::done : stopped ? Result::interrupted : Result::failed;
         ++progress_.done;
         if (report.result == Result::failed) ++progress_.failed;
         if (report.result == Result::done)
             for (const std::uint32_t user : users_[i])
-                if (--open_[user] == 0 && reports_[user].result != Result::skipped) settle(user);
-        if (report.result == Result::failed) skip_users(i);
-        if (!every_ || seconds_since(last_call_) < seconds_between_calls) return;
+                if (--open_[user] == 0) settle(user);
+    }
+
+    void call_every() noexcept {
+        if (!every_ || seconds_since(last_call_) < options_.seconds_between_calls) return;
         try {
             every_();
-        } catch (const Error&) { // the caller does the same at the end, and tells why it cannot be done
+        } catch (const std::exception&) { // the caller does the same at the end, and tells why it cannot be done
         }
         last_call_ = Clock::now();
     }
@@ -164,6 +192,7 @@ private:
     std::vector<TaskReport> reports_;
     std::vector<std::size_t> open_; ///< tasks that each one still waits for
     std::vector<std::vector<std::uint32_t>> users_;
+    std::vector<std::uint32_t> unsettled_;             ///< by settle()
     std::set<std::pair<double, std::uint32_t>> ready_; ///< the longest first
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -32,14 +32,15 @@ struct TaskReport {
 
 struct BatchOptions {
     int threads = 1;
-    bool force = false;     ///< run all tasks
-    bool keep_going = true; ///< after a failure run all tasks that do not need the one that failed
+    bool force = false;               ///< run all tasks
+    bool keep_going = true;           ///< after a failure run all tasks that do not need the one that failed
+    double seconds_between_calls = 5; ///< of `every`, at least
 };
 
 /// For a line that is shown meanwhile. From any thread.
 struct BatchProgress {
-    std::atomic<std::size_t> total{0}, done{0},
-        failed{0}; ///< of the tasks that are run; `total` is not final before all are
+    /// Of the tasks that are run; `total` is not final before all are.
+    std::atomic<std::size_t> total{0}, done{0}, failed{0};
 };
 
 /// "123 of 500, 2 failed, 14 s left", from the seconds since the beginning: tasks that are left take as long as those before.
@@ -47,9 +48,9 @@ std::string progress_line(const BatchProgress& progress, double elapsed);
 
 /// Calls run(task, threads) for each task that the ledger has a reason for, as soon as those that it needs are done, and
 /// records it. Several tasks at a time, each with one thread, as long as there are enough; the last ones share all threads;
-/// a task that runs `alone` has them all. The longest task first, by what the ledger knows. A run that throws has failed.
-/// Returns a report for each task. `every` is called every few seconds from one of the threads while no other calls it; an Error that it
-/// throws is dropped.
+/// a task that runs `alone` has them all. The longest task first, by what the ledger knows. A task has failed if its run
+/// throws, or what the ledger does for it; the others go on. Returns a report for each task. `every` is called now and
+/// then from one of the threads while no other calls it; what it throws is dropped.
 std::vector<TaskReport> run_batch(const std::vector<BatchTask>& tasks, Ledger& ledger, const BatchOptions& options,
                                   const std::function<TaskRun(const BatchTask&, int threads)>& run,
                                   BatchProgress& progress, const std::function<void()>& every = {});
