@@ -56,8 +56,11 @@ const std::vector<Case>& cases() {
           {px, "-o", "u.hdr", "--size", "16", "--for", "unreal"}}},
         {"render", {{torus, "-o", "r.png", "--size", "16", "--spp", "1"}, {torus, "--size", "16", "--pixel", "8,8"}}},
         {"explain", {{torus, "--height", bricks, "--uv", "0.25,0.5"}}},
-        {"compare", {{bricks, bricks}, {torus, torus}, {"--normals", "n.png", "n.png"}}},
-        {"batch", {{own("bakes.toml"), "--dry-run"}}},
+        {"compare", {{bricks, bricks}, {bricks, own("ripples.png")}, {torus, torus}, {"--normals", "n.png", "n.png"}}},
+        {"batch",
+         {{own("bakes.toml"), "--dry-run"},
+          {own("bakes.toml"), "--emit", "openjd"},
+          {own("bakes.toml"), "--emit", "ninja", "-o", "build.ninja"}}},
         {"plan", {{studs, "--size", "16"}}},
     };
     return all;

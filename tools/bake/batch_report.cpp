@@ -9,14 +9,6 @@ using Result = TaskReport::Result;
 
 constexpr const char* words[] = {"unchanged", "done", "failed", "skipped", "interrupted"};
 
-/// The line of a refusal without what fail() puts before it and behind it.
-std::string reason_of(std::string message) {
-    constexpr std::string_view before = "bake: ";
-    if (message.starts_with(before)) message.erase(0, before.size());
-    while (!message.empty() && message.back() == '\n') message.pop_back();
-    return message;
-}
-
 nlohmann::ordered_json object_of(const std::vector<BatchTask>& tasks, const std::vector<TaskReport>& reports,
                                  const char* done) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -26,11 +18,31 @@ nlohmann::ordered_json object_of(const std::vector<BatchTask>& tasks, const std:
                                       {"result", report.result == Result::done ? done : words[int(report.result)]},
                                       {"why", report.why},
                                       {"outputs", tasks[i].outputs}};
-        if (report.result == Result::failed) one["code"] = report.code, one["message"] = reason_of(report.message);
+        if (report.result == Result::failed) one["code"] = report.code, one["message"] = report.message;
+        if (!report.notes.empty()) one["notes"] = report.notes;
         if (report.seconds > 0) one["seconds"] = report.seconds;
         list.push_back(std::move(one));
     }
     return list;
+}
+
+/// Each note once, under the first of the tasks that told it.
+void print_notes(const CommonArgs& common, const std::vector<BatchTask>& tasks,
+                 const std::vector<TaskReport>& reports) {
+    struct Told {
+        std::size_t first, count;
+    };
+    std::map<std::string, Told> told;
+    std::vector<std::string> in_order;
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+        for (const std::string& line : reports[i].notes)
+            if (const auto [known, fresh] = told.try_emplace(line, Told{i, 0}); ++known->second.count, fresh)
+                in_order.push_back(line);
+    for (const std::string& line : in_order) {
+        const auto [first, count] = told.at(line);
+        note(common, tasks[first].name + ": " + line +
+                         (count > 1 ? "; so in " + std::to_string(count) + " tasks" : std::string()));
+    }
 }
 
 /// "3 done, 1 failed, 96 unchanged".
@@ -56,6 +68,15 @@ void print_plan(const CommonArgs& common, const std::string& manifest, const std
                  {{"manifest", manifest}, {"tasks", object_of(tasks, plan, "to run")}}, watch);
 }
 
+nlohmann::ordered_json emitted_object(const std::string& manifest, const std::vector<BatchTask>& tasks,
+                                      const std::string& text) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const BatchTask& task : tasks) list.push_back({{"name", task.name}, {"outputs", task.outputs}});
+    nlohmann::ordered_json object = {{"manifest", manifest}, {"tasks", std::move(list)}};
+    if (!text.empty()) object["text"] = text;
+    return object;
+}
+
 void print_reports(const CommonArgs& common, const std::string& manifest, const std::vector<BatchTask>& tasks,
                    const std::vector<TaskReport>& reports, const Stopwatch& watch) {
     constexpr std::size_t most_rows = 50;
@@ -68,9 +89,10 @@ void print_reports(const CommonArgs& common, const std::string& manifest, const 
         text += format("%-12s %8.2f s  ", words[int(report.result)], report.seconds) + printable(tasks[i].name);
         text += report.why.empty() ? "\n" : "  (" + printable(report.why) + ")\n";
     }
+    if (!common.json) print_notes(common, tasks, reports);
     for (std::size_t i = 0; i < tasks.size(); ++i)
         if (reports[i].result == Result::failed)
-            fail(tasks[i].name + ": " + reason_of(reports[i].message), Refusal(reports[i].code));
+            fail(tasks[i].name + ": " + reports[i].message, Refusal(reports[i].code));
     print_result(common, text + printable(manifest) + ": " + counts_of(reports, "done") + "\n",
                  {{"manifest", manifest}, {"tasks", object_of(tasks, reports, "done")}}, watch);
 }

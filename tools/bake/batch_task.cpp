@@ -21,11 +21,22 @@ void prepare_folders(const std::vector<BatchTask>& tasks) {
     }
 }
 
+namespace {
+
+/// A line without what print_line() puts before it and behind it.
+std::string words_of(std::string line) {
+    constexpr std::string_view before = "bake: ";
+    if (line.starts_with(before)) line.erase(0, before.size());
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    return line;
+}
+
+} // namespace
+
 TaskRun run_task(const BatchTask& task, int threads) {
     std::vector<std::string> words = task.words;
     if (std::none_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); }))
         words.push_back("--threads=" + std::to_string(threads));
-    words.push_back("--quiet");
     TaskRun done;
     CommandFiles files;
     std::mutex mutex;
@@ -33,15 +44,17 @@ TaskRun run_task(const BatchTask& task, int threads) {
                                     .tell =
                                         [&](const std::string& line) {
                                             const std::lock_guard lock(mutex);
-                                            done.message += line;
+                                            done.notes.push_back(words_of(line));
                                         },
                                     .sweeps = false,
                                     .begins = {},
                                     .files = &files});
+    if (done.code != 0 && !done.notes.empty()) // the last line is the refusal
+        done.message = std::move(done.notes.back()), done.notes.pop_back();
     done.read = std::move(files.read), done.written = std::move(files.written);
     if (done.code == 0 && done.written.empty() && !task.outputs.empty())
         done.code = int(Refusal::unwritable),
-        done.message = "bake: " + task.outputs[0] + ": was not written; see the options of the bake\n";
+        done.message = task.outputs[0] + ": was not written; see the options of the bake";
     return done;
 }
 

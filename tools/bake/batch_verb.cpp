@@ -68,14 +68,15 @@ int emit(const BatchArgs& args, std::vector<BatchTask> tasks, const CommonArgs& 
     if (*args.format == EmitFormat::ninja || *args.format == EmitFormat::slurm)
         for (BatchTask& task : tasks) task.words.push_back("--quiet");
     const std::string text = emitted(tasks, *args.format, args.emit);
-    if (args.out.empty()) {
+    if (!args.out.empty()) {
+        BlockWriter file(args.out);
+        file.write(text);
+        file.commit();
+    } else if (!common.json) {
         print_text(text);
-        return 0;
     }
-    BlockWriter file(args.out);
-    file.write(text);
-    file.commit();
     common.outputs->commit();
+    if (common.json) common.report->object = emitted_object(args.manifest, tasks, args.out.empty() ? text : "");
     return 0;
 }
 

@@ -164,7 +164,8 @@ private:
 
     void finish(std::uint32_t i, TaskRun done, double seconds) noexcept {
         TaskReport& report = reports_[i];
-        report.code = done.code, report.message = std::move(done.message), report.seconds = seconds;
+        report.code = done.code, report.message = std::move(done.message);
+        report.notes = std::move(done.notes), report.seconds = seconds;
         const bool stopped = done.code == int(Refusal::interrupted);
         report.result = done.code == 0 ? Result::done : stopped ? Result::interrupted : Result::failed;
         ++progress_.done;

@@ -10,7 +10,8 @@ namespace bake {
 /// What running one task gave.
 struct TaskRun {
     int code = 0;
-    std::string message; ///< why it failed
+    std::string message;            ///< why it failed
+    std::vector<std::string> notes; ///< what it told besides
     std::vector<ReadFile> read;
     std::vector<std::string> written;
 };
@@ -26,6 +27,7 @@ struct TaskReport {
     Result result = Result::interrupted;
     std::string why; ///< why it was run, or not
     std::string message;
+    std::vector<std::string> notes; ///< what the run told besides
     int code = 0;
     double seconds = 0;
 };

@@ -12,6 +12,8 @@
 namespace bake {
 namespace {
 
+namespace fs = std::filesystem;
+
 [[noreturn]] void refuse(const std::string& file, const std::string& why) {
     throw Error(Refusal::unreadable, file + ": " + why);
 }
@@ -34,6 +36,8 @@ std::string replaced(std::string text, const std::string& word, const std::strin
     return text;
 }
 
+std::string plain_path(const std::string& path) { return fs::path(path).lexically_normal().string(); }
+
 /// Bakes without patterns and tiles.
 class Expansion {
 public:
@@ -47,7 +51,7 @@ public:
         }
         for (Bake& task : tasks) {
             for_texts(task, false, [&](const std::string& text) { expect_plain(bake, text); });
-            for (const auto& [option, path] : task.outputs) written_.push_back(path);
+            for (const auto& [option, path] : task.outputs) written_.push_back(plain_path(path));
         }
         return tasks;
     }
@@ -69,6 +73,7 @@ private:
             if (matches(pattern, path)) found.push_back(path);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
+        leave_out_outputs(bake, found);
         if (found.empty())
             refuse(file_,
                    "bake " + in_marks(bake.name) + ": there is no file " + in_marks(pattern) + "; check the name");
@@ -81,6 +86,17 @@ private:
             tasks.push_back(std::move(task));
         }
         return tasks;
+    }
+
+    /// A pattern that also matches what the bake writes would give one more task with every run.
+    static void leave_out_outputs(const Bake& bake, std::vector<std::string>& found) {
+        std::set<std::string> own;
+        for (const std::string& path : found)
+            for (const auto& [option, text] : bake.outputs)
+                if (const std::string out = plain_path(replaced(text, "{stem}", stem_of(path)));
+                    out != plain_path(path))
+                    own.insert(out);
+        std::erase_if(found, [&](const std::string& path) { return own.contains(plain_path(path)); });
     }
 
     static std::vector<Bake> of_tiles(const Bake& bake) {
@@ -109,8 +125,6 @@ private:
     const std::string& file_;
     std::vector<std::string> written_; ///< by the bakes before
 };
-
-std::string plain_path(const std::string& path) { return std::filesystem::path(path).lexically_normal().string(); }
 
 BatchTask task_of(const Bake& bake) {
     BatchTask task{.name = bake.name, .words = command_of(bake), .inputs = bake.files, .outputs = {}, .needs = {}};
