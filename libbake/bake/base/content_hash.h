@@ -12,5 +12,7 @@ std::string content_hash(const void* bytes, std::size_t size);
 
 /// The same of a regular file, at 5 to 10 GB/s where the system still holds it. Nothing if the file cannot be read.
 std::optional<std::string> file_hash(const std::string& path);
+/// The same of an open file, whose position stays.
+std::optional<std::string> file_hash(int descriptor);
 
 } // namespace bake

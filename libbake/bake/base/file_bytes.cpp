@@ -56,6 +56,7 @@ FileBytes read_file(const std::string& path) {
             begin += got;
         }
     });
+    input_was_read(file.number);
     return bytes;
 }
 

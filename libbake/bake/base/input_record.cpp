@@ -16,7 +16,7 @@ struct InputFiles {
     struct Named {
         std::string path;
         FileStamp stamp;
-        std::optional<std::string> hash = {}; ///< nothing: not looked for yet
+        std::optional<std::string> hash = {}; ///< of what was read; nothing: it is still being read
     };
     std::map<std::pair<dev_t, ino_t>, Named> known;
 };
@@ -29,6 +29,24 @@ void remember_input(const std::string& path, const struct stat& file) {
     if (!files) return;
     const std::lock_guard lock(files->mutex);
     files->known.emplace(std::pair(file.st_dev, file.st_ino), InputFiles::Named{path, stamp_of(file)});
+}
+
+void input_was_read(int descriptor) {
+    InputFiles* const files = current_job().inputs;
+    struct stat file {};
+    if (!files || fstat(descriptor, &file) != 0) return;
+    const std::pair key(file.st_dev, file.st_ino);
+    const auto is_known = [&] {
+        const std::lock_guard lock(files->mutex);
+        const auto known = files->known.find(key);
+        return known == files->known.end() || (known->second.hash && known->second.stamp == stamp_of(file));
+    };
+    if (is_known()) return;
+    const std::string hash = file_hash(descriptor).value_or("");
+    const bool same = fstat(descriptor, &file) == 0;
+    const std::lock_guard lock(files->mutex);
+    InputFiles::Named& named = files->known.at(key);
+    named.hash = same && stamp_of(file) == named.stamp ? hash : "";
 }
 
 bool is_input(const struct stat& file) {
@@ -51,8 +69,7 @@ std::optional<FileStamp> stamp_at(const std::string& path) {
 
 namespace {
 
-/// Of the contents that the file had when it was opened, as InputFile has it. What was read of a file that has changed since
-/// then is not known.
+/// Of a file that is still being read: what was read of one that has changed since it was opened is not known.
 std::string hash_of(const std::string& path, const FileStamp& opened) {
     const std::string hash = file_hash(path).value_or("");
     return stamp_at(path) == opened ? hash : "";
@@ -75,9 +92,9 @@ std::vector<InputFile> recorded_inputs() {
     std::vector<InputFile> out;
     const std::lock_guard lock(files->mutex);
     for (auto& [file, named] : files->known) {
-        if (!named.hash && !stamp_at(named.path)) continue; // a temporary file of our own
-        if (!named.hash) named.hash = hash_of(named.path, named.stamp);
-        out.push_back({named.path, std::filesystem::path(named.path).filename().string(), *named.hash});
+        if (!stamp_at(named.path)) continue; // a temporary file of our own
+        out.push_back({named.path, std::filesystem::path(named.path).filename().string(),
+                       named.hash ? *named.hash : hash_of(named.path, named.stamp)});
     }
     std::sort(out.begin(), out.end(), [](const InputFile& a, const InputFile& b) {
         return std::tie(a.name, a.hash) < std::tie(b.name, b.hash);

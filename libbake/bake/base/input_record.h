@@ -28,6 +28,9 @@ private:
 
 /// Remembers a file that was opened for reading. From any thread; does nothing without an InputRecord.
 void remember_input(const std::string& path, const struct stat& file);
+/// To be called while its descriptor is open, when all that is read of it has been read: hashes its contents, which are then
+/// those that were read, whatever happens to the file later. Does nothing for a file that is not remembered.
+void input_was_read(int descriptor);
 /// Whether a file, by device and inode, is one of those that were read.
 bool is_input(const struct stat& file);
 
@@ -53,10 +56,10 @@ std::vector<ReadFile> files_read();
 struct InputFile {
     std::string path; ///< as it was opened
     std::string name; ///< without its folder
-    std::string hash; ///< file_hash(); empty if the file was changed or replaced after it was opened
+    std::string hash; ///< file_hash() of what was read; empty if the file was changed while it was read
 };
-/// The files that were read so far, in the order of their names. Each is hashed once. Files that are no longer there are
-/// left out, as they are temporary ones. Empty without an InputRecord.
+/// The files that were read so far, in the order of their names. Files that are no longer there are left out, as they are
+/// temporary ones. Empty without an InputRecord.
 std::vector<InputFile> recorded_inputs();
 
 } // namespace bake

@@ -20,7 +20,7 @@ json inputs() {
     json list = json::array();
     for (const InputFile& input : recorded_inputs()) {
         if (input.hash.empty())
-            throw Error(Refusal::unreadable, input.path + ": was changed while it was used; run the command again");
+            throw Error(Refusal::unreadable, input.path + ": was changed while it was read; run the command again");
         list.push_back({{"name", input.name}, {"xxh128", input.hash}});
     }
     return list;

@@ -40,7 +40,13 @@ PictureFile::PictureFile(int descriptor, const std::string& path) : path_(path),
     throw unreadable(path, "is empty");
 }
 
-PictureFile::~PictureFile() { close(descriptor_); }
+PictureFile::~PictureFile() {
+    try {
+        input_was_read(descriptor_);
+    } catch (const std::bad_alloc&) { // without memory the file stays without a hash
+    }
+    close(descriptor_);
+}
 
 std::int64_t PictureFile::read(std::int64_t offset, char* to, std::int64_t size) const {
     std::int64_t done = 0;
