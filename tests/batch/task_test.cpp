@@ -59,6 +59,17 @@ TEST_SUITE("unit") {
         CHECK(tasks[1].outputs == std::vector<std::string>{"out/b_n.png"});
     }
 
+    TEST_CASE("batch_tasks: a file may have a dash before its name, and braces in it") {
+        const Folder folder;
+        for (const char* name : {"-a.png", "100% {x}.png"}) write_file(folder / name, "x");
+        const auto tasks = tasks_in(folder, by_pattern);
+        REQUIRE(tasks.size() == 2);
+        CHECK(tasks[0].words[1] == "./-a.png");
+        CHECK(tasks[0].inputs[0] == "-a.png");
+        CHECK(tasks[1].outputs[0] == "out/100% {x}_n.png");
+        CHECK(refusal_in(folder, "[[bake]]\nname = \"a\"\nverb = \"check\"\noutputs = {out = \"{x}.png\"}\n") != "");
+    }
+
     TEST_CASE("batch_tasks: outputs of bakes before are files of a pattern, and needed") {
         const Folder folder;
         write_file(folder / "a.png", "x");

@@ -44,15 +44,14 @@ public:
     explicit Expansion(const std::string& file) : file_(file) {}
 
     std::vector<Bake> tasks_of(const Bake& bake) {
+        expect_plain(bake);
         std::vector<Bake> tasks;
         for (const Bake& one : of_files(bake)) {
             const std::vector<Bake> tiles = of_tiles(one);
             tasks.insert(tasks.end(), tiles.begin(), tiles.end());
         }
-        for (Bake& task : tasks) {
-            for_texts(task, false, [&](const std::string& text) { expect_plain(bake, text); });
+        for (const Bake& task : tasks)
             for (const auto& [option, path] : task.outputs) written_.push_back(plain_path(path));
-        }
         return tasks;
     }
 
@@ -114,12 +113,19 @@ private:
         return tasks;
     }
 
-    /// What is left of {} had no meaning.
-    void expect_plain(const Bake& bake, const std::string& text) const {
-        const std::size_t open = text.find_first_of("{}");
-        if (open == std::string::npos) return;
-        refuse(file_, "bake " + in_marks(bake.name) + ": " + in_marks(text.substr(open)) +
-                          " has no meaning here; {stem} needs an input with * or ?, and {tile} a list of tiles");
+    /// Names of files that a pattern finds may have {} in them, texts of the manifest no other than these.
+    void expect_plain(const Bake& bake) const {
+        Bake copy = bake;
+        bool listed = false;
+        for_texts(copy, true, [&](const std::string& path) { listed |= is_pattern(path); });
+        for_texts(copy, false, [&](std::string& text) {
+            if (listed) text = replaced(text, "{stem}", "");
+            if (!bake.tiles.empty()) text = replaced(text, "{tile}", "");
+            const std::size_t open = text.find_first_of("{}");
+            if (open == std::string::npos) return;
+            refuse(file_, "bake " + in_marks(bake.name) + ": " + in_marks(text.substr(open)) +
+                              " has no meaning here; {stem} needs an input with * or ?, and {tile} a list of tiles");
+        });
     }
 
     const std::string& file_;

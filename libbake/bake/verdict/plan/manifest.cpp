@@ -321,7 +321,8 @@ Manifest plan_manifest(const SceneEntries& entries, const ScenePlan& plan, const
 
 std::vector<std::string> command_of(const Bake& bake) {
     std::vector<std::string> words = {bake.verb};
-    words.insert(words.end(), bake.files.begin(), bake.files.end());
+    for (const std::string& file : bake.files)
+        words.push_back(file.starts_with('-') ? "./" + file : file); // else it would be an option
     for (const Bake::Values* values : {&bake.inputs, &bake.options, &bake.outputs})
         for (const auto& [option, value] : *values)
             words.push_back("--" + option + (value.empty() ? "" : "=" + value)); // a value may begin with a dash
