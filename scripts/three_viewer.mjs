@@ -2,7 +2,7 @@
 //
 //   three_viewer JOB.json       files in a job are relative to its folder
 //
-//   {"model": "model.glb",
+//   {"model": "model.glb",            or .gltf, .usda
 //    "sky": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"],   8-bit sRGB or .exr; or absent;
 //                                  or one .dds or .ktx2 of bake cubemap --for three, which is not filtered again;
 //                                  or one lat-long, .hdr or .exr
@@ -16,6 +16,10 @@
 //      {"what": "lobe", "roughness": 0.5, "file": "l.f32",    a sphere of radius 1 at the origin: the filtered sky as it is
 //       "directions": true},       looked up; or the directions, in the world
 //      {"what": "texture", "texture": "n.ktx2", "level": 0, "file": "t.f32"}]}   texels of a level of this "size"
+//
+// "nodes": true beside "model" draws with the WebGPURenderer and its WebGL2 backend; outputs are normals alone then:
+//       {"what": "normals", "file": "n.f32", "material": "asset.mtlx"}   instead of the model's own
+// "tangents": true in an output: the meshes get tangents of MikkTSpace.
 //
 // .f32: R, G, B, A as 32-bit floats, low byte first, rows from the top down; A is the share of samples on the model, or 1
 // with a background. No tone mapping, no shadows, no lights but the sky.
@@ -43,9 +47,12 @@ const roots = {
   '/job/': dirname(job_file),
 };
 const types = { '.mjs': 'text/javascript', '.js': 'text/javascript', '.png': 'image/png', '.jpg': 'image/jpeg' };
-const shell = `<!doctype html><script type="importmap">{"imports": {
-  "three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/"}}</script>
-  <script type="module" src="/scripts/three_viewer_page.mjs"></script>`;
+const builds = job.nodes
+  ? { 'three': '/three/build/three.webgpu.js', 'three/webgpu': '/three/build/three.webgpu.js', 'three/tsl': '/three/build/three.tsl.js' }
+  : { 'three': '/three/build/three.module.js' };
+const shell = `<!doctype html><script type="importmap">
+  ${JSON.stringify({ imports: { ...builds, 'three/addons/': '/three/examples/jsm/' } })}</script>
+  <script type="module" src="/scripts/${job.nodes ? 'three_nodes_page' : 'three_viewer_page'}.mjs"></script>`;
 
 async function answer(route) {
   const path = decodeURIComponent(new URL(route.request().url()).pathname);

@@ -1,16 +1,15 @@
-// The page of scripts/three_viewer: loads a glTF file and a sky of six faces as any application of three.js would, and
+// The page of scripts/three_viewer: loads a model and a sky of six faces as any application of three.js would, and
 // reads back floats.
 import * as THREE from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
 import { load_dds, load_ktx2 } from './three_environment.mjs';
+import { camera_of, load_model, url } from './three_model.mjs';
 
 const renderer = new THREE.WebGLRenderer();
 renderer.toneMapping = THREE.NoToneMapping;
 if (!renderer.extensions.has('EXT_color_buffer_float')) throw new Error('this browser does not render to floats');
-const url = file => '/job/' + file.split('/').map(encodeURIComponent).join('/');
 
 /// EXRLoader gives the lowest row first; a face of a cube map has its upper row first.
 function upside_down({ image, type }) {
@@ -42,18 +41,6 @@ async function load_sky(files) {
   cube.generateMipmaps = false;
   cube.needsUpdate = true;
   return cube;
-}
-
-function camera_of({ position, target, up = [0, 1, 0], fov_deg = 40 }, [width, height], scene) {
-  const box = new THREE.Box3().setFromObject(scene);
-  const ball = box.getBoundingSphere(new THREE.Sphere());
-  const away = ball.center.distanceTo(new THREE.Vector3(...position));
-  const near = Math.max(away - ball.radius, ball.radius / 1000);
-  const camera = new THREE.PerspectiveCamera(fov_deg, width / height, near * 0.99, (away + ball.radius) * 1.01);
-  camera.position.set(...position);
-  camera.up.set(...up);
-  camera.lookAt(...target);
-  return camera;
 }
 
 /// The normal with which the material is shaded, in world space, instead of radiance.
@@ -153,7 +140,7 @@ window.show = async (job, output) => {
   const normals = output.what === 'normals';
   sky ??= normals ? null : await load_sky(job.sky); // its filtering takes seconds
   const scene = new THREE.Scene();
-  scene.add((await new GLTFLoader().loadAsync(url(output.model ?? job.model))).scene);
+  scene.add(await load_model(output.model ?? job.model, output.tangents));
   scene.environment = sky;
   if (output.background) scene.background = sky;
   scene.updateMatrixWorld(true);

@@ -11,8 +11,8 @@
 // that it does not matter how a program orients its cubes.
 // prefilter_bench --errors ALPHA FACES ...: mean, 95th percentile and largest error of one or more levels of GGX, FACES
 // being a name with %s; on stderr the root mean square of each level.
-// prefilter_bench --errors-ktx FILE: the same of the levels after the first of a KTX (version 1) for Filament, of half floats or
-// of R11F_G11F_B10F, which cmgen writes.
+// prefilter_bench --errors-ktx FILE: the same of what is looked up in the levels after the first of a KTX (version 1) for
+// Filament, with bilinear interpolation, 16 times per texel. Of half floats or of R11F_G11F_B10F, which cmgen writes.
 #include "bake/base/file_bytes.h"
 #include "bake/base/vec.h"
 #include "bake/environment/engine/roughness_ladder.h"
@@ -237,7 +237,13 @@ void print_ktx_errors(const char* path) {
                 face.data()[i + 1] = half(halves ? w >> 16 : (w >> 11 & 0x7ff) << 4);
                 face.data()[i + 2] = half(halves ? v & 0xffff : w >> 22 << 5);
             }
-        if (level > 0) errors.add(ladder[level], cube);
+        // As a graphics card looks it up, between the texels too.
+        const auto between = [&](const Vec3d& d, int) {
+            float value[3];
+            lookup(cube, d, value);
+            return value[0];
+        };
+        if (level > 0) errors.add(ladder[level], test::sky_of(4 * cube.size(), 1, between));
     }
     errors.print();
 }

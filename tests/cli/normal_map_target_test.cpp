@@ -99,6 +99,31 @@ TEST_SUITE("cli") {
                       "--like");
     }
 
+    TEST_CASE("--like: with --repeat each copy is as steep as the author's map") {
+        const Folder folder;
+        write_waves(folder / "h.png", 64, 64);
+        write_file(folder / "q.obj",
+                   "v 0 0 0\nv 6 0 0\nv 6 4 0\nv 0 4 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+        REQUIRE(run_bake(folder, {"normal-map", "h.png", "--amplitude", "0.07", "-o", "author.png"}).code == 0);
+        const Image<float> author = read_image(folder / "author.png");
+        for (const bool on_mesh : {true, false}) {
+            std::vector<std::string> words = {"normal-map", "--height", "h.png", "--like", "author.png",
+                                              "--repeat",   "3,2",      "-o",    "n.png",  "--size",
+                                              "192x128",    "--filter", "sobel"};
+            if (on_mesh) words.insert(words.begin() + 1, "q.obj");
+            else words.insert(words.end(), {"--extent", "6,4"});
+            const Run run = run_bake(folder, words);
+            REQUIRE_MESSAGE(run.code == 0, run.err);
+            const Image<float> map = read_image(folder / "n.png");
+            double most = 0;
+            for (int y = 0; y < 128; ++y)
+                for (int x = 0; x < 192; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        most = std::max(most, double(std::abs(map.at(x, y, c) - author.at(x % 64, y % 64, c))));
+            CHECK(most < 0.02);
+        }
+    }
+
     TEST_CASE("--repeat: a mesh with the height N times is that with a height of N times as many waves") {
         const Folder folder;
         write_waves(folder / "once.png", 32, 32);

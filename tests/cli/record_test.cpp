@@ -46,6 +46,8 @@ TEST_SUITE("cli") {
             {"displace", "q.obj", "--height", "h.png", "-o", "e.obj"},
             {"render", "q.obj", "-o", "r.png", "--size", "16", "--spp", "1"},
             {"cubemap", "labels", "--size", "16", "-o", "sky.exr"},
+            {"normal-map", "q.obj", "--height", "h.png", "-o", "a.usda"},
+            {"normal-map", "q.obj", "--height", "h.png", "-o", "a.mtlx"},
         };
         for (const auto& words : runs) {
             const std::string& file =
@@ -63,7 +65,7 @@ TEST_SUITE("cli") {
             CHECK(!record["options"].contains("out"));
             if (words[1] != "labels") {
                 REQUIRE(record["inputs"].size() >= 1);
-                CHECK(record["inputs"][0]["name"] == (words[0] == "displace" ? "h.png" : words[1]));
+                CHECK(record["inputs"][0]["name"] == (words[2] == "--height" ? "h.png" : words[1]));
                 CHECK(record["inputs"][0]["xxh128"].get<std::string>().size() == 32);
             }
             const Run text = run_bake(folder, {"check", file});

@@ -1,9 +1,13 @@
 #include "asset_output.h"
+#include "bake/base/text.h"
+#include "bake/mesh/asset/asset.h"
 #include "bake/mesh/file/mesh_io.h"
+#include "bake/mesh/gltf/document.h"
 #include "bake/picture/encode_png.h"
 #include "bake/surface/chart/mesh_surface.h"
 #include "bake/surface/chart/tangent_space.h"
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 namespace bake {
 namespace {
@@ -44,6 +48,41 @@ void write_new(const NormalMapArgs& args, Mesh mesh, std::vector<GltfMap> maps, 
     write_gltf(args.out, out, facts);
 }
 
+/// What of a glTF file neither a mesh in world space nor its materials hold.
+void note_lost_parts(const std::string& path, const GltfDocument& document, std::vector<std::string>& notes) {
+    const auto root = nlohmann::json::parse(document.text.begin(), document.text.end(), nullptr, false);
+    std::string lost;
+    const auto add = [&lost](bool there, const char* what) {
+        if (there) lost += (lost.empty() ? "" : ", ") + std::string(what);
+    };
+    add(root.contains("animations"), "animations");
+    add(root.contains("skins"), "skins");
+    add(document.cameras != "[]", "cameras");
+    add(document.lights != "[]", "lights");
+    if (!lost.empty()) notes.push_back("not kept in " + ending(path) + ": " + lost);
+}
+
+/// .usda and .mtlx.
+void write_text(const NormalMapArgs& args, std::vector<GltfMap> maps, const Facts& facts,
+                std::vector<std::string>& notes) {
+    TextAsset asset{.mesh = {}, .maps = std::move(maps), .uv_set = args.read.uv_set};
+    asset.gltf = mesh_format(args.mesh) == MeshFormat::gltf;
+    const bool usda = asset_text(args.out) == AssetText::usda;
+    if (asset.gltf) {
+        Gltf gltf = read_gltf(args.mesh, {.flip_v = !args.read.flip_v});
+        take_texture_uvs(gltf, args.mesh, {.uv_set = args.read.uv_set, .flip_v = !args.read.flip_v});
+        asset.materials = std::move(gltf.materials), asset.images = std::move(gltf.images);
+        if (usda && gltf.nodes.size() > 1)
+            notes.push_back(std::to_string(gltf.nodes.size()) + " nodes are one mesh in world space in .usda");
+        asset.mesh = flatten(std::move(gltf));
+        note_lost_parts(args.out, read_gltf_document(args.mesh), notes);
+    } else {
+        asset.mesh = read_mesh(args.mesh, args.read);
+    }
+    add_tangent_space(asset.mesh);
+    for (std::string& line : write_text_asset(args.out, asset, facts).notes) notes.push_back(std::move(line));
+}
+
 } // namespace
 
 GltfMap asset_map(GltfMap::Slot slot, const Image<float>& map, Depth depth) {
@@ -52,6 +91,10 @@ GltfMap asset_map(GltfMap::Slot slot, const Image<float>& map, Depth depth) {
 
 void write_asset(const NormalMapArgs& args, std::vector<GltfMap> maps, const Facts& facts,
                  std::vector<std::string>& notes) {
+    if (asset_text(args.out)) {
+        write_text(args, std::move(maps), facts, notes);
+        return;
+    }
     MeshOptions reading = args.read;
     reading.pieces = true;
     Mesh mesh = read_mesh(args.mesh, reading);

@@ -1,4 +1,6 @@
 // bake check: what is in each file, and what is wrong with it.
+#include "bake/mesh/asset/asset.h"
+#include "bake/verdict/asset_report.h"
 #include "bake/verdict/brdf_check.h"
 #include "check_decode.h"
 #include "check_height.h"
@@ -27,6 +29,7 @@ int run(const CheckArgs& args, const CommonArgs& common) {
         bool read = false;
         if (!args.against.empty())
             add_result(results, file, common, [&] { return inspect_distance(file, args.against, args.options); });
+        else if (asset_text(file)) add_result(results, file, common, [&] { return inspect_asset(file); });
         else if (named_like_a_mesh(file))
             read = add_result(results, file, common, [&] { return inspect_mesh(file, args.options); });
         else
@@ -70,7 +73,9 @@ void check_usage(const CheckArgs& args) {
 
 std::function<int()> check_verb(CLI::App& sub, const CommonArgs& common) {
     const auto args = std::make_shared<CheckArgs>();
-    sub.add_option("files", args->files, "Meshes (.obj, .ply, .gltf, .glb) and images to inspect");
+    sub.add_option(
+        "files", args->files,
+        "Meshes (.obj, .ply, .gltf, .glb) and images to inspect; of .usda and .mtlx the record and the pictures");
     add_height_check(sub, args->height);
     sub.add_option("--pair", args->pairs,
                    "A height texture and the normal map said to be of it; may be given again")

@@ -1,4 +1,5 @@
 #include "normal_map_options.h"
+#include "bake/mesh/asset/asset.h"
 #include "bake/picture/texture_file.h"
 #include "bake/verdict/inspect.h"
 #include "bevel_bake.h"
@@ -71,11 +72,11 @@ Depth texture_depth(const NormalMapArgs& args) {
     return Depth::float32;
 }
 
-/// Of a picture in a glTF file.
+/// Of a picture in a glTF file, or beside a .usda or .mtlx.
 Depth asset_depth(const NormalMapArgs& args) {
     if (args.depth == MapDepth::u16) return Depth::u16;
     if (args.depth == MapDepth::automatic || args.depth == MapDepth::u8) return Depth::u8;
-    throw Error(Refusal::usage, args.out + ": pictures in glTF are PNG, of 8 or 16 bits; take --depth 8 or 16");
+    throw Error(Refusal::usage, args.out + ": its pictures are PNG, of 8 or 16 bits; take --depth 8 or 16");
 }
 
 Depth file_depth(const NormalMapArgs& args) {
@@ -90,8 +91,9 @@ Depth file_depth(const NormalMapArgs& args) {
     if (args.skip_mips > 0) throw usage("--skip-mips: " + args.out + " has one level; write .dds or .ktx2");
     if (writes_asset(args)) return asset_depth(args);
     if (picture_format(args.out) == PictureFormat::unknown)
-        throw usage(args.out +
-                    ": unknown ending; write .png, .exr, .tif, .dds or .ktx2, or .glb for the mesh with its map");
+        throw usage(
+            args.out +
+            ": unknown ending; write .png, .exr, .tif, .dds or .ktx2, or .glb or .usda for the mesh with its map");
     switch (args.depth) {
     case MapDepth::automatic: return resolve_depth(args.out, Depth::automatic);
     case MapDepth::u8: return resolve_depth(args.out, Depth::u8);
@@ -105,7 +107,9 @@ Depth file_depth(const NormalMapArgs& args) {
 
 } // namespace
 
-bool writes_asset(const NormalMapArgs& args) { return mesh_format(args.out) == MeshFormat::gltf; }
+bool writes_asset(const NormalMapArgs& args) {
+    return mesh_format(args.out) == MeshFormat::gltf || asset_text(args.out);
+}
 
 Depth resolve_map_depth(const NormalMapArgs& args) {
     const Depth depth = file_depth(args);
@@ -150,12 +154,17 @@ void complete_engine(NormalMapArgs& args) {
 
 namespace {
 
-/// What a material of a glTF file can show.
+/// What a material of glTF, USD and MaterialX can show.
 void check_asset(const NormalMapArgs& args) {
     const auto usage = [&](const std::string& why) { return Error(Refusal::usage, "-o " + args.out + ": " + why); };
     if (args.mesh.empty()) throw usage("there is no mesh to write; name one, or write a picture");
-    if (args.space == Space::object) throw usage("glTF knows maps in tangent space alone; leave out --space object");
-    if (args.directx) throw usage("in glTF green points up; leave out --directx");
+    const auto text = asset_text(args.out);
+    const std::string format = !text ? "glTF" : *text == AssetText::usda ? "USD" : "MaterialX";
+    if (args.space == Space::object)
+        throw usage(format + " knows maps in tangent space alone; leave out --space object");
+    if (args.directx) throw usage("in " + format + " green points up; leave out --directx");
+    if (text == AssetText::mtlx && args.read.flip_v)
+        throw usage("it belongs to the mesh as its file is, with its v; leave out --flip-v, or write .usda");
     if (names_tiles(args.out) || args.tile != 0)
         throw usage("a material has one picture for all charts; write pictures of the tiles");
 }

@@ -49,7 +49,7 @@ void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 /// Takes green, depth and the file's name from --for, where the user gave no others. Throws Error{Refusal::usage} for a
 /// folder without --for.
 void complete_engine(NormalMapArgs& args);
-/// Whether the map goes into a glTF file, with the mesh.
+/// Whether the map goes into a file with a material: glTF and USD, with the mesh, or MaterialX.
 bool writes_asset(const NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.

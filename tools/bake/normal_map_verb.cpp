@@ -59,9 +59,10 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
             displaced = make_bake_target(in.diced, args.displaced, options.width, options.height, options.tile);
         watch.lap("surface, tangents, raster");
     }
-    if (!args.like.empty())
-        result.options.height_options.amplitude =
-            args.like_amplitude * (target ? double(target->scale.u) : args.extent.value_or(Vec2d(1)).x);
+    if (!args.like.empty()) { // like_amplitude is for a copy that is one unit wide
+        const double width = target ? double(target->scale.u) : args.extent.value_or(Vec2d(1)).x;
+        result.options.height_options.amplitude = args.like_amplitude * width / args.height.repeat.first;
+    }
     // Opened before the work, so that a long bake does not fail at its end.
     NormalMapFile file(args, options.width, options.height, depth, &options.height_options);
     const HeightField field(in.height, options.height_options, options.filter, options.width, options.height);
@@ -142,7 +143,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
                    "picture of a flat rectangle");
     add_output_option(sub, args->out,
                       "Normal map to write (.png, .exr, .tif; with mips .dds, .ktx2): rgb = (n + 1) / 2; <UDIM> in the "
-                      "name: one for each tile; .glb, .gltf: the mesh with the map");
+                      "name: one for each tile; .glb, .gltf, .usda: the mesh with the map; .mtlx: its material");
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
     add_bevel_option(sub, *args);
@@ -159,6 +160,7 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
         "  bake normal-map meshes/bricks.png -o bricks.png --extent 2,1 --amplitude 0.03 --directx --depth 8\n"
         "  bake normal-map meshes/bricks.png --for unreal -o T_bricks_N.png --preview bricks_preview.png\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.exr --size 1024\n"
+        "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% -o torus.usda --size 512\n"
         "The detail of a mesh that is displaced already:\n"
         "  bake displace meshes/torus.obj --height meshes/bricks.png --amplitude 1% --levels 2 -o displaced.glb\n"
         "  bake normal-map meshes/torus.obj --height meshes/bricks.png --amplitude 1% --residual-of displaced.glb -o "

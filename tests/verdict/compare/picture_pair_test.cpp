@@ -37,6 +37,20 @@ TEST_SUITE("unit") {
         CHECK(has(pair.notes[0], "b.exr: alpha is not compared"));
     }
 
+    TEST_CASE("picture_pair: a normal map that says what it is gets a note, whatever its format") {
+        const Files files;
+        const Image<float> colour = noisy(5, 4, 1);
+        const std::string plain = files.exr("plain.exr", colour);
+        const Facts facts = {{"content", std::string("normal map")}};
+        const RunRecord run({"normal-map", {}});
+        for (const char* name : {"n.png", "n.exr", "n.tif"}) {
+            const PicturePair pair = read_picture_pair(plain, files.write(name, colour, {.facts = facts}));
+            REQUIRE_FALSE(pair.notes.empty());
+            CHECK(has(pair.notes.back(), std::string(name) + ": its record says that it is a normal map; `normals`"));
+        }
+        CHECK(read_picture_pair(plain, plain).notes.empty());
+    }
+
     TEST_CASE("picture_pair: sizes, channels and NaN are refused by name") {
         const Files files;
         const std::string a = files.exr("a.exr", noisy(5, 4, 1)), small = files.exr("small.exr", noisy(4, 4, 1));

@@ -2,6 +2,7 @@
 #include "bake/base/parallel.h"
 #include "bake/environment/engine/roughness_ladder.h"
 #include "bake/environment/file/face_files.h"
+#include "bake/environment/filter/interpolated.h"
 #include "bake/environment/filter/irradiance.h"
 #include "bake/environment/filter/mips.h"
 #include "bake/environment/filter/prefilter.h"
@@ -25,10 +26,11 @@ EngineLevels engine_levels(Cube sky, const EngineOptions& options, Progress* pro
     EngineLevels out;
     out.roughness = roughness_ladder(options.consumer, edge);
     out.levels = prefilter(sky, {.roughness = out.roughness, .size = edge}, progress);
+    for (std::size_t k = 1; k < out.levels.size(); ++k) out.levels[k] = interpolated_best(out.levels[k]);
     out.sh = engine_sh(sky, 3, entry_of(options.consumer).levels->sh);
     if (!options.whole_set) return out;
     out.skybox = mip_chain(out.levels[0]);
-    out.irradiance = std::move(prefilter(sky, {.roughness = {1}, .size = 32}, progress)[0]);
+    out.irradiance = interpolated_best(prefilter(sky, {.roughness = {1}, .size = 32}, progress)[0]);
     return out;
 }
 

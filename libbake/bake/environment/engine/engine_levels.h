@@ -20,10 +20,10 @@ struct EngineOptions {
 int engine_edge(const EngineOptions& options, int sky_edge);
 
 struct EngineLevels {
-    std::vector<Cube> levels;      ///< three channels, in cube space
+    std::vector<Cube> levels;      ///< three channels, in cube space; after level 0 by interpolated_best()
     std::vector<double> roughness; ///< alpha of each
     std::vector<Cube> skybox; ///< the sky with plain mips, down to one texel; empty unless the whole set is asked for
-    Cube irradiance;          ///< divided by pi, 32 texels along an edge; likewise
+    Cube irradiance;          ///< divided by pi, 32 texels along an edge, by interpolated_best(); likewise
     ShCoefficients sh;
 };
 

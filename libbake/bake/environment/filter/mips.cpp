@@ -1,35 +1,12 @@
 #include "bake/environment/filter/mips.h"
 #include "bake/base/parallel.h"
+#include "bake/environment/sky/frame.h"
 #include "bake/environment/sky/solid_angle.h"
 #include <algorithm>
 #include <cassert>
 
 namespace bake {
 namespace {
-
-/// A face with a frame of one texel from its neighbours. A corner of the frame is the mean of the three texels that touch
-/// there.
-Image<float> framed(const Cube& sky, int face_index) {
-    const Image<float>& face = sky.faces[face_index];
-    const int n = face.width(), channels = face.channels();
-    Image<float> wide(n + 2, n + 2, channels);
-    for (int y = 0; y < n; ++y)
-        std::copy(face.row(y), face.row(y) + std::size_t(n) * channels, wide.row(y + 1) + channels);
-    const auto copy_across = [&](int x, int y) {
-        const CubeTexel there = texel_across(n, static_cast<CubeFace>(face_index), x, y);
-        const float* from = &sky.faces[int(there.face)].at(there.x, there.y);
-        std::copy(from, from + channels, &wide.at(x + 1, y + 1));
-    };
-    for (int i = 0; i < n; ++i)
-        for (const int outside : {-1, n}) copy_across(outside, i), copy_across(i, outside);
-    for (const int x : {0, n + 1})
-        for (const int y : {0, n + 1})
-            for (int c = 0; c < channels; ++c) {
-                const int x_in = std::clamp(x, 1, n), y_in = std::clamp(y, 1, n);
-                wide.at(x, y, c) = (wide.at(x_in, y_in, c) + wide.at(x, y_in, c) + wide.at(x_in, y, c)) / 3;
-            }
-    return wide;
-}
 
 /// The exchange of the texels of a row with their eight neighbours; the same for every face.
 struct Exchange {
@@ -122,7 +99,7 @@ Cube resized(const Cube& sky, int m, bool exchange) {
     std::array<Image<float>, 6> wide;
     if (exchange)
         for_rows(6, 1, [&](std::int64_t begin, std::int64_t end) {
-            for (auto f = int(begin); f < int(end); ++f) wide[f] = framed(sky, f);
+            for (auto f = int(begin); f < int(end); ++f) wide[f] = framed(sky, CubeFace(f));
         });
 
     Cube coarse = make_cube(m, channels);

@@ -140,13 +140,19 @@ template <class Work> void Bake::for_bands(Work&& work, TransferProgress* progre
                  for (std::size_t i = 0; i < c.lengths.size(); ++i) report.lengths[i] += c.lengths[i];
                  parallax_ += c.parallax, landed_ += c.landed;
                  report.parallax_max = std::max(report.parallax_max, c.most_parallax);
-                 if (progress) progress->rows += slots_[std::size_t(slot)].rows, progress->rays += c.rays;
+                 if (!progress) return;
+                 const int rows = slots_[std::size_t(slot)].rows;
+                 progress->rows += rows, progress->rays += c.rays;
+                 progress->watched.add(rows);
              });
 }
 
 void Bake::run(TransferProgress* progress) {
     const bool adaptive = options_.max_error_deg > 0 && !rules_.empty();
-    if (progress) progress->passes = adaptive ? 2 : 1;
+    if (progress) {
+        progress->passes = adaptive ? 2 : 1;
+        progress->watched.start("bake", std::int64_t(progress->passes) * options_.height);
+    }
     for_bands(
         [&](Band& band) {
             for (int y = band.y; y < band.y + band.rows; ++y)

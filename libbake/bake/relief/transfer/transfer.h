@@ -4,6 +4,7 @@
 // triangle, so that a bolt that floats above a surface is seen before the surface. The normal there, in the tangent space of the
 // point of the low-poly mesh that the ray goes through, is the texel.
 #pragma once
+#include "bake/base/progress.h"
 #include "bake/relief/transfer/types.h"
 #include <atomic>
 
@@ -14,6 +15,7 @@ struct TransferProgress {
     std::atomic<int> passes{1};        ///< over the map
     std::atomic<std::int64_t> rows{0}; ///< of the map, in all passes
     std::atomic<std::int64_t> rays{0};
+    Progress watched; ///< tells Job::watch of the rows
 };
 
 /// A texel that finds nothing is filled like those outside of the charts: in the first ring around texels with detail by linear

@@ -1,6 +1,7 @@
 #include "bake/verdict/compare/picture_pair.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/provenance.h"
 #include "bake/picture/image_io.h"
 #include "bake/preview/tone.h"
 #include "bake/relief/height/picture_kind.h"
@@ -50,6 +51,8 @@ PicturePair read_picture_pair(const std::string& reference, const std::string& t
     PicturePair pair{.grey = a.colours == 1, .integers = is_integer(a.info.type) || is_integer(b.info.type)};
     for (const auto& [name, file] : {std::pair<const std::string&, const File&>(reference, a), {test, b}}) {
         for (const std::string& line : file.info.notes) pair.notes.push_back(name + ": " + line);
+        if (record_word(file.info.record, "content") == "normal map")
+            pair.notes.push_back(name + ": its record says that it is a normal map; `normals` compares the angles");
         if (file.info.alpha_channel > 0) pair.notes.push_back(name + ": alpha is not compared");
     }
     pair.reference = three_channels(std::move(a));
