@@ -52,11 +52,12 @@ enum class ShForm {
 };
 
 struct NormalMapRule {
-    bool directx = false;           ///< green points down
-    Depth depth = Depth::u8;        ///< of a PNG
-    const char* before = "";        ///< the stem, in the names of normal maps
-    const char* after = "";         ///< the stem
-    const char* odd_size = nullptr; ///< what happens to a map whose sides are no powers of two; null: nothing
+    bool directx = false;    ///< green points down
+    Depth depth = Depth::u8; ///< of a PNG
+    const char* before = ""; ///< the stem, in the names of normal maps
+    const char* after = "";  ///< the stem
+    /// What happens to a map whose sides are no powers of two, in a message that may name `size`; null: nothing.
+    const char* odd_size = nullptr;
 };
 
 /// A sky that is filtered before the program loads it.
@@ -95,21 +96,21 @@ inline constexpr ConsumerEntry consumers[] = {
     {Consumer::unreal,
      "unreal",
      NormalMapRule{true, Depth::u8, "T_", "_N",
-                   "Unreal makes no mips of such a texture and does not stream it; give --size a power of two"},
+                   "Unreal makes no mips of such a texture and does not stream it; give `size` a power of two"},
      {},
      LatlongRule{".hdr", 2}},
     {Consumer::unity,
      "unity",
      NormalMapRule{
          false, Depth::u8, "", "_Normal",
-         "Unity scales it to the nearest power of two on import; give --size one, or set Non-Power of 2 to None"},
+         "Unity scales it to the nearest power of two on import; give `size` one, or set Non-Power of 2 to None"},
      {},
      LatlongRule{".exr", 0}},
     {Consumer::blender, "blender", NormalMapRule{false, Depth::u16, "", "_normal"}, {}, LatlongRule{".exr", 1}},
     {Consumer::substance,
      "substance",
      NormalMapRule{true, Depth::u16, "", "_normal",
-                   "Substance works in powers of two and resamples it; give --size one"},
+                   "Substance works in powers of two and resamples it; give `size` one"},
      {},
      LatlongRule{".exr", -1}},
 };

@@ -30,7 +30,7 @@ std::string normal_map_name(const NormalMapRule& rule, const std::string& folder
 
 std::string size_note(const NormalMapRule& rule, int width, int height) {
     const bool powers = std::has_single_bit(unsigned(width)) && std::has_single_bit(unsigned(height));
-    return powers || !rule.odd_size ? "" : format("%d x %d: ", width, height) + rule.odd_size;
+    return powers || !rule.odd_size ? "" : format("%d x %d: ", width, height) + with_flags(rule.odd_size);
 }
 
 } // namespace bake
