@@ -1,4 +1,5 @@
 #include "bake/base/run_job.h"
+#include "bake/base/helped_job.h"
 #include "bake/base/parallel.h"
 #include <algorithm>
 #include <tbb/global_control.h>
@@ -11,17 +12,23 @@ namespace {
 /// Tells the threads that come to help which job they work for.
 class Helpers : public tbb::task_scheduler_observer {
 public:
-    Helpers(tbb::task_arena& arena, Job& job) : tbb::task_scheduler_observer(arena), job_(job) { observe(true); }
-    ~Helpers() override { observe(false); }
+    Helpers(tbb::task_arena& arena, Job& job) : tbb::task_scheduler_observer(arena) {
+        helped_->job = &job;
+        observe(true);
+    }
+    ~Helpers() override {
+        observe(false); // after which no thread that is still there is told that it leaves
+        helped_->job = nullptr;
+    }
     void on_scheduler_entry(bool is_worker) override {
-        if (is_worker) work_for(&job_);
+        if (is_worker) help(helped_);
     }
     void on_scheduler_exit(bool is_worker) override {
-        if (is_worker) work_for(nullptr);
+        if (is_worker) help(nullptr);
     }
 
 private:
-    Job& job_;
+    const std::shared_ptr<HelpedJob> helped_ = std::make_shared<HelpedJob>();
 };
 
 struct Turn {
