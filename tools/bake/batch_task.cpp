@@ -1,5 +1,6 @@
 #include "batch_task.h"
 #include "bake/base/error.h"
+#include "bake/base/memory.h"
 #include "bake/base/temporary_file.h"
 #include "run_command.h"
 #include <algorithm>
@@ -21,6 +22,19 @@ void prepare_folders(const std::vector<BatchTask>& tasks) {
     }
 }
 
+std::unordered_set<std::string> shared_inputs(const std::vector<BatchTask>& tasks) {
+    std::unordered_set<std::string> once, often;
+    for (const BatchTask& task : tasks)
+        for (const std::string& path : task.inputs)
+            if (!once.insert(path).second) often.insert(path);
+    return often;
+}
+
+std::size_t shared_bytes() {
+    constexpr std::uint64_t most = std::uint64_t(1) << 30;
+    return std::size_t(std::min(most, memory_limit().bytes / 8));
+}
+
 namespace {
 
 /// A line without what print_line() puts before it and behind it.
@@ -37,6 +51,8 @@ TaskRun run_task(const BatchTask& task, int threads) {
     std::vector<std::string> words = task.words;
     if (std::none_of(words.begin(), words.end(), [](const std::string& word) { return word.starts_with("--threads"); }))
         words.push_back("--threads=" + std::to_string(threads));
+    std::optional<SharedLoads::Pause> pause;
+    if (task.alone && shared_loads()) pause.emplace(*shared_loads());
     TaskRun done;
     CommandFiles files;
     std::mutex mutex;

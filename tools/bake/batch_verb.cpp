@@ -18,7 +18,6 @@
 
 namespace bake {
 namespace {
-
 namespace fs = std::filesystem;
 
 struct BatchArgs {
@@ -106,6 +105,7 @@ int run(const BatchArgs& given, const CommonArgs& common) {
     BatchProgress progress;
     std::vector<TaskReport> reports;
     std::once_flag prepared;
+    const SharedLoads loads(shared_inputs(tasks), shared_bytes());
     const auto run_one = [&](const BatchTask& task, int threads) {
         std::call_once(prepared, [&] { prepare_folders(tasks); });
         return run_task(task, threads);

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/memory.h"
 #include "bake/base/output_file.h"
+#include "bake/base/shared_loads.h"
 #include "bake/base/text.h"
 #include "bake/mesh/file/obj.h"
 #include "bake/mesh/file/ply.h"
@@ -84,6 +85,21 @@ Mesh read_format(MeshFormat format, const std::string& path, const MeshOptions& 
     }
 }
 
+/// What the mesh depends on besides the file.
+std::string reading_of(const MeshOptions& options) {
+    return "mesh " + std::to_string(options.flip_v) + std::to_string(options.pieces) + std::to_string(options.uv_set);
+}
+
+std::size_t memory_of(const Mesh& mesh) {
+    const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    std::size_t sum = sizeof(Mesh) + bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.uvs) +
+                      bytes(mesh.face_begin) + bytes(mesh.corner_position) + bytes(mesh.corner_normal) +
+                      bytes(mesh.corner_uv) + bytes(mesh.face_material) + bytes(mesh.face_group) +
+                      bytes(mesh.tangents) + bytes(mesh.tags.creases) + bytes(mesh.tags.corners);
+    for (const Attribute& attribute : mesh.attributes) sum += bytes(attribute.values);
+    return sum;
+}
+
 } // namespace
 
 MeshFormat mesh_format(const std::string& path) {
@@ -98,7 +114,11 @@ MeshFormat mesh_format(const std::string& path) {
 Mesh read_mesh(const std::string& path, const MeshOptions& options) {
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown) throw unknown_format(Refusal::unreadable, path);
-    Mesh mesh = read_format(format, path, options);
+    const std::function<Mesh()> read = [&] { return read_format(format, path, options); };
+    const std::function<Mesh(const Mesh&)> copy = [](const Mesh& mesh) { return mesh; };
+    Mesh mesh = format == MeshFormat::gltf // has further files
+                    ? read()
+                    : shared_load(path, reading_of(options), read, copy, std::function(memory_of));
     if (mesh.faces() == 0)
         throw Error(Refusal::unsuitable, path + ": has no faces (" + std::to_string(mesh.positions.size()) +
                                              " points); export it as a polygon mesh");

@@ -1,6 +1,7 @@
 #include "bake/relief/height/picture_height.h"
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
+#include "bake/base/shared_loads.h"
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -122,12 +123,31 @@ void refuse_bad_values(const std::string& path, const Image<float>& values) {
                                          std::to_string(x) + ", " + std::to_string(y) + "); repair the height");
 }
 
+HeightTexture copy_of(const HeightTexture& height) {
+    const Image<float>& from = height.values;
+    HeightTexture out{.values = Image<float>(from.width(), from.height(), from.channels()),
+                      .info = height.info,
+                      .levels = height.levels,
+                      .step = height.step,
+                      .kind = height.kind};
+    for_rows(from.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        std::copy(from.row(int(begin)), from.row(int(end)), out.values.row(int(begin)));
+    });
+    return out;
+}
+
+std::size_t memory_of(const HeightTexture& height) { return sizeof height + height.values.size() * sizeof(float); }
+
 } // namespace
 
 HeightTexture read_height(const std::string& path, Grey grey, const ReadLimits& limits) {
-    ImageInfo info;
-    Image<float> picture = read_image(path, &info, limits);
-    return picture_height(path, std::move(picture), std::move(info), grey);
+    const std::function<HeightTexture()> read = [&] {
+        ImageInfo info;
+        Image<float> picture = read_image(path, &info, limits);
+        return picture_height(path, std::move(picture), std::move(info), grey);
+    };
+    const std::string how = "height " + std::to_string(int(grey)) + " " + std::to_string(limits.max_bytes);
+    return shared_load(path, how, read, std::function(copy_of), std::function(memory_of));
 }
 
 HeightTexture picture_height(const std::string& path, Image<float> picture, ImageInfo info, Grey grey) {
