@@ -63,21 +63,21 @@ void note_lost_parts(const std::string& path, const GltfDocument& document, std:
 }
 
 /// .usda and .mtlx.
-void write_text(const NormalMapArgs& args, std::vector<GltfMap> maps, const Facts& facts,
+void write_text(const NormalMapArgs& args, const AssetSource& from, std::vector<GltfMap> maps, const Facts& facts,
                 std::vector<std::string>& notes) {
-    TextAsset asset{.mesh = {}, .maps = std::move(maps), .uv_set = args.read.uv_set};
-    asset.gltf = mesh_format(args.mesh) == MeshFormat::gltf;
+    TextAsset asset{.mesh = {}, .maps = std::move(maps), .uv_set = from.read.uv_set};
+    asset.gltf = mesh_format(from.path) == MeshFormat::gltf;
     const bool usda = asset_text(args.out) == AssetText::usda;
     if (asset.gltf) {
-        Gltf gltf = read_gltf(args.mesh, {.flip_v = !args.read.flip_v});
-        take_texture_uvs(gltf, args.mesh, {.uv_set = args.read.uv_set, .flip_v = !args.read.flip_v});
+        Gltf gltf = read_gltf(from.path, {.flip_v = !from.read.flip_v});
+        take_texture_uvs(gltf, from.path, {.uv_set = from.read.uv_set, .flip_v = !from.read.flip_v});
         asset.materials = std::move(gltf.materials), asset.images = std::move(gltf.images);
         if (usda && gltf.nodes.size() > 1)
             notes.push_back(std::to_string(gltf.nodes.size()) + " nodes are one mesh in world space in .usda");
         asset.mesh = flatten(std::move(gltf));
-        note_lost_parts(args.out, read_gltf_document(args.mesh), notes);
+        note_lost_parts(args.out, read_gltf_document(from.path), notes);
     } else {
-        asset.mesh = read_mesh(args.mesh, args.read);
+        asset.mesh = read_mesh(from.path, from.read);
     }
     add_tangent_space(asset.mesh);
     for (std::string& line : write_text_asset(args.out, asset, facts).notes) notes.push_back(std::move(line));
@@ -85,30 +85,42 @@ void write_text(const NormalMapArgs& args, std::vector<GltfMap> maps, const Fact
 
 } // namespace
 
+AssetSource asset_source(const NormalMapArgs& args) {
+    if (args.displaced.empty() || asset_text(args.out) == AssetText::mtlx) return {args.mesh, args.read};
+    return {args.displaced, displaced_reading(args)};
+}
+
+void refuse_other_uvs(const NormalMapArgs& args, const NormalMapReport& report) {
+    if (writes_asset(args) && 2 * report.uncovered > report.covered + report.border)
+        throw Error(Refusal::unsuitable, args.displaced + ": its uvs are not those of " + args.mesh +
+                                             ", where the map lies; displace that mesh, or write a picture");
+}
+
 GltfMap asset_map(GltfMap::Slot slot, const Image<float>& map, Depth depth) {
     return {slot, slot == GltfMap::Slot::normal ? "normal" : "occlusion", encode_png(map, depth)};
 }
 
 void write_asset(const NormalMapArgs& args, std::vector<GltfMap> maps, const Facts& facts,
                  std::vector<std::string>& notes) {
+    const AssetSource from = asset_source(args);
     if (asset_text(args.out)) {
-        write_text(args, std::move(maps), facts, notes);
+        write_text(args, from, std::move(maps), facts, notes);
         return;
     }
-    MeshOptions reading = args.read;
+    MeshOptions reading = from.read;
     reading.pieces = true;
-    Mesh mesh = read_mesh(args.mesh, reading);
+    Mesh mesh = read_mesh(from.path, reading);
     add_tangent_space(mesh);
-    if (mesh_format(args.mesh) != MeshFormat::gltf) {
+    if (mesh_format(from.path) != MeshFormat::gltf) {
         write_new(args, std::move(mesh), std::move(maps), facts);
         return;
     }
     const GltfCarry carry{.tangents = true,
                           .maps = std::move(maps),
                           .facts = facts,
-                          .uv_set = args.read.uv_set,
-                          .flip_v = !args.read.flip_v};
-    for (std::string& line : carry_gltf(args.out, args.mesh, mesh, carry).notes) notes.push_back(std::move(line));
+                          .uv_set = from.read.uv_set,
+                          .flip_v = !from.read.flip_v};
+    for (std::string& line : carry_gltf(args.out, from.path, mesh, carry).notes) notes.push_back(std::move(line));
 }
 
 } // namespace bake

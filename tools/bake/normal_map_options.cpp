@@ -111,6 +111,11 @@ bool writes_asset(const NormalMapArgs& args) {
     return mesh_format(args.out) == MeshFormat::gltf || asset_text(args.out);
 }
 
+MeshOptions displaced_reading(const NormalMapArgs& args) {
+    const bool copy = mesh_format(args.mesh) == MeshFormat::gltf && mesh_format(args.displaced) == MeshFormat::gltf;
+    return copy ? args.read : MeshOptions{};
+}
+
 Depth resolve_map_depth(const NormalMapArgs& args) {
     const Depth depth = file_depth(args);
     if (args.dither && depth != Depth::u8)

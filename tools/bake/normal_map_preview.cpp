@@ -20,7 +20,8 @@ MapScene scene_of(const NormalMapArgs& args, const Image<float>& map, Depth dept
                    .directx = args.directx,
                    .bc5 = texture_container(args.out) && depth == Depth::float32};
     if (!args.displaced.empty()) {
-        scene.mesh = args.displaced; // its uvs are those of the mesh as it was read
+        scene.mesh = args.displaced;
+        scene.flip_v = displaced_reading(args).flip_v, scene.uv_set = displaced_reading(args).uv_set;
     } else if (!args.mesh.empty()) {
         scene.mesh = args.mesh;
         scene.flip_v = args.read.flip_v, scene.uv_set = args.read.uv_set;
