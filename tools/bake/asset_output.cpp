@@ -8,6 +8,7 @@
 #include "bake/surface/chart/tangent_space.h"
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace bake {
 namespace {
@@ -39,11 +40,16 @@ void write_new(const NormalMapArgs& args, Mesh mesh, std::vector<GltfMap> maps, 
     }
     for (const std::string& name : out.mesh.materials) out.materials.push_back({.name = name, .metallic = 0});
     const std::string stem = std::filesystem::path(args.out).stem().string();
+    std::set<std::uint32_t> baked;
+    for (std::size_t f = 0; f < out.mesh.faces(); ++f)
+        if (out.mesh.corner_uv[out.mesh.face_begin[f]] != no_index) baked.insert(out.mesh.face_material[f]);
     for (GltfMap& map : maps) {
         const auto image = std::uint32_t(out.images.size());
         out.images.push_back({map.name, "image/png", stem + "_" + map.name + ".png", std::move(map.png)});
-        for (GltfMaterial& material : out.materials)
-            (map.slot == GltfMap::Slot::normal ? material.normal : material.occlusion) = GltfTexture{.image = image};
+        for (std::uint32_t m = 0; m < out.materials.size(); ++m)
+            if (GltfMaterial& material = out.materials[m]; baked.count(m) > 0)
+                (map.slot == GltfMap::Slot::normal ? material.normal : material.occlusion) =
+                    GltfTexture{.image = image};
     }
     write_gltf(args.out, out, facts);
 }

@@ -37,7 +37,8 @@ struct GltfCarried {
 /// `mesh` is in world space, as flatten() gives it or with other faces, and its groups are numbers of pieces (Gltf::pieces), as
 /// MeshOptions::pieces asks for; it may be empty if only maps are given.
 /// A mesh of several nodes stays shared if its new values are equal up to rounding; otherwise the nodes get meshes of their
-/// own. Attributes named FILE_TEXCOORD_n are sets of uvs as the file has them. Materials get maps on the set of uvs, and with the transform, of take_texture_uvs(). The generator becomes ours;
+/// own. Attributes named FILE_TEXCOORD_n are sets of uvs as the file has them. Materials get maps on the set of uvs, and with the transform, of take_texture_uvs(); primitives
+/// that lack these uvs get none, and a copy of a material that they share with others. The generator becomes ours;
 /// the former one is kept in asset.extras.generator.
 /// Throws as read_gltf() and write_gltf().
 GltfCarried carry_gltf(const std::string& path, const std::string& source, const Mesh& mesh, const GltfCarry& what);
