@@ -6,6 +6,7 @@
 #include "bake/picture/encode_png.h"
 #include "bake/surface/chart/mesh_surface.h"
 #include "bake/surface/chart/tangent_space.h"
+#include "inputs/material_choice.h"
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,10 +15,17 @@ namespace bake {
 namespace {
 
 /// The tangents that make_bake_target() computes, and normals for corners that have none.
-void add_tangent_space(Mesh& mesh) {
+void add_tangent_space(Mesh& mesh, const std::string& material, const std::string& path) {
     const std::vector<Triangle> triangles = triangulate(mesh);
     const std::vector<Vec3f> normals = corner_normals(mesh, triangles);
     mesh.tangents = corner_tangents(mesh, triangles, normals);
+    if (!material.empty()) { // its faces were baked without the others
+        Mesh alone = mesh;
+        choose_material(alone, material, path);
+        const std::vector<Vec4f> own = corner_tangents(alone, triangles, normals);
+        for (std::size_t c = 0; c < own.size(); ++c)
+            if (alone.corner_uv[c] != no_index) mesh.tangents[c] = own[c];
+    }
     mesh.corner_normal.resize(mesh.corners(), no_index);
     std::vector<std::uint32_t> of_position(mesh.positions.size(), no_index); // which are smooth
     for (std::size_t c = 0; c < mesh.corners(); ++c) {
@@ -47,7 +55,8 @@ void write_new(const NormalMapArgs& args, Mesh mesh, std::vector<GltfMap> maps, 
         const auto image = std::uint32_t(out.images.size());
         out.images.push_back({map.name, "image/png", stem + "_" + map.name + ".png", std::move(map.png)});
         for (std::uint32_t m = 0; m < out.materials.size(); ++m)
-            if (GltfMaterial& material = out.materials[m]; baked.count(m) > 0)
+            if (GltfMaterial& material = out.materials[m];
+                baked.count(m) > 0 && (args.material.empty() || args.material == material.name))
                 (map.slot == GltfMap::Slot::normal ? material.normal : material.occlusion) =
                     GltfTexture{.image = image};
     }
@@ -71,7 +80,7 @@ void note_lost_parts(const std::string& path, const GltfDocument& document, std:
 /// .usda and .mtlx.
 void write_text(const NormalMapArgs& args, const AssetSource& from, std::vector<GltfMap> maps, const Facts& facts,
                 std::vector<std::string>& notes) {
-    TextAsset asset{.mesh = {}, .maps = std::move(maps), .uv_set = from.read.uv_set};
+    TextAsset asset{.mesh = {}, .maps = std::move(maps), .uv_set = from.read.uv_set, .map_material = args.material};
     asset.gltf = mesh_format(from.path) == MeshFormat::gltf;
     const bool usda = asset_text(args.out) == AssetText::usda;
     if (asset.gltf) {
@@ -85,7 +94,7 @@ void write_text(const NormalMapArgs& args, const AssetSource& from, std::vector<
     } else {
         asset.mesh = read_mesh(from.path, from.read);
     }
-    add_tangent_space(asset.mesh);
+    add_tangent_space(asset.mesh, args.material, from.path);
     for (std::string& line : write_text_asset(args.out, asset, facts).notes) notes.push_back(std::move(line));
 }
 
@@ -116,7 +125,7 @@ void write_asset(const NormalMapArgs& args, std::vector<GltfMap> maps, const Fac
     MeshOptions reading = from.read;
     reading.pieces = true;
     Mesh mesh = read_mesh(from.path, reading);
-    add_tangent_space(mesh);
+    add_tangent_space(mesh, args.material, from.path);
     if (mesh_format(from.path) != MeshFormat::gltf) {
         write_new(args, std::move(mesh), std::move(maps), facts);
         return;
@@ -125,7 +134,8 @@ void write_asset(const NormalMapArgs& args, std::vector<GltfMap> maps, const Fac
                           .maps = std::move(maps),
                           .facts = facts,
                           .uv_set = from.read.uv_set,
-                          .flip_v = !from.read.flip_v};
+                          .flip_v = !from.read.flip_v,
+                          .map_material = args.material};
     for (std::string& line : carry_gltf(args.out, from.path, mesh, carry).notes) notes.push_back(std::move(line));
 }
 

@@ -206,6 +206,8 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
+    if (args.mesh.empty() && !args.material.empty())
+        throw usage("--material: is one of a mesh; name the mesh, or leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
     if (writes_asset(args)) check_asset(args);

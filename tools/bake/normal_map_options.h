@@ -39,6 +39,7 @@ struct NormalMapArgs {
     double roughness = 0.5; ///< of the material that the map is for
     std::string preview;    ///< picture of the map on its mesh, or on a rectangle
     int preview_size = 512; ///< pixels along its edges
+    std::string material;   ///< whose faces alone are baked; empty: all
 };
 
 /// The options that the normal of one texel depends on.

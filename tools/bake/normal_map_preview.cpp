@@ -57,6 +57,7 @@ void check_preview(const NormalMapArgs& args) {
     if (args.space == Space::object) throw usage("shows maps in tangent space; leave out --space object");
     if (names_tiles(args.out) || args.tile != 0)
         throw usage("shows one map on the whole mesh, not those of tiles; leave it out");
+    if (!args.material.empty()) throw usage("shows one map on the whole mesh; leave out --material");
     resolve_display_depth(args.preview, Depth::automatic);
     const OutputFile writable(args.preview);
 }

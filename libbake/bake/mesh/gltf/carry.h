@@ -23,9 +23,10 @@ struct GltfCarry {
     /// The mesh has the faces of the file, each with its corners: vertices keep all their other values, and are split only
     /// where new values differ. Otherwise the primitives get the faces of the mesh; skins and morph targets are lost.
     bool same_faces = true;
-    Facts facts = {};   ///< for the record of the file
-    int uv_set = -1;    ///< as in GltfUvOptions, for the maps
-    bool flip_v = true; ///< as in GltfOptions
+    Facts facts = {};              ///< for the record of the file
+    int uv_set = -1;               ///< as in GltfUvOptions, for the maps
+    bool flip_v = true;            ///< as in GltfOptions
+    std::string map_material = {}; ///< name of the materials that get the maps; empty: all
 };
 
 struct GltfCarried {

@@ -44,9 +44,10 @@ struct MaterialUse {
 /// Finds the materials that get the maps.
 class MapMaterials {
 public:
-    MapMaterials(GltfAsset& asset, const GltfScene& scene, int uv_set)
+    /// `name`: of the only ones; empty: all.
+    MapMaterials(GltfAsset& asset, const GltfScene& scene, int uv_set, std::string name)
         : asset_(asset), known_(gltf_materials(*scene.model, scene.document.images.size(), scene.path)),
-          names_(material_names(known_)), uv_set_(uv_set) {
+          names_(material_names(known_)), name_(std::move(name)), uv_set_(uv_set) {
         for (const GltfPiece& piece : pieces_of(scene)) shown_.insert({piece.mesh, piece.primitive});
         for (const PrimitiveNumber& p : shown_)
             if (primitive(p).contains("attributes"))
@@ -63,10 +64,11 @@ public:
     /// Numbers of the materials of all primitives that are shown and have uvs. Those without a material get a new one.
     /// Where others of the file that name the material lack the uvs, these get a copy of it as it was, under another name.
     std::set<std::size_t> find(std::vector<std::string>& notes) {
-        add_material();
+        if (name_.empty()) add_material();
         const std::map<std::size_t, MaterialUse> uses = find_uses();
         std::set<std::size_t> out;
         for (const auto& [material, use] : uses) {
+            if (!name_.empty() && name_of(material) != name_) continue;
             if (use.shown) out.insert(material);
             if (use.without.empty()) continue;
             const std::string name = shown(name_of(material));
@@ -138,6 +140,7 @@ private:
     GltfAsset& asset_;
     const std::vector<GltfMaterial> known_;
     const std::vector<std::string> names_; ///< of these
+    const std::string name_;
     int uv_set_;
     std::set<PrimitiveNumber> shown_;
     std::set<std::string> semantics_; ///< of their vertices
@@ -195,7 +198,7 @@ void put_map(GltfAsset& asset, const GltfMap& map, const std::map<std::size_t, G
 } // namespace
 
 void put_maps(GltfAsset& asset, const GltfScene& scene, const GltfCarry& what, std::vector<std::string>& notes) {
-    MapMaterials found(asset, scene, what.uv_set);
+    MapMaterials found(asset, scene, what.uv_set, what.map_material);
     std::map<std::size_t, GltfTextureUvs> materials;
     for (const std::size_t m : found.find(notes)) materials[m] = found.uvs(m);
     for (const GltfMap& map : what.maps) put_map(asset, map, materials);
