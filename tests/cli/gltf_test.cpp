@@ -1,32 +1,13 @@
 // glTF from outside: the Khronos validator on what we write, and verbs on what others wrote.
 #include "bake/surface/chart/tangent_space.h"
 #include "cli/command.h"
+#include "cli/gltf_validator.h"
 #include "mesh/gltf/gltf_files.h"
 #include "picture/texels.h"
-#include <cstdlib>
-#include <sys/wait.h>
 
 namespace {
 using namespace bake;
 using namespace bake_tests;
-
-/// Whether tests of the Khronos validator are skipped: it is not installed, and $BAKE_NEEDS_VALIDATOR does not ask for it.
-bool no_validator() {
-    return !std::getenv("BAKE_NEEDS_VALIDATOR") &&
-           !std::filesystem::exists(source_folder() / "build/gltf_validator/node_modules/gltf-validator");
-}
-
-/// What the Khronos validator finds wrong with all .glb and .gltf of the folder: "" for nothing.
-std::string validator_says(const std::filesystem::path& folder) {
-    const std::string out = (folder / "validator.txt").string();
-    const std::string command = "cd '" + folder.string() + "' && '" +
-                                (source_folder() / "scripts/gltf_validator").string() +
-                                "' $(ls | grep -E '[.](glb|gltf)$') > '" + out + "' 2>&1";
-    const int status = std::system(command.c_str());
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 255;
-    const std::string text = bytes_of(out);
-    return code == 0 ? text : "code " + std::to_string(code) + ": " + text;
-}
 
 /// Ours has bytes that viewers look at: a picture of one pixel.
 std::vector<std::uint8_t> one_pixel() {
@@ -45,7 +26,8 @@ void write_both(const TemporaryFolder& folder, const std::string& name, const Gl
 } // namespace
 
 TEST_SUITE("cli") {
-    TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write" * doctest::skip(no_validator())) {
+    TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write" *
+              doctest::skip(test::no_validator())) {
         const TemporaryFolder folder;
         Gltf rich{rich_triangles(6, 3), {}, {}, {}};
         rich.images = {
@@ -79,7 +61,7 @@ TEST_SUITE("cli") {
         bare.materials = {brick};
         write_both(folder, "bare", bare);
         write_mesh(folder.file("one.glb"), read_text("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
-        CHECK(validator_says(folder.path) == "");
+        CHECK(test::validator_says(folder.path) == "");
     }
 
     TEST_CASE("gltf: bake check tells its parts, its missing images and that v runs the wrong way") {
@@ -179,7 +161,7 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
     }
 
     TEST_CASE("gltf: the Khronos validator finds nothing wrong with what we write of the samples" *
-              doctest::skip(test::no_shared_data() || no_validator())) {
+              doctest::skip(test::no_shared_data() || test::no_validator())) {
         const TemporaryFolder folder;
         for (const char* sample : samples) {
             const std::filesystem::path file = test::shared_data() / "meshes" / sample;
@@ -188,6 +170,6 @@ TEST_SUITE("real" * doctest::skip(test::no_shared_data())) {
             if (gltf.materials.size() == 1 && gltf.materials[0].normal) add_tangents(gltf.mesh);
             write_both(folder, file.stem().string(), gltf);
         }
-        CHECK(validator_says(folder.path) == "");
+        CHECK(test::validator_says(folder.path) == "");
     }
 } // real

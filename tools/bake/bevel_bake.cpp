@@ -4,6 +4,7 @@
 #include "bake/relief/transfer/map_quality.h"
 #include "bake/relief/transfer/seams.h"
 #include "inputs/file_kind.h"
+#include "inputs/material_choice.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
 #include "normal_map_preview.h"
@@ -97,7 +98,8 @@ std::vector<std::string> notes_of(const Report& report) {
     say(r.texels.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.texels.degenerate,
         "texels have no normal or tangent space (charts without area) and are filled like the padding");
-    for (std::string& line : notes_of(report.target.raster, path, report.all_tiles)) out.push_back(std::move(line));
+    for (std::string& line : notes_of(report.target, path, report.options.tile, report.all_tiles))
+        out.push_back(std::move(line));
     return out;
 }
 
@@ -155,7 +157,8 @@ int bake_bevel(const NormalMapArgs& args, Depth depth, const CommonArgs& common)
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
-    const Mesh mesh = read_mesh(args.mesh, args.read);
+    Mesh mesh = read_mesh(args.mesh, args.read);
+    choose_material(mesh, args.material, args.mesh);
     std::vector<std::string> notes;
     for (const std::string& line : mesh.notes) notes.push_back(args.mesh + ": " + line);
     watch.lap("read");

@@ -2,12 +2,14 @@
 #include "bake/relief/height/vector_height.h"
 #include "camera_options.h"
 #include "displace_options.h"
+#include <algorithm>
 
 namespace bake {
 
 BaseSurface make_base(const DisplaceArgs& args) {
     BaseSurface surface = read_surface(args.surface, args.cells.value_or(std::pair(0, 0)));
-    if (surface.mesh().corner_uv.empty())
+    const std::vector<std::uint32_t>& uvs = surface.mesh().corner_uv;
+    if (std::count(uvs.begin(), uvs.end(), no_index) == std::int64_t(uvs.size()))
         throw Error(Refusal::unsuitable,
                     args.surface.mesh + ": has no uvs, which say where the height lies; unwrap the mesh first");
     return surface;

@@ -67,6 +67,9 @@ void warn(const DisplaceArgs& args, const CommonArgs& common, const DisplaceOutc
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     note_all(common, base, o.mesh_notes);
     note(common, o.amplitude_note);
+    if (r.faces_without_uv > 0)
+        note(common, format("%s: %llu of %zu faces have no uvs and stay where they are", base.c_str(),
+                            count(r.faces_without_uv), o.base_faces));
     const double most = std::max(std::abs(r.height_min), std::abs(r.height_max));
     if (most > 0.25 * o.size)
         note(common, format("%s: displaced by up to %.4g, %.0f %% of its diagonal: more than relief can be on it; give "
@@ -132,6 +135,7 @@ nlohmann::json to_json(const DisplaceArgs& args, const DisplaceOutcome& o) {
                                {"margin", r.fold_margin},
                                {"worst", to_json(r.fold_worst)},
                                {"worst_uv", {r.fold_worst_uv.x, r.fold_worst_uv.y}}}},
+                             {"faces_without_uv", r.faces_without_uv},
                              {"no_normal", r.no_normal},
                              {"no_tangents", r.no_tangents}};
     if (!args.vector)

@@ -22,6 +22,7 @@ struct DisplaceOutcome {
     std::optional<MeshAudit> audit;
     std::uintmax_t file_bytes = 0;
     std::vector<std::string> mesh_notes; ///< of reading the mesh
+    std::size_t base_faces = 0;
 };
 
 std::string to_text(const DisplaceArgs& args, const DisplaceOutcome& outcome);

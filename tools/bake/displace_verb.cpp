@@ -56,7 +56,7 @@ int run(DisplaceArgs& args, const CommonArgs& common) {
     o.mesh_notes = base.mesh().notes;
     o.size = diagonal(bounds(base.mesh()));
     o.base = describe_base(args);
-    o.patches = base.complex().patches.size();
+    o.patches = base.complex().patches.size(), o.base_faces = base.mesh().faces();
     watch.lap("base");
     const ReliefFile file =
         within_memory(args.height.path, "reading it", [&] { return load_relief(args, o.size, common); });

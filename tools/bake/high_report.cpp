@@ -150,6 +150,7 @@ nlohmann::json to_json(const HighReport& report) {
 
 std::vector<std::string> notes_of(const HighReport& report) {
     std::vector<std::string> out;
+    const TransferOptions& options = report.options;
     const TransferReport& r = report.result;
     const std::string& low = report.args.mesh;
     const std::string& high = report.args.high.paths[0];
@@ -177,7 +178,8 @@ std::vector<std::string> notes_of(const HighReport& report) {
     }
     say(r.outward, "texels have a normal that points into the mesh, which few viewers show as it is");
     say(r.degenerate, "rays have no tangent space where they start (charts without area)");
-    for (std::string& line : notes_of(report.target.raster, low, report.all_tiles)) out.push_back(std::move(line));
+    for (std::string& line : notes_of(report.target, low, options.tile, report.all_tiles))
+        out.push_back(std::move(line));
     return out;
 }
 

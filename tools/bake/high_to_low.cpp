@@ -6,6 +6,7 @@
 #include "bake/relief/transfer/reach.h"
 #include "bake/relief/transfer/smooth_normals.h"
 #include "high_report.h"
+#include "inputs/material_choice.h"
 #include "inputs/tile_names.h"
 #include "normal_map_file.h"
 #include "normal_map_preview.h"
@@ -241,7 +242,8 @@ int bake_high(const NormalMapArgs& args, Depth depth, const CommonArgs& common) 
     Stopwatch watch;
     Progress progress(common.quiet);
     progress.start("read", 0);
-    const Mesh low = read_mesh(args.mesh, args.read);
+    Mesh low = read_mesh(args.mesh, args.read);
+    choose_material(low, args.material, args.mesh);
     std::vector<HighMesh> meshes = read_high(args);
     std::vector<std::string> notes;
     const auto take_notes = [&](const std::string& path, const Mesh& mesh) {

@@ -111,6 +111,11 @@ bool writes_asset(const NormalMapArgs& args) {
     return mesh_format(args.out) == MeshFormat::gltf || asset_text(args.out);
 }
 
+MeshOptions displaced_reading(const NormalMapArgs& args) {
+    const bool copy = mesh_format(args.mesh) == MeshFormat::gltf && mesh_format(args.displaced) == MeshFormat::gltf;
+    return copy ? args.read : MeshOptions{};
+}
+
 Depth resolve_map_depth(const NormalMapArgs& args) {
     const Depth depth = file_depth(args);
     if (args.dither && depth != Depth::u8)
@@ -201,6 +206,8 @@ void complete(NormalMapArgs& args, const std::string& verb) {
     if (!args.mesh.empty()) expect_mesh(args.mesh);
     if (!args.mesh.empty() && args.extent) throw usage("--extent: a mesh brings its own lengths; leave it out");
     if (args.mesh.empty() && args.tile != 0) throw usage("--tile: there are no charts without a mesh; leave it out");
+    if (args.mesh.empty() && !args.material.empty())
+        throw usage("--material: is one of a mesh; name the mesh, or leave it out");
     if (args.mesh.empty() && args.space == Space::object)
         throw usage("--space object: needs a mesh; without one both spaces are the same");
     if (writes_asset(args)) check_asset(args);

@@ -39,6 +39,7 @@ struct NormalMapArgs {
     double roughness = 0.5; ///< of the material that the map is for
     std::string preview;    ///< picture of the map on its mesh, or on a rectangle
     int preview_size = 512; ///< pixels along its edges
+    std::string material;   ///< whose faces alone are baked; empty: all
 };
 
 /// The options that the normal of one texel depends on.
@@ -52,6 +53,9 @@ void add_texture_options(CLI::App& sub, NormalMapArgs& args);
 void complete_engine(NormalMapArgs& args);
 /// Whether the map goes into a file with a material: glTF and USD, with the mesh, or MaterialX.
 bool writes_asset(const NormalMapArgs& args);
+/// How the mesh of --residual-of is read, so that its uvs are those of the map: the copy that bake displace writes of a glTF
+/// file has the file's sets of uvs and its v, other files have the uvs of the mesh as it was read.
+MeshOptions displaced_reading(const NormalMapArgs& args);
 /// The depth of the map's file. For a texture it is u8, u16, or float32, which stands for bc5: what its blocks lose is measured
 /// in the file. Throws Error{Refusal::usage} for what the files of the map and of its roughness cannot hold.
 Depth resolve_map_depth(const NormalMapArgs& args);

@@ -18,6 +18,7 @@ struct NormalMapResult {
     Filter filter = Filter::central;
     GltfMap asset_map;              ///< of a glTF file
     std::vector<std::string> notes; ///< doubts about the height
+    std::string shared_map;         ///< a note on materials that overlap in the uvs
 };
 
 /// Notes how the map was stored. Where it is in blocks, the budget's term for the encoding becomes the measured one.

@@ -20,7 +20,8 @@ MapScene scene_of(const NormalMapArgs& args, const Image<float>& map, Depth dept
                    .directx = args.directx,
                    .bc5 = texture_container(args.out) && depth == Depth::float32};
     if (!args.displaced.empty()) {
-        scene.mesh = args.displaced; // its uvs are those of the mesh as it was read
+        scene.mesh = args.displaced;
+        scene.flip_v = displaced_reading(args).flip_v, scene.uv_set = displaced_reading(args).uv_set;
     } else if (!args.mesh.empty()) {
         scene.mesh = args.mesh;
         scene.flip_v = args.read.flip_v, scene.uv_set = args.read.uv_set;
@@ -56,6 +57,7 @@ void check_preview(const NormalMapArgs& args) {
     if (args.space == Space::object) throw usage("shows maps in tangent space; leave out --space object");
     if (names_tiles(args.out) || args.tile != 0)
         throw usage("shows one map on the whole mesh, not those of tiles; leave it out");
+    if (!args.material.empty()) throw usage("shows one map on the whole mesh; leave out --material");
     resolve_display_depth(args.preview, Depth::automatic);
     const OutputFile writable(args.preview);
 }

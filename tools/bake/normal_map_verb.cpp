@@ -2,9 +2,11 @@
 #include "bake/relief/map/residual_map.h"
 #include "bevel_bake.h"
 #include "high_to_low.h"
+#include "inputs/material_choice.h"
 #include "inputs/tile_names.h"
 #include "normal_map_output.h"
 #include "normal_map_preview.h"
+#include "raster_notes.h"
 
 namespace bake {
 namespace {
@@ -71,6 +73,9 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     if (target) bake_mesh(in.height, field, *target, displaced, judged, progress, result);
     else bake_plane(args, in.height, field, judged, progress, result);
     progress.finish();
+    refuse_other_uvs(args, result.report);
+    if (target) result.shared_map = shared_map_note(*target, args.mesh, options.tile);
+    if (!args.material.empty()) result.report.triangles_without_uv = 0; // those of other materials
     watch.lap("bake");
     set_stored(result, file.write(result.map));
     result.asset_map = file.asset_map();
@@ -105,13 +110,16 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     take_likeness(args);
     Inputs in{.height = load_height(args.height, common)};
     if (!args.mesh.empty()) in.mesh = read_mesh(args.mesh, args.read);
-    if (!args.displaced.empty()) in.diced = read_mesh(args.displaced); // its uvs are those of the mesh as it was read
+    if (!args.displaced.empty()) in.diced = read_mesh(args.displaced, displaced_reading(args));
+    choose_material(in.mesh, args.material, args.mesh);
+    if (!args.displaced.empty()) choose_material(in.diced, args.material, args.displaced);
     watch.lap("read");
     in.notes = note_doubts(common, args.height, in.height);
     auto baked = bake_all(args, in, depth, progress, watch);
+    std::vector<std::string> asset_notes;
     if (writes_asset(args)) {
         write_asset(args, {std::move(baked[0].second.asset_map)},
-                    normal_map_facts(args, &baked[0].second.options.height_options), in.mesh.notes);
+                    normal_map_facts(args, &baked[0].second.options.height_options), asset_notes);
         watch.lap("write");
     }
     std::string text;
@@ -122,8 +130,12 @@ int run(NormalMapArgs& args, const CommonArgs& common) {
     }
     print_result(common, text, names_tiles(args.out) ? nlohmann::json{{"tiles", tiles}} : tiles[0], watch);
     note_all(common, args.mesh, in.mesh.notes);
+    note_all(common, asset_source(args).path, asset_notes);
     note_all(common, args.like, args.like_notes);
-    for (const auto& [one, result] : baked) warn(common, one, result.report);
+    for (const auto& [one, result] : baked) {
+        warn(common, one, result.report);
+        note(common, result.shared_map);
+    }
     const NormalMapResult& first = baked[0].second;
     if (args.engine) note(common, size_note(*args.engine->normal_map, first.options.width, first.options.height));
     if (args.like.empty())
@@ -148,9 +160,14 @@ std::function<int()> normal_map_verb(CLI::App& sub, const CommonArgs& common) {
     add_normal_options(sub, *args);
     add_high_options(sub, args->high);
     add_bevel_option(sub, *args);
-    sub.add_option("--residual-of", args->displaced,
-                   "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice")
+    sub.add_option(
+           "--residual-of", args->displaced,
+           "This mesh after bake displace: the map holds what its normals lack, so that no slope counts twice; -o "
+           "asset.glb is this mesh with the map")
         ->type_name("DISPLACED.glb");
+    sub.add_option("--material", args->material,
+                   "Bake the faces of this material alone; -o asset.glb gives no other material the map")
+        ->type_name("NAME");
     add_extent_option(sub, args->extent, "Object units the picture is wide and high, without a mesh [1,H/W]");
     add_texture_options(sub, *args);
     add_target_options(sub, *args);

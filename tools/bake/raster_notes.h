@@ -7,8 +7,11 @@
 
 namespace bake {
 
-/// `path`: of the mesh. `all_tiles`: each tile has a map, so that no face is left out.
-std::vector<std::string> notes_of(const UvRaster& raster, const std::string& path, bool all_tiles);
+/// `path`: of the mesh. `tile`: that was baked. `all_tiles`: each tile has a map, so that no face is left out.
+std::vector<std::string> notes_of(const BakeTarget& target, const std::string& path, int tile, bool all_tiles);
+
+/// Which materials share places of the map; empty if none do.
+std::string shared_map_note(const BakeTarget& target, const std::string& path, int tile);
 
 nlohmann::json to_json(const SeamDisagreement& seams);
 

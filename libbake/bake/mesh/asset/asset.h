@@ -17,6 +17,7 @@ struct TextAsset {
     std::vector<GltfMap> maps{};           ///< of all materials, instead of their own
     bool gltf = false;                     ///< the mesh is one of a glTF file, where faces may have no material
     int uv_set = -1;                       ///< as in GltfUvOptions
+    std::string map_material{};            ///< name of the materials that get the maps; empty: all
 };
 
 struct TextAssetWritten {

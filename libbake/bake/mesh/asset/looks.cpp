@@ -69,7 +69,10 @@ Look look_of(const std::string& path, const GltfMaterial& material, const TextAs
     look.base_color = texture_of(material.base_color, "base colour", look, files, left_out);
     look.metallic_roughness = texture_of(material.metallic_roughness, "metallic-roughness", look, files, left_out);
     look.emissive = texture_of(material.emissive, "emissive", look, files, left_out);
-    const auto replaces = [](GltfMap::Slot slot) { return [slot](const GltfMap& map) { return map.slot == slot; }; };
+    const bool mapped = asset.map_material.empty() || asset.map_material == material.name;
+    const auto replaces = [mapped](GltfMap::Slot slot) {
+        return [mapped, slot](const GltfMap& map) { return mapped && map.slot == slot; };
+    };
     const auto occlusion = std::find_if(asset.maps.begin(), asset.maps.end(), replaces(GltfMap::Slot::occlusion));
     if (occlusion != asset.maps.end()) look.occlusion = files.map(*occlusion);
     else if (material.occlusion && asset_text(path) == AssetText::mtlx) left_out.add("occlusion");
@@ -79,6 +82,7 @@ Look look_of(const std::string& path, const GltfMaterial& material, const TextAs
     }
     const auto normal = std::find_if(asset.maps.begin(), asset.maps.end(), replaces(GltfMap::Slot::normal));
     if (normal != asset.maps.end()) look.normal = files.map(*normal);
+    else look.normal = texture_of(material.normal, "normal", look, files, left_out);
     if (material.unlit) left_out.add("KHR_materials_unlit");
     for (const std::string& name : material.extensions) left_out.add(gltf_text(name));
     if (!left_out.text.empty())

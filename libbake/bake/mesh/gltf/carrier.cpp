@@ -34,7 +34,7 @@ public:
                 of_mesh.push_back(piece.place);
         if (mesh_.faces() > 0)
             for (const auto& [mesh, places] : placements) carry_mesh(mesh, places);
-        if (!what_.maps.empty()) put_maps(asset_, scene_, what_);
+        if (!what_.maps.empty()) put_maps(asset_, scene_, what_, done.notes);
         done.bytes = asset_.write(path, what_.facts, done.notes);
         return done;
     }

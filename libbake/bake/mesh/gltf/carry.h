@@ -23,9 +23,10 @@ struct GltfCarry {
     /// The mesh has the faces of the file, each with its corners: vertices keep all their other values, and are split only
     /// where new values differ. Otherwise the primitives get the faces of the mesh; skins and morph targets are lost.
     bool same_faces = true;
-    Facts facts = {};   ///< for the record of the file
-    int uv_set = -1;    ///< as in GltfUvOptions, for the maps
-    bool flip_v = true; ///< as in GltfOptions
+    Facts facts = {};              ///< for the record of the file
+    int uv_set = -1;               ///< as in GltfUvOptions, for the maps
+    bool flip_v = true;            ///< as in GltfOptions
+    std::string map_material = {}; ///< name of the materials that get the maps; empty: all
 };
 
 struct GltfCarried {
@@ -37,7 +38,8 @@ struct GltfCarried {
 /// `mesh` is in world space, as flatten() gives it or with other faces, and its groups are numbers of pieces (Gltf::pieces), as
 /// MeshOptions::pieces asks for; it may be empty if only maps are given.
 /// A mesh of several nodes stays shared if its new values are equal up to rounding; otherwise the nodes get meshes of their
-/// own. Attributes named FILE_TEXCOORD_n are sets of uvs as the file has them. Materials get maps on the set of uvs, and with the transform, of take_texture_uvs(). The generator becomes ours;
+/// own. Attributes named FILE_TEXCOORD_n are sets of uvs as the file has them. Materials get maps on the set of uvs, and with the transform, of take_texture_uvs(); primitives
+/// that lack these uvs get none, and a copy of a material that they share with others. The generator becomes ours;
 /// the former one is kept in asset.extras.generator.
 /// Throws as read_gltf() and write_gltf().
 GltfCarried carry_gltf(const std::string& path, const std::string& source, const Mesh& mesh, const GltfCarry& what);

@@ -58,8 +58,9 @@ GltfMeshPatch patch_vertices(const GltfPlaced& placed);
 /// The faces as primitives with vertices of their own.
 GltfMeshPatch patch_faces(const GltfPlaced& placed);
 
-/// Puts the maps into the materials of the parts' primitives.
-void put_maps(GltfAsset& asset, const GltfScene& scene, const GltfCarry& what);
+/// Puts the maps into the materials of the primitives that are shown and have uvs for them. A material that primitives with
+/// and without such uvs share is split; materials that get no map are named in the notes.
+void put_maps(GltfAsset& asset, const GltfScene& scene, const GltfCarry& what, std::vector<std::string>& notes);
 
 /// `rows` elements of `components` floats.
 GltfSharedValues float_values(std::size_t rows, int components, std::function<void(BlockWriter&)> write);

@@ -2,6 +2,7 @@
 #include "bake/base/error.h"
 #include "bake/base/parallel.h"
 #include "bake/base/progress.h"
+#include "bake/mesh/keep_used.h"
 #include "bake/relief/displace/memory.h"
 #include "bake/relief/displace/points.h"
 #include "bake/relief/displace/reach.h"
@@ -46,6 +47,26 @@ void normals_from_faces(Mesh& mesh, const std::vector<std::uint32_t>& numbers) {
         for (const Share& s : chunk)
             sum[std::lower_bound(sorted.begin(), sorted.end(), s.number) - sorted.begin()] += s.n;
     for (std::size_t i = 0; i < sorted.size(); ++i) mesh.normals[sorted[i]] = Vec3f(unit_or_zero(sum[i]));
+}
+
+/// Takes the uvs, which are zeros, from the faces of patches without any.
+void drop_uvs(const PatchLayout& layout, Mesh& mesh) {
+    const PatchCells& cells = *layout.cells;
+    bool dropped = false;
+    for (std::uint32_t c = 0; c < cells.count() && !mesh.corner_uv.empty(); ++c) {
+        if (cells.base().has_uv(cells.patch(c))) continue;
+        const auto corner = mesh.corner_uv.begin();
+        std::fill(corner + layout.corner_first[c], corner + layout.corner_first[c + 1], no_index);
+        dropped = true;
+    }
+    if (dropped) keep_used(mesh.uvs, mesh.corner_uv);
+}
+
+std::uint64_t faces_without_uv(const BaseSurface& base) {
+    std::vector<bool> without(base.mesh().faces());
+    for (std::uint32_t p = 0; p < base.complex().patches.size(); ++p)
+        if (!base.has_uv(p)) without[base.complex().patches[p].face] = true;
+    return std::uint64_t(std::count(without.begin(), without.end(), true));
 }
 
 DisplaceReport report_of(const DisplaceCount& count, const PointTally& tally) {
@@ -94,8 +115,10 @@ Displaced displace(const BaseSurface& base, const Relief& relief, const Displace
                     "displacement: " + std::to_string(tally.not_finite) +
                         " points lie beyond what a mesh can hold (3.4e38); take a smaller `amplitude`");
     normals_from_faces(out.mesh, tally.without_normal);
+    drop_uvs(plan.layout, out.mesh);
     if (options.attributes) out.mesh.attributes = corner_attributes(plan.layout, out.mesh);
     out.report = report_of(count, tally);
+    out.report.faces_without_uv = faces_without_uv(base);
     if (out.report.seam_mismatch > 0) out.report.seam_worst += base.mesh().origin;
     out.report.fold_worst += base.mesh().origin;
     out.report.error_max = measured.error_max, out.report.error_rms = measured.error_rms;

@@ -10,6 +10,8 @@ namespace bake {
 
 class Progress;
 
+/// Faces without uvs have no relief: they stay where they are, and so do their points on seams but for the share that the
+/// seam's rule gives the other side. DisplaceReport::faces_without_uv counts them.
 /// Throws Error{Refusal::unsuitable} if the result needs more than max_bytes; the message states the need and
 /// the finest level that fits.
 /// Any number of threads gives the same bytes.

@@ -56,17 +56,18 @@ void store_normal(Mesh& mesh, std::uint32_t index, const Vec3d& unit, PointTally
 void write_patch_vertices(const Displacer& to, const PatchVertices& v, Mesh& mesh, PointTally& tally) {
     thread_local std::vector<ReliefValue> values;
     const bool heights = to.surface.values_are_heights(), along_normal = to.surface.along_normal();
+    const bool sampled = heights && to.surface.base().has_uv(v.patch); // here, without the buffer
     const auto margin_of = [&](const Jet<double>& jet, const ReliefValue& value, double b) {
         return along_normal ? fold_margin(jet, b) : fold_margin(jet, value);
     };
     const bool blended = to.blend.touches(v.patch);
-    if (!heights) {
+    if (!sampled) {
         values.resize(v.index.size());
         to.surface.values(v.patch, v.st, v.points, values);
     }
     for (std::size_t k = 0; k < v.index.size(); ++k) {
         const SurfacePoint& point = v.points[k];
-        ReliefValue value = heights ? bake::along_normal(point, to.surface.height(point.uv)) : values[k];
+        ReliefValue value = sampled ? bake::along_normal(point, to.surface.height(point.uv)) : values[k];
         if (blended) to.blend.add(v.patch, v.st[k], point, value);
         const DisplacedPoint d =
             heights ? displaced_along_normal(point.jet, value) : to.surface.displaced(point, value);

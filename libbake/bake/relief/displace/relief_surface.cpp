@@ -1,4 +1,5 @@
 #include "bake/relief/displace/relief_surface.h"
+#include <algorithm>
 
 namespace bake {
 namespace {
@@ -57,6 +58,10 @@ Vec3d ReliefSurface::vector(const SurfacePoint& point) const noexcept {
 
 void ReliefSurface::values(std::uint32_t patch, std::span<const Vec2d> st, std::span<const SurfacePoint> points,
                            std::span<ReliefValue> out) const {
+    if (!base_->has_uv(patch)) {
+        std::fill_n(out.begin(), points.size(), ReliefValue());
+        return;
+    }
     if (!space_) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const SurfacePoint& p = points[i];

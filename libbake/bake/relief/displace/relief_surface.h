@@ -37,7 +37,7 @@ public:
     /// Texels along u and v.
     Vec2d texels() const noexcept { return texels_; }
 
-    /// Values at points of one patch, which are base().evaluate() at `st`.
+    /// Values at points of one patch, which are base().evaluate() at `st`. They are zero on a patch without uvs.
     void values(std::uint32_t patch, std::span<const Vec2d> st, std::span<const SurfacePoint> points,
                 std::span<ReliefValue> out) const;
 

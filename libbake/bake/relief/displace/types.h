@@ -90,6 +90,8 @@ struct DisplaceReport {
 
     double error_max = 0, error_rms = 0; ///< with measure_error, at the faces' own parameters
     std::uint64_t uniform_triangles = 0; ///< rates by error: what a uniform rate of the same measured error needs
+
+    std::uint64_t faces_without_uv = 0; ///< faces of the base, which have no relief
 };
 
 struct Displaced {

@@ -248,6 +248,20 @@ void evaluate(const ShapeBase& base, std::uint32_t patch, std::span<const Vec2d>
     }
 }
 
+/// Takes the uvs from faces that have some at a part of their corners alone.
+void drop_partial_uvs(Mesh& mesh) {
+    if (mesh.corner_uv.empty()) return;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+        const auto first = mesh.corner_uv.begin() + mesh.face_begin[f],
+                   last = mesh.corner_uv.begin() + mesh.face_begin[f + 1];
+        if (std::find(first, last, no_index) != last) std::fill(first, last, no_index);
+    }
+}
+
+bool has_uvs(const Mesh& mesh, std::uint32_t face) noexcept {
+    return !mesh.corner_uv.empty() && mesh.corner_uv[mesh.face_begin[face]] != no_index;
+}
+
 } // namespace
 
 struct BaseSurface::Base {
@@ -273,7 +287,9 @@ void BaseSurface::Base::connect(Patches patches) {
                 bake::evaluate(*limit, patches[i].sides() == 4, std::uint32_t(i), places, points);
             if (const auto* shape = std::get_if<ShapeBase>(&kind))
                 bake::evaluate(*shape, std::uint32_t(i), places, points);
-            for (int k = 0; k < 8; ++k) values[8 * i + k] = {Vec3f(points[k].jet.n), points[k].uv};
+            const bool has_uv = has_uvs(mesh, patches[i].face);
+            for (int k = 0; k < 8; ++k)
+                values[8 * i + k] = {Vec3f(points[k].jet.n), has_uv ? points[k].uv : Vec2d(nowhere)};
         }
     });
     const auto rim = [&](std::uint32_t patch, int k) { return values[8 * std::size_t(patch) + k]; };
@@ -285,6 +301,7 @@ void BaseSurface::Base::connect(Patches patches) {
 BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
     base_->mesh = std::move(mesh);
     weld_positions(base_->mesh);
+    drop_partial_uvs(base_->mesh);
     Patches patches;
     const MeshBase& base = base_->kind.emplace<MeshBase>(make_mesh_base(base_->mesh, patches));
     const auto rim = [&](std::uint32_t patch, int k) -> RimValue {
@@ -299,6 +316,7 @@ BaseSurface::BaseSurface(Mesh mesh) : base_(std::make_unique<Base>()) {
 BaseSurface::BaseSurface(Mesh cage, const SubdivisionOptions& options, const std::string& path)
     : base_(std::make_unique<Base>()) {
     base_->mesh = std::move(cage);
+    drop_partial_uvs(base_->mesh);
     Patches patches;
     base_->kind.emplace<LimitBase>(make_limit_base(base_->mesh, options, path, patches));
     if (const std::size_t left_out = faces_left_out(base_->mesh, patches); left_out > 0)
@@ -322,6 +340,10 @@ BaseSurface::BaseSurface(BaseSurface&&) noexcept = default;
 const Mesh& BaseSurface::mesh() const noexcept { return base_->mesh; }
 const PatchComplex& BaseSurface::complex() const noexcept { return base_->complex; }
 const Junctions& BaseSurface::junctions() const noexcept { return base_->junctions; }
+
+bool BaseSurface::has_uv(std::uint32_t patch) const noexcept {
+    return has_uvs(base_->mesh, base_->complex.patches[patch].face);
+}
 
 void BaseSurface::evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept {
     if (const auto* mesh = std::get_if<MeshBase>(&base_->kind)) bake::evaluate(*mesh, patch, st, out);

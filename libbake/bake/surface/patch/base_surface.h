@@ -27,6 +27,10 @@ public:
     const PatchComplex& complex() const noexcept;
     const Junctions& junctions() const noexcept; ///< of complex()
 
+    /// Whether the face of a patch has uvs, at all of its corners. A face that lacks some loses all of them in mesh(); its
+    /// edges to faces with uvs are seams.
+    bool has_uv(std::uint32_t patch) const noexcept;
+
     /// The same parameters always give the same bits. The two patches at an edge agree on its points only up to rounding:
     /// a caller that needs equal points evaluates one of the patches.
     void evaluate(std::uint32_t patch, std::span<const Vec2d> st, std::span<SurfacePoint> out) const noexcept;

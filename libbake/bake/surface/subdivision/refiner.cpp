@@ -17,7 +17,7 @@ UvValues uv_values(const Mesh& cage) {
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t c) {
         const Vec2f uv = uv_at(c);
-        return std::tuple(cage.corner_position[c], uv.x, uv.y);
+        return std::tuple(cage.corner_position[c], cage.corner_uv[c] == no_index, uv.x, uv.y);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     uvs.corner.resize(cage.corners());

@@ -14,7 +14,8 @@ template <class V> struct Weighted {
     void AddWithWeight(const Weighted& other, double weight) noexcept { value += weight * other.value; }
 };
 
-/// Face-varying uvs. Corners at one position with equal uvs share a value. Corners without uv have the value zero.
+/// Face-varying uvs. Corners at one position with equal uvs share a value. Corners without uv have the value zero,
+/// which they share with no uv.
 struct UvValues {
     std::vector<Weighted<Vec2d>> values;
     std::vector<int> corner; ///< value of each corner; empty without uvs
