@@ -114,6 +114,38 @@ TEST_SUITE("cli") {
         CHECK(contents(folder / "log").find("sky_py.png") != std::string::npos);
     }
 
+    TEST_CASE("batch: --emit refuses names that a format cannot have") {
+        const Folder folder;
+        const auto emit = [&](const std::string& name, const std::string& format) {
+            write_file(folder / "m.toml", "manifest = 1\n[[bake]]\nname = \"a\"\nverb = \"bump-table\"\nfiles = [\"" +
+                                              name + "\"]\noutputs = {out = \"a.exr\"}\n");
+            return run_bake(folder, {"batch", "m.toml", "--emit", format, "-o", "out"});
+        };
+        for (const auto& [name, format] : {std::pair("a|b.png", "ninja"), {"a{{b}}.png", "openjd"}}) {
+            fs::copy_file(own_meshes() / "dots.png", folder.path / name);
+            const Run run = emit("a*b*.png", format);
+            CHECK(run.code == 4);
+            CHECK(run.err.find(name) != std::string::npos);
+            CHECK(!fs::exists(folder / "out"));
+            fs::remove(folder.path / name);
+        }
+    }
+
+    TEST_CASE("batch: an input that a task writes beside its output does not stop Ninja") {
+        const Folder folder;
+        fs::copy_file(own_meshes() / "torus.obj", folder / "torus.obj");
+        fs::copy_file(own_meshes() / "dots.png", folder / "dots.png");
+        write_file(folder / "m.toml",
+                   "manifest = 1\n[[bake]]\nname = \"asset\"\nverb = \"normal-map\"\nfiles = [\"torus.obj\"]\n"
+                   "inputs = {height = \"dots.png\"}\noptions = {amplitude = \"1%\", size = \"16\"}\n"
+                   "outputs = {out = \"x/t.usda\"}\n"
+                   "[[bake]]\nname = \"use\"\nverb = \"bump-table\"\nfiles = [\"x/t_normal.png\"]\nafter = "
+                   "[\"asset\"]\noutputs = {out = \"x/t.exr\"}\n");
+        REQUIRE(run_bake(folder, {"batch", "m.toml", "--emit", "ninja", "-o", "build.ninja"}).code == 0);
+        CHECK(shell(folder.path, "ninja >log") == 0);
+        CHECK(fs::exists(folder / "x/t.exr"));
+    }
+
     TEST_CASE("batch: the lines of --emit commands make the same files") {
         const Folder folder;
         write_manifest(folder.path);
@@ -138,7 +170,8 @@ TEST_SUITE("cli") {
                    "[ $(wc -l <\"$log\") -le 2 ] || exit\n"
                    "for word in \"$@\"; do case $word in --array=0-*) last=${word##*-} ;; esac; done\n"
                    "for ((i = 0; i <= last; ++i)); do for again in 1 2; do\n"
-                   "env -i PATH=\"$PATH\" SLURM_ARRAY_TASK_ID=$i bash \"${@: -4}\" || exit; done; done >&2\necho 7\n");
+                   "env -i PATH=\"$PATH\" ASAN_OPTIONS=\"$ASAN_OPTIONS\" SLURM_ARRAY_TASK_ID=$i bash \"${@: -4}\" || "
+                   "exit; done; done >&2\necho 7\n");
         fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
         CHECK(shell(folder.path, "bash farm.sh --partition=night >log", folder / "bin") == 0);
         check_bytes(folder, there);

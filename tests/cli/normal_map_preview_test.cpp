@@ -51,6 +51,8 @@ TEST_SUITE("cli") {
                 CHECK(run.out.find("p.png: preview, 48 pixels") != std::string::npos);
                 CHECK(lit_from_upper_left(folder / "p.png") * (dent ? -1 : 1) > 0.15);
             }
+        preview(folder, {"bump.png", "-o", "n.exr", "--size", "64x16", "--amplitude", "0.1"});
+        CHECK(read_image(folder / "p.png").height() == 48); // the rectangle is that of the height
         // The rectangle fills the picture.
         preview(folder, {"bump.png", "-o", "n.exr", "--extent", "2,1", "--amplitude", "0.1"});
         const Image<float> wide = read_image(folder / "p.png");

@@ -233,6 +233,29 @@ TEST_SUITE("cli") {
         CHECK(has(bake("b.mtlx"), "no input for occlusion"));
     }
 
+    TEST_CASE("text asset: its pictures replace those of an asset of its name alone") {
+        const Folder folder;
+        const auto bake = [&](const std::string& out, const std::string& amplitude) {
+            return run_bake(folder, {"normal-map", (own_meshes() / "torus.obj").string(), "--height",
+                                     (own_meshes() / "dots.png").string(), "--size", "16", "--amplitude", amplitude,
+                                     "-o", out});
+        };
+        for (const std::string ending : {".usda", ".mtlx"}) {
+            write_file(folder / "stranger_normal.png", "mine");
+            const Run run = bake("stranger" + ending, "1%");
+            CHECK(run.code == 2);
+            CHECK(run.err.find("stranger_normal.png: is there already") != std::string::npos);
+            CHECK(contents(folder / "stranger_normal.png") == "mine");
+            CHECK(!fs::exists(folder / ("stranger" + ending)));
+            const std::string own = "own" + ending.substr(1);
+            CHECK(bake(own + ending, "1%").code == 0);
+            const std::string before = contents(folder / (own + "_normal.png"));
+            CHECK(bake(own + ending, "2%").code == 0);
+            CHECK(contents(folder / (own + "_normal.png")) != before);
+        }
+        CHECK(bake("a\nb.mtlx", "1%").code == 2);
+    }
+
     TEST_CASE("text asset: what has no place in USD and MaterialX is refused, with no file left") {
         const Folder folder;
         const std::string torus = (own_meshes() / "torus.obj").string();

@@ -45,13 +45,13 @@ void check_engine_options(const CubemapArgs& args) {
     }
     const ConsumerEntry& entry = entry_of(*engine.consumer);
     const std::string flag = std::string("--for ") + entry.name;
-    const bool levels = entry.levels && !is_latlong_file(args.target.file);
+    const bool folder = names_folder(args.target.file);
+    const bool levels = entry.levels && (folder || !is_latlong_file(args.target.file));
     if (!args.irradiance.empty() || args.specular != Specular::none || args.mips)
         usage(flag + ": decides what is filtered; leave out --irradiance, --specular and --mips");
     if (args.target.to != SkyFormat::automatic || args.target.order != FaceOrder::gl ||
         args.target.depth != Depth::automatic)
         usage(flag + ": decides the format; leave out --to, --order and --depth");
-    const bool folder = names_folder(args.target.file);
     if (engine.levels_as_files && (!folder || !levels))
         usage("--levels-as-files: needs a folder and an engine that loads levels; give such as --for three -o sky/");
     if (engine.texels && !levels) usage("--texels: " + flag + " gets a lat-long picture; leave it out");

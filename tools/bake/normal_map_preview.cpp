@@ -4,7 +4,6 @@
 #include "bake/base/text.h"
 #include "bake/picture/texture_file.h"
 #include "bake/preview/map_scene.h"
-#include "bake/relief/map/bump_table.h"
 #include "bake/relief/map/dither.h"
 #include "inputs/tile_names.h"
 #include "picture_output.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr int preview_spp = 16;
 
 /// What the map is seen on.
-MapScene scene_of(const NormalMapArgs& args, const Image<float>& map, Depth depth) {
+MapScene scene_of(const NormalMapArgs& args, const Vec2d& extent, Depth depth) {
     MapScene scene{.size = args.preview_size,
                    .directx = args.directx,
                    .bc5 = texture_container(args.out) && depth == Depth::float32};
@@ -26,8 +25,7 @@ MapScene scene_of(const NormalMapArgs& args, const Image<float>& map, Depth dept
         scene.mesh = args.mesh;
         scene.flip_v = args.read.flip_v, scene.uv_set = args.read.uv_set;
     } else {
-        const Vec2d given = args.extent.value_or(Vec2d(0));
-        scene.extent = resolve_extent(given.x, given.y, map.width(), map.height());
+        scene.extent = extent;
     }
     return scene;
 }
@@ -62,9 +60,10 @@ void check_preview(const NormalMapArgs& args) {
     const OutputFile writable(args.preview);
 }
 
-void write_preview(const NormalMapArgs& args, const Image<float>& map, Depth depth, Stopwatch& watch) {
+void write_preview(const NormalMapArgs& args, const Image<float>& map, Depth depth, Stopwatch& watch,
+                   const Vec2d& extent) {
     if (args.preview.empty()) return;
-    SceneEntries entries = map_scene(scene_of(args, map, depth), as_stored(args, map, depth));
+    SceneEntries entries = map_scene(scene_of(args, extent, depth), as_stored(args, map, depth));
     entries.settings.spp = preview_spp;
     const Scene scene = load(entries);
     Passes passes(scene, scene.settings, {.first = preview_spp});

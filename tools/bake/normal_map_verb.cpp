@@ -11,12 +11,17 @@
 namespace bake {
 namespace {
 
+/// Of the rectangle that the height covers without a mesh.
+Vec2d plane_extent(const NormalMapArgs& args, const HeightTexture& height) {
+    const Vec2d given = args.extent.value_or(Vec2d(0));
+    return resolve_extent(given.x, given.y, height.values.width(), height.values.height());
+}
+
 /// The map of a flat rectangle, and its budget.
 void bake_plane(const NormalMapArgs& args, const HeightTexture& height, const HeightField& field, Depth depth,
                 Progress& progress, NormalMapResult& result) {
     const NormalMapOptions& options = result.options;
-    const Vec2d given = args.extent.value_or(Vec2d(0));
-    const Vec2d extent = resolve_extent(given.x, given.y, height.values.width(), height.values.height());
+    const Vec2d extent = plane_extent(args, height);
     check_steepness(args.height, options.height_options.amplitude, std::min(extent.x, extent.y));
     result.map = normal_map(field, extent, options, &progress);
     const BudgetInput input = plane_budget(height, field, options, extent, depth);
@@ -80,7 +85,7 @@ NormalMapResult bake_one(const NormalMapArgs& args, const Inputs& in, Depth dept
     set_stored(result, file.write(result.map));
     result.asset_map = file.asset_map();
     watch.lap("write");
-    write_preview(args, result.map, depth, watch);
+    write_preview(args, result.map, depth, watch, plane_extent(args, in.height));
     result.map = {};
     return result;
 }

@@ -51,6 +51,11 @@ std::shared_ptr<const void> SharedLoads::find(const std::string& key, const File
     return found->second.value;
 }
 
+bool SharedLoads::fits(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    return !paused_ && bytes <= most_bytes_;
+}
+
 void SharedLoads::keep(const std::string& key, Load load) {
     const std::lock_guard lock(mutex_);
     if (paused_ || load.bytes > most_bytes_) return;

@@ -45,6 +45,8 @@ public:
     /// For shared_load(). The key has the name of the file and how it is read.
     bool is_shared(const std::string& path);
     std::shared_ptr<const void> find(const std::string& key, const FileStamp& now);
+    /// Whether so much may be kept now.
+    bool fits(std::size_t bytes);
     void keep(const std::string& key, Load load);
 
 private:
@@ -74,9 +76,11 @@ T shared_load(const std::string& path, const std::string& how, const std::functi
     const std::string key = how + '\0' + path;
     if (const auto kept = loads->find(key, *stamp)) return copy(*static_cast<const T*>(kept.get()));
     T value = read();
+    const std::size_t size = bytes(value);
+    if (!loads->fits(size)) return value;
     try {
         // A file that changed meanwhile has another stamp now, and is not found again.
-        loads->keep(key, {*stamp, std::make_shared<const T>(copy(value)), bytes(value)});
+        loads->keep(key, {*stamp, std::make_shared<const T>(copy(value)), size});
     } catch (const std::bad_alloc&) { // the next job reads it again
     }
     return value;

@@ -1,4 +1,5 @@
 // The tasks for farms: levels of jobs, each with a chunk of tasks.
+#include "bake/base/error.h"
 #include "bake/base/printable.h"
 #include "bake/batch/emit.h"
 #include "bake/batch/levels.h"
@@ -88,7 +89,22 @@ std::string job_name(const std::string& file) {
     return name.substr(0, end);
 }
 
+namespace {
+
+/// A template is UTF-8, and programs that run it replace what stands in double braces.
+void refuse_unwritable(const std::vector<BatchTask>& tasks) {
+    for (const BatchTask& task : tasks)
+        for (const std::string& word : task.words)
+            if (printable(word) != word || word.find("{{") != std::string::npos || word.find("}}") != std::string::npos)
+                throw Error(Refusal::unsuitable, printable(word) +
+                                                     ": has double braces, or characters that are no text, "
+                                                     "which an OpenJD template cannot have; rename it");
+}
+
+} // namespace
+
 std::string emitted_openjd(const std::vector<BatchTask>& tasks, const EmitOptions& options) {
+    refuse_unwritable(tasks);
     Json steps = Json::array();
     const auto levels = levels_of(tasks);
     for (std::size_t level = 0; level < levels.size(); ++level) {

@@ -1,6 +1,7 @@
 // The tasks as a build.ninja.
 #include "bake/base/content_hash.h"
 #include "bake/base/error.h"
+#include "bake/base/printable.h"
 #include "bake/batch/emit.h"
 #include "bake/batch/levels.h"
 #include "bake/batch/pattern.h"
@@ -17,6 +18,10 @@ constexpr std::string_view tile_place = "<UDIM>";
 std::string escaped(const std::string& text, bool path) {
     std::string out;
     for (const char c : text) {
+        // Ninja knows no way to write these.
+        if (static_cast<unsigned char>(c) < ' ' || (path && c == '|'))
+            throw Error(Refusal::unsuitable, printable(text) + ": has a character that Ninja cannot read in names; "
+                                                               "rename the file, or run it by bake batch");
         if (c == '$' || (path && (c == ' ' || c == ':'))) out += '$';
         out += c;
     }
@@ -64,12 +69,19 @@ std::vector<std::string> tiles_of(std::string path) {
     return files.empty() ? std::vector{name} : files;
 }
 
-/// The files that an input of a task stands for. None for one that a task before writes under the same name: its own
-/// outputs are known by the needs of the task.
+/// The files that an input of a task stands for. None for one that a task before writes under the same name, or beside its
+/// outputs, as the pictures of an asset: it is known by the needs of the task.
 std::vector<std::string> files_of_input(const std::string& path, const BatchTask& task,
                                         const std::vector<BatchTask>& tasks) {
     std::error_code absent;
-    if (!has_place(path) || std::filesystem::exists(path, absent)) return {path};
+    if (std::filesystem::exists(path, absent)) return {path};
+    if (!has_place(path)) {
+        const auto writes_it = [&](const BatchTask& other) {
+            return std::find(other.outputs.begin(), other.outputs.end(), path) != other.outputs.end();
+        };
+        const bool known = task.needs.empty() || std::any_of(tasks.begin(), tasks.end(), writes_it);
+        return known ? std::vector{path} : std::vector<std::string>();
+    }
     const auto is_this = [plain = std::filesystem::path(path).lexically_normal()](const std::string& output) {
         return std::filesystem::path(output).lexically_normal() == plain;
     };

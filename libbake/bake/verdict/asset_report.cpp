@@ -16,6 +16,8 @@ const char* format_of(const std::string& path) { return asset_text(path) == Asse
 AssetReport inspect_asset(const std::string& path) {
     TextAssetContent content = read_text_asset(path);
     AssetReport report{path, content.materials, std::move(content.pictures), std::move(content.record), {}};
+    // Other programs have further ways to name files: places for tiles, prefixes, references.
+    if (report.record.empty()) return report;
     for (const std::string& picture : report.pictures)
         if (std::error_code none; !std::filesystem::exists(std::filesystem::path(path).parent_path() / picture, none))
             report.findings.warnings.push_back("the picture " + printable(picture) +

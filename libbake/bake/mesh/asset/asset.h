@@ -31,7 +31,9 @@ struct TextAssetWritten {
 /// .mtlx: a standard_surface for each material that the mesh shows.
 /// Of the materials are kept: base colour, metallic, roughness, emission, occlusion (.usda), their textures where these lie
 /// on the uvs of the maps, opacity, and whether both sides are seen (.usda). All else is named in the notes.
-/// Throws Error{Refusal::unwritable}. Throws Error{Refusal::usage} for a name with '@', at which USD ends file names.
+/// Throws Error{Refusal::unwritable}. Throws Error{Refusal::usage} for a name with '@', at which USD ends file names,
+/// or with control characters, and for a picture that would replace a file of other contents, unless the file that is replaced
+/// names it.
 /// Throws Error{Refusal::unsuitable} for values that are not finite, and for a .mtlx whose maps lie on uvs that are moved
 /// by KHR_texture_transform.
 TextAssetWritten write_text_asset(const std::string& path, const TextAsset& asset, const Facts& facts = {});

@@ -1,9 +1,13 @@
+#include "bake/base/content_hash.h"
 #include "bake/base/error.h"
+#include "bake/base/printable.h"
 #include "bake/mesh/asset/looks.h"
 #include "bake/mesh/gltf/container.h"
 #include "bake/mesh/mesh_corner.h"
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace bake {
 namespace {
@@ -38,6 +42,26 @@ void add_notes(const TextAsset& asset, bool usda, Looks& looks) {
         note("vertex colours are not kept");
 }
 
+/// Whether the file that is replaced, if there is one, names the picture. It is no input, and so is read by itself.
+bool names_picture(const std::string& path, const std::string& name) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    return text.find("@./" + name + "@") != std::string::npos || text.find('"' + name + '"') != std::string::npos;
+}
+
+/// The user chose the name of the file alone: a picture must not replace one that has nothing to do with it.
+void refuse_strangers(const std::string& path, const std::vector<LookFile>& files) {
+    for (const LookFile& file : files) {
+        const std::string target = (fs::path(path).parent_path() / file.name).string();
+        std::error_code ignored;
+        if (fs::exists(target, ignored) && file_hash(target) != content_hash(file.bytes.data(), file.bytes.size()) &&
+            !names_picture(path, file.name))
+            throw Error(Refusal::usage, target + ": is there already, and a picture of " +
+                                            fs::path(path).filename().string() +
+                                            " would replace it; choose another name or folder");
+    }
+}
+
 } // namespace
 
 TextAssetWritten write_text_asset(const std::string& path, const TextAsset& asset, const Facts& facts) {
@@ -45,10 +69,15 @@ TextAssetWritten write_text_asset(const std::string& path, const TextAsset& asse
     const fs::path name = fs::path(path).filename();
     if (usda && name.string().find('@') != std::string::npos)
         throw Error(Refusal::usage, path + ": USD ends the names of files at '@'; choose a name without it");
+    if (printable(name.string()) != name.string())
+        throw Error(Refusal::usage, printable(path) +
+                                        ": has characters that are no text, which the names of its pictures "
+                                        "would have too; choose another name");
     refuse_unless_finite(asset.mesh, path);
     Looks looks = looks_of(path, asset);
     if (!usda) refuse_moved_uvs(path, looks);
     add_notes(asset, usda, looks);
+    refuse_strangers(path, looks.files);
     OutputSet together;
     TextAssetWritten done;
     const auto write = [&done](const std::string& file, const auto& fill) {
