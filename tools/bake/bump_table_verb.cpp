@@ -65,12 +65,13 @@ int run(BumpTableArgs& args, const CommonArgs& common) {
     report.budget = error_budget(input);
     report.advice = better_filter(input, report.budget);
     report.loss = slope_loss(height, table.filter(), args.options.wrap_u, args.options.wrap_v);
-    note_errors(args, report, common);
-    if (report.advice) note(common, to_text(*report.advice));
     watch.lap("budget");
     report.extent = resolve_extent(args.options.extent_u, args.options.extent_v, table.width(), table.height());
     report.tilt_deg = step_tilt_deg(height.step, args.options.amplitude, report.extent.x, table.width());
     print_result(common, to_text(args, report), to_json(args, report), watch);
+    // Of a table that is there: Ctrl-C until now leaves none.
+    note_errors(args, report, common);
+    if (report.advice) note(common, to_text(*report.advice));
     return 0;
 }
 
